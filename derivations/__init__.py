@@ -1,0 +1,1 @@
+"""First principles in SymPy: every formula of the project is typed here, once."""

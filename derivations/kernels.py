@@ -1,0 +1,178 @@
+"""The kernels: which expressions become C functions, with their arguments and outputs.
+
+One kernel is one C function in one file of the same name.  Arguments are the symbols that the
+expressions contain, sorted by name, so that nothing is listed twice.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+
+import sympy as sp
+
+from derivations import amplitude, beam, contact, determinant, phases, section
+from derivations.nomenclature import sym
+
+__all__ = ["KERNELS", "Kernel", "kernels"]
+
+
+@dataclass(frozen=True)
+class Kernel:
+    """Expressions that are evaluated together.
+
+    Attributes
+    ----------
+    name : str
+        Of the C function and its file.
+    title : str
+        What it computes, with the paper's equation numbers.
+    outputs : mapping of str to sympy.Expr
+        Named results, in order.
+    units : mapping of str to str
+        Their SI units.
+    inconsistent : tuple of str
+        Outputs that the paper prints with inconsistent dimensions, kept to show what they give.
+    """
+
+    name: str
+    title: str
+    outputs: Mapping[str, sp.Expr]
+    units: Mapping[str, str]
+    inconsistent: tuple[str, ...] = ()
+
+    @property
+    def inputs(self) -> tuple[sp.Symbol, ...]:
+        """The free symbols, sorted by name; one newton is a constant, not an argument."""
+        found = set().union(*(sp.sympify(expr).free_symbols for expr in self.outputs.values()))
+        return tuple(sorted(found - set(sym("N_1")), key=lambda symbol: symbol.name))
+
+
+def _section() -> list[Kernel]:
+    units = {"E": "Pa", "rho": "kg/m^3", "I_z": "m^4", "G": "Pa", "A": "m^2", "E_eq": "Pa"}
+    return [
+        Kernel("trum_neutral_axis", "Neutral axis (eq. 1)", {"D": section.neutral_axis()}, {"D": "m"}),
+        Kernel("trum_section", "Composite section (eq. 2)", section.section(), units),
+        Kernel("trum_wavenumber", "Wavenumber (below eq. 4)", {"k_c": contact.wavenumber()}, {"k_c": "1/m"}),
+    ]
+
+
+def _resonance() -> list[Kernel]:
+    levels = beam.resonance()
+    omega_n = sym("omega_n")[0]
+    beta = beam.rotation_ratio().subs(omega_n, levels["quartic"])
+    return [
+        Kernel(
+            "trum_resonance",
+            "Resonance at every level (eqs. 3 to 6) and the mode's rotation ratio",
+            {**levels, "beta": beta},
+            {**dict.fromkeys(levels, "rad/s"), "beta": "1/m"},
+            inconsistent=("printed",),
+        )
+    ]
+
+
+def _amplitude() -> list[Kernel]:
+    forced = amplitude.under_prepressure(amplitude.forced())
+    return [
+        Kernel("trum_amplitude_measured", "Measured amplitude (eq. 8)", {"W": amplitude.measured()}, {"W": "m"}),
+        Kernel("trum_amplitude_forced", "Forced amplitude (eqs. 7, 8)", {"W": forced}, {"W": "m"}),
+    ]
+
+
+def _contact() -> list[Kernel]:
+    residual, slope = contact.winkler_balance()
+    theta = contact.hertz_half_angle()
+    units = {"harmonic": "N/m^2", "smeared": "N/m^2", "printed": "N/m"}
+    return [
+        Kernel("trum_layer_stiffness", "Layer stiffness (eq. 30)", {"k_N": contact.layer_stiffness()}, {"k_N": "N/m^2"}),
+        Kernel(
+            "trum_winkler_balance",
+            "Load balance of the Winkler layer and its slope (eq. 31)",
+            {"residual": residual, "slope": slope},
+            {"residual": "1", "slope": "1"},
+        ),
+        Kernel("trum_hertz_half_angle", "Hertz half-angle (eqs. 25, 26)", {"theta": theta}, {"theta": "rad"}),
+        Kernel("trum_foundation", "Foundation stiffness by level", contact.foundation(), units),
+    ]
+
+
+def _cycle() -> list[Kernel]:
+    free_units = {"a": "m", "b": "m/s"}
+    periodic = {p: phases.periodic_start(p) for p in phases.PHASES}
+    rest = {p: phases.rest_start(p) for p in phases.PHASES}
+    region_free: dict[str, sp.Expr] = {}
+    before = {p: sym(f"a_{p} b_{p}") for p in phases.PHASES}
+    states = {p: phases.propagate_cycle(p, before[p]) for p in phases.PHASES}
+    for index, region in enumerate((*phases.REGIONS, "end")):
+        for p in phases.PHASES:
+            region_free[f"a_{p}_{region}"], region_free[f"b_{p}_{region}"] = states[p][index]
+
+    durations = {f"time_{r}": time for r, time in zip(phases.REGIONS, phases.region_times(), strict=True)}
+
+    def start(state: Mapping[str, phases.State]) -> tuple[dict[str, sp.Expr], dict[str, str]]:
+        outputs = {f"{letter}_{p}": value for p in phases.PHASES for letter, value in zip("ab", state[p], strict=True)}
+        return outputs, {name: free_units[name[0]] for name in outputs}
+
+    w_A, v_A, acceleration_A = phases.response("A")
+    w_B, v_B, acceleration_B = phases.response("B")
+    periodic_outputs, start_units = start(periodic)
+    rest_outputs, _ = start(rest)
+    return [
+        Kernel(
+            "trum_drive",
+            "Drive frequency and cycle time",
+            {"omega_q": phases.drive_frequency(), "T": phases.cycle_time()},
+            {"omega_q": "rad/s", "T": "s"},
+        ),
+        Kernel(
+            "trum_start_periodic",
+            "Free motion before t1 that repeats itself every cycle, and how firmly the cycle fixes it",
+            {**periodic_outputs, "repetition": phases.repetition()},
+            {**start_units, "repetition": "1"},
+        ),
+        Kernel("trum_start_rest", "Free motion before t1 of phases at rest", rest_outputs, start_units),
+        Kernel(
+            "trum_regions",
+            "Duration of each region; free motion at its start and at the cycle's end (eqs. 9, 10)",
+            {**durations, **region_free},
+            {**dict.fromkeys(durations, "s"), **{name: free_units[name[0]] for name in region_free}},
+        ),
+        Kernel(
+            "trum_response",
+            "Both phases within a region (eqs. 9, 10), determinant and its rate (eqs. 24, A5)",
+            {
+                "w_A": w_A,
+                "w_B": w_B,
+                "v_A": v_A,
+                "v_B": v_B,
+                "Q": determinant.phase_determinant(w_A, v_A, w_B, v_B),
+                "Q_rate": determinant.determinant_rate(w_A, acceleration_A, w_B, acceleration_B),
+            },
+            {"w_A": "m", "w_B": "m", "v_A": "m/s", "v_B": "m/s", "Q": "m^2/s", "Q_rate": "m^2/s^2"},
+        ),
+        _measures(),
+    ]
+
+
+def _measures() -> Kernel:
+    q_ratio, q_square_ratio = determinant.ratios()
+    q_average, q_volatility = determinant.measures()
+    return Kernel(
+        "trum_measures",
+        "Speed determinants Q_aver, Q_vib (eqs. 43, 44) and their ratios X, Y",
+        {
+            "q_ratio": q_ratio,
+            "q_square_ratio": q_square_ratio,
+            "q_average": q_average,
+            "q_volatility": q_volatility,
+        },
+        {"q_ratio": "1", "q_square_ratio": "1", "q_average": "1/s", "q_volatility": "1/s"},
+    )
+
+
+@cache
+def kernels() -> tuple[Kernel, ...]:
+    """All kernels, in the order of the manifest."""
+    return tuple(_section() + _resonance() + _amplitude() + _contact() + _cycle())

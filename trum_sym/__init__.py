@@ -1,0 +1,54 @@
+"""Travelling-wave rotary ultrasonic motors driven at very low speed.
+
+>>> import trum_sym as ts
+>>> motor = ts.load_motor("trum60")
+>>> point = ts.evaluate(motor, ts.Drive(prepressure=180.0, frequency_difference=3000.0))
+
+Names are loaded on first use, so that the derivations, which share motor files and units with this
+package, need no compiled kernels, and ``trum-sym --help`` does not wait for NumPy.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from trum_sym.drive import Drive
+    from trum_sym.errors import ConvergenceError, ParameterError, ValidityWarning
+    from trum_sym.motor import Motor, Parameter, load_motor
+    from trum_sym.operating_point import OperatingPoint, evaluate
+
+__all__ = [
+    "ConvergenceError",
+    "Drive",
+    "Motor",
+    "OperatingPoint",
+    "Parameter",
+    "ParameterError",
+    "ValidityWarning",
+    "evaluate",
+    "load_motor",
+]
+
+_HOME = {
+    "ConvergenceError": "errors",
+    "Drive": "drive",
+    "Motor": "motor",
+    "OperatingPoint": "operating_point",
+    "Parameter": "motor",
+    "ParameterError": "errors",
+    "ValidityWarning": "errors",
+    "evaluate": "operating_point",
+    "load_motor": "motor",
+}
+
+
+def __getattr__(name: str) -> object:
+    if name not in _HOME:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    return __all__

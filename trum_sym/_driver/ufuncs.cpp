@@ -1,0 +1,122 @@
+// The Python face of the generated kernels and of the cycle driver: NumPy ufuncs, which broadcast,
+// take strides and release the GIL by themselves.
+#include <Python.h>
+
+#include <array>
+#include <cstddef>
+
+#include <numpy/arrayobject.h>
+#include <numpy/ufuncobject.h>
+
+#include "cycle.hpp"
+
+namespace {
+
+using Kernel = int (*)(const double**, double**, long long int*, double*, int);
+
+template <Kernel kernel, int n_in, int n_out>
+void kernel_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
+  const double* arg[n_in];
+  double* res[n_out];
+  for (npy_intp i = 0; i < dimensions[0]; ++i) {
+    for (int j = 0; j < n_in; ++j) arg[j] = reinterpret_cast<const double*>(args[j] + i * steps[j]);
+    for (int j = 0; j < n_out; ++j) res[j] = reinterpret_cast<double*>(args[n_in + j] + i * steps[n_in + j]);
+    kernel(arg, res, nullptr, nullptr, 0);
+  }
+}
+
+template <int n>
+std::array<double, n> gather(char** args, const npy_intp* steps, npy_intp i) {
+  std::array<double, n> values;
+  for (int j = 0; j < n; ++j) values[j] = *reinterpret_cast<const double*>(args[j] + i * steps[j]);
+  return values;
+}
+
+template <std::size_t n>
+void scatter(const std::array<double, n>& values, char** args, const npy_intp* steps, npy_intp i) {
+  for (std::size_t j = 0; j < n; ++j) *reinterpret_cast<double*>(args[j] + i * steps[j]) = values[j];
+}
+
+constexpr char half_angle_in[] = "F_c k_N W k_c n_j";
+constexpr char half_angle_out[] = "theta";
+void half_angle_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
+  for (npy_intp i = 0; i < dimensions[0]; ++i) {
+    const auto v = gather<5>(args, steps, i);
+    scatter<1>({trum::contact_half_angle(v[0], v[1], v[2], v[3], v[4])}, args + 5, steps + 5, i);
+  }
+}
+
+constexpr char cycle_sums_in[] = "omega_n Delta_omega xi psi s m n a_A b_A a_B b_B panels";
+constexpr char cycle_sums_out[] = "q_plus q_minus p_plus p_minus";
+void cycle_sums_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
+  for (npy_intp i = 0; i < dimensions[0]; ++i) {
+    const auto v = gather<12>(args, steps, i);
+    trum::Cycle cycle(v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8], v[9], v[10], 1.0, 1.0, 1.0);
+    const trum::Sums sums = trum::SignedQuadrature(cycle, v[11]).run();
+    scatter<4>({sums.q_plus, sums.q_minus, sums.p_plus, sums.p_minus}, args + 12, steps + 12, i);
+  }
+}
+
+constexpr char cycle_response_in[] = "t omega_n Delta_omega xi psi s m n a_A b_A a_B b_B W D k_c";
+constexpr char cycle_response_out[] = "w_A w_B v_A v_B Q";
+void cycle_response_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
+  for (npy_intp i = 0; i < dimensions[0]; ++i) {
+    const auto v = gather<15>(args, steps, i);
+    trum::Cycle cycle(v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8], v[9], v[10], v[11], v[12], v[13], v[14]);
+    double tau = v[0];
+    int region = 0;
+    while (region < TRUM_REGIONS - 1 && tau >= cycle.duration[region]) tau -= cycle.duration[region++];
+    cycle.enter(region);
+    cycle.at(tau);
+    scatter<5>({cycle.w_A, cycle.w_B, cycle.v_A, cycle.v_B, cycle.Q}, args + 15, steps + 15, i);
+  }
+}
+
+constexpr int max_args = 40;
+char types[max_args];
+void* no_data[1] = {nullptr};
+
+bool add(PyObject* module, PyObject* signatures, const char* name, PyUFuncGenericFunction* loop, int n_in, int n_out,
+         const char* inputs, const char* outputs) {
+  PyObject* ufunc = PyUFunc_FromFuncAndData(loop, no_data, types, 1, n_in, n_out, PyUFunc_None, name, outputs, 0);
+  if (ufunc == nullptr || PyModule_AddObject(module, name, ufunc) < 0) {
+    Py_XDECREF(ufunc);
+    return false;
+  }
+  PyObject* pair = Py_BuildValue("(ss)", inputs, outputs);
+  const bool stored = pair != nullptr && PyDict_SetItemString(signatures, name, pair) == 0;
+  Py_XDECREF(pair);
+  return stored;
+}
+
+#define LOOP(name, n_in, n_out, inputs, outputs) \
+  PyUFuncGenericFunction loop_##name[1] = {kernel_loop<name, n_in, n_out>};
+TRUM_KERNELS(LOOP)
+#undef LOOP
+PyUFuncGenericFunction loop_half_angle[1] = {half_angle_loop};
+PyUFuncGenericFunction loop_cycle_sums[1] = {cycle_sums_loop};
+PyUFuncGenericFunction loop_cycle_response[1] = {cycle_response_loop};
+
+PyModuleDef definition = {PyModuleDef_HEAD_INIT, "_kernels", "Compiled kernels as NumPy ufuncs.", -1,
+                          nullptr, nullptr, nullptr, nullptr, nullptr};
+
+}  // namespace
+
+PyMODINIT_FUNC PyInit__kernels() {
+  import_array();
+  import_umath();
+  for (char& type : types) type = NPY_DOUBLE;
+  PyObject* module = PyModule_Create(&definition);
+  PyObject* signatures = PyDict_New();
+  if (module == nullptr || signatures == nullptr) return nullptr;
+#define ADD(name, n_in, n_out, inputs, outputs) \
+  if (!add(module, signatures, #name, loop_##name, n_in, n_out, inputs, outputs)) return nullptr;
+  TRUM_KERNELS(ADD)
+#undef ADD
+  if (!add(module, signatures, "contact_half_angle", loop_half_angle, 5, 1, half_angle_in, half_angle_out)) return nullptr;
+  if (!add(module, signatures, "cycle_sums", loop_cycle_sums, 12, 4, cycle_sums_in, cycle_sums_out)) return nullptr;
+  if (!add(module, signatures, "cycle_response", loop_cycle_response, 15, 5, cycle_response_in, cycle_response_out))
+    return nullptr;
+  if (PyModule_AddObject(module, "signatures", signatures) < 0) return nullptr;
+  return module;
+}

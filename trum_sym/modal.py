@@ -1,0 +1,77 @@
+"""Modal responses of the two phases over a drive cycle, and what the determinant sums to (Sects. 3, 6)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from trum_sym.drive import Drive
+from trum_sym.errors import ParameterError
+from trum_sym.kernels import call
+from trum_sym.validate import ArrayLike
+
+__all__ = ["cycle_sums", "modal_values", "response"]
+
+_MIN_REPETITION = 1e-9
+PANELS_PER_PERIOD = 4
+
+
+def modal_values(omega_n: ArrayLike, damping_ratio: ArrayLike, drive: Drive, amplitude: ArrayLike = 1.0) -> dict[str, ArrayLike]:
+    """The kernels' arguments for a drive cycle, with the free motion before t1 that ``drive.start`` asks for.
+
+    Raises
+    ------
+    ParameterError
+        For an undamped resonant drive, or a periodic start that the cycle does not fix.
+    """
+    undamped = (np.asarray(damping_ratio) == 0) & (np.asarray(drive.frequency_difference) == 0)
+    if undamped.any():
+        raise ParameterError(
+            "damping_ratio", 0, "a number > 0 when frequency_difference is 0 Hz: undamped resonance has no steady state"
+        )
+    values: dict[str, ArrayLike] = {
+        "omega_n": omega_n,
+        "Delta_omega": 2 * np.pi * np.asarray(drive.frequency_difference),
+        "xi": damping_ratio,
+        "psi": drive.switching_phase,
+        "s": drive.phase_lead,
+        "m": drive.periods,
+        "n": drive.on_periods,
+        "W": amplitude,
+    }
+    if drive.start == "steady":
+        return {**values, "a_A": 0.0, "b_A": 0.0, "a_B": 0.0, "b_B": 0.0}
+    if drive.start == "rest":
+        return {**values, **call("trum_start_rest", values)}
+    start = call("trum_start_periodic", values)
+    if np.any(np.asarray(start.pop("repetition")) < _MIN_REPETITION):
+        raise ParameterError(
+            "start",
+            "periodic, but the free vibration comes back undamped and in phase every cycle",
+            "more damping, another frequency_difference or periods, or start = steady or rest",
+        )
+    return {**values, **start}
+
+
+def response(time: ArrayLike, values: dict[str, ArrayLike], D: ArrayLike = 1.0, k_c: ArrayLike = 1.0) -> dict[str, ArrayLike]:
+    """w_A, w_B (m), v_A, v_B (m/s) and the determinant Q (m^2/s) at times within one cycle (eqs. 9, 10, A5).
+
+    Parameters
+    ----------
+    time : float or array, s
+        Since t1, from 0 to the cycle time; broadcasts with the values.
+    values : dict
+        From :func:`modal_values`.
+    D, k_c : float or array
+        Neutral axis (m) and wavenumber (1/m), which scale Q.
+    """
+    return call("cycle_response", {**values, "t": time, "D": D, "k_c": k_c})
+
+
+def cycle_sums(values: dict[str, ArrayLike], panels_per_period: float = PANELS_PER_PERIOD) -> dict[str, ArrayLike]:
+    """Speed determinants of a cycle: q_ratio, q_square_ratio, q_average, q_volatility (eqs. 43, 44).
+
+    The sums are integrals over time, by 12-point Gauss-Legendre quadrature cut at every sign change of Q;
+    ``panels_per_period`` panels cover a period of the faster of drive and resonance.
+    """
+    sums = call("cycle_sums", {**values, "panels": panels_per_period})
+    return call("trum_measures", {**sums, **call("trum_drive", values)})

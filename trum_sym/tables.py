@@ -1,0 +1,89 @@
+"""An operating point for people (a table beside the published figures) and for programs (JSON)."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from trum_sym.drive import Drive
+from trum_sym.motor import Motor, Published
+from trum_sym.operating_point import OperatingPoint
+from trum_sym.units import parse_unit
+
+__all__ = ["as_json_text", "as_table"]
+
+# field, label, unit it has, unit shown
+_ROWS = (
+    ("resonance_frequency", "resonance frequency f_n", "Hz", "Hz"),
+    ("drive_frequency", "drive frequency f_q", "Hz", "Hz"),
+    ("cycle_time", "cycle time T_Qall", "s", "ms"),
+    ("amplitude", "amplitude of a phase W_maxf", "m", "µm"),
+    ("neutral_axis", "neutral axis D", "m", "mm"),
+    ("wavenumber", "wavenumber k_c", "1/m", "1/m"),
+    ("q_ratio", "forward over backward X", "1", "1"),
+    ("q_square_ratio", "the same of squares Y", "1", "1"),
+    ("q_average", "speed determinant Q_aver", "1/s", "1/s"),
+    ("q_volatility", "volatility determinant Q_vib", "1/s", "1/s"),
+    ("mean_speed", "mean speed v_s", "rad/s", "arcsec/s"),
+    ("min_speed", "lowest speed", "rad/s", "arcsec/s"),
+    ("max_speed", "highest speed", "rad/s", "arcsec/s"),
+    ("speed_volatility", "speed volatility sigma_s", "1", "%"),
+    ("stall_torque", "stall torque", "N*m", "N*m"),
+    ("contact_fraction", "contact fraction", "1", "1"),
+)
+
+
+def as_json_text(point: OperatingPoint) -> str:
+    """The point as a JSON object; null where a figure has no meaning or is infinite."""
+    figures = {
+        name: None if isinstance(value, float) and not math.isfinite(value) else value
+        for name, value in point.as_dict().items()
+    }
+    return json.dumps(figures, indent=1, allow_nan=False)
+
+
+def _published(motor: Motor, drive: Drive) -> dict[str, Published]:
+    """What is published for this very drive, by figure."""
+    settings = drive.numbers()
+    return {
+        entry.output: entry
+        for entry in motor.published
+        if all(bool(np.isclose(settings[name], value, rtol=1e-9)) for name, value in entry.drive.items())
+    }
+
+
+def _convert(value: float, unit: str, shown: str) -> float:
+    return parse_unit(unit).to_si(value) / parse_unit(shown).to_si(1.0)
+
+
+def as_table(motor: Motor, drive: Drive, point: OperatingPoint, levels: Mapping[str, object]) -> str:
+    """The point as a table: our value, the published one where there is one, the difference, the unit."""
+    from tabulate import tabulate
+
+    published = _published(motor, drive)
+    rows = []
+    for name, label, unit, shown in _ROWS:
+        value, entry = getattr(point, name), published.get(name)
+        ours = "not computed" if value is None else f"{_convert(value, unit, shown):.6g}"
+        paper = difference = source = ""
+        if entry is not None:
+            theirs = _convert(entry.value, entry.unit, shown)
+            paper, source = f"{theirs:.6g}", entry.source
+            if value is not None:
+                difference = f"{100 * (_convert(value, unit, shown) / theirs - 1):+.2f} %"
+        rows.append((label, ours, "" if shown == "1" else shown, paper, difference, source))
+    table = tabulate(
+        rows, headers=("", "ours", "unit", "paper", "difference", "printed in"), disable_numparse=True,
+        colalign=("left", "right", "left", "right", "right", "left"),
+    )  # fmt: skip
+    title = (
+        f"{motor.name} at {drive.prepressure:g} N, {drive.frequency_difference:+g} Hz, {drive.on_periods:g} of "
+        f"{drive.periods:g} periods on, load {drive.load_torque:g} N m\n"
+        f"start {point.start}, phase lead {drive.phase_lead:+g}, switching phase {drive.switching_phase:g} rad\n"
+        + ", ".join(f"{name} {level}" for name, level in levels.items() if level is not None)
+    )
+    note = "not computed: needs the contact, transfer and rotor model, which this version does not have"
+    return "\n".join([title, "", table, *(["", note] if point.mean_speed is None else [])])
