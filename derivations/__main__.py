@@ -24,7 +24,9 @@ def _generate(check: bool) -> int:
         print(f"{GENERATED.name}/ is what the derivations give ({len(files)} files)")
         return 0
     print(difference, end="")
-    print(f"\n{GENERATED.name}/ is stale: run `python -m derivations generate`, read the diff, commit it", file=sys.stderr)
+    print(
+        f"\n{GENERATED.name}/ is stale: run `python -m derivations generate`, read the diff, commit it", file=sys.stderr
+    )
     return 1
 
 
@@ -33,7 +35,9 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m derivations", description=__doc__)
     commands = parser.add_subparsers(dest="command", required=True)
     generate = commands.add_parser("generate", help="write generated/ from the derivations")
-    generate.add_argument("--check", action="store_true", help="change nothing; exit 1 with a diff if anything is stale")
+    generate.add_argument(
+        "--check", action="store_true", help="change nothing; exit 1 with a diff if anything is stale"
+    )
     options = parser.parse_args(arguments)
     return _generate(options.check)
 

@@ -45,9 +45,7 @@ def forced() -> sp.Expr:
     bending = beta * k_c * sp.cos(k_c * x)
     crest, trough = (x, -wavelength / 4, wavelength / 4), (x, wavelength / 4, 3 * wavelength / 4)
     force = piezo_moment() * (sp.integrate(bending, crest) - sp.integrate(bending, trough))
-    mass = sp.integrate(
-        rho * A * sp.cos(k_c * x) ** 2 + rho * I_z * (beta * sp.sin(k_c * x)) ** 2, (x, 0, wavelength)
-    )
+    mass = sp.integrate(rho * A * sp.cos(k_c * x) ** 2 + rho * I_z * (beta * sp.sin(k_c * x)) ** 2, (x, 0, wavelength))
     ratio = omega_q / omega_n
     resonator = sp.sqrt((1 - ratio**2) ** 2 + (2 * xi * ratio) ** 2)
     return sp.factor(sp.simplify(force / mass)) / omega_n**2 / resonator

@@ -49,7 +49,7 @@ def winkler_balance() -> tuple[sp.Expr, sp.Expr]:
 
 @cache
 def hertz_half_angle() -> sp.Expr:
-    """theta = k_c x_m of the paper's Hertz contact (eqs. 25, 26), not yet limited to pi."""
+    """Theta = k_c x_m of the paper's Hertz contact (eqs. 25, 26), not yet limited to pi."""
     curvature = 2 * r_t**2 / (n_j**2 * W)
     compliance = (1 - mu_e**2) / E_eq + (1 - mu_m**2) / E_m
     width = sp.Rational(8, 5) * sp.sqrt(F_c * curvature * compliance / (n_j * b_m))

@@ -111,7 +111,12 @@ def _header() -> str:
         lines.append(f"enum {{ {', '.join(f'{kernel.name}_out_{name}' for name in outputs)}, {kernel.name}_n_res }};")
         lines.append("")
         rows.append(f'  X({kernel.name}, {len(inputs)}, {len(outputs)}, "{" ".join(inputs)}", "{" ".join(outputs)}")')
-    lines += ["/* name, number of inputs and outputs, their names */", "#define TRUM_KERNELS(X) \\", " \\\n".join(rows), ""]
+    lines += [
+        "/* name, number of inputs and outputs, their names */",
+        "#define TRUM_KERNELS(X) \\",
+        " \\\n".join(rows),
+        "",
+    ]
     lines.append("/* gates of the phases in the regions of a cycle */")
     lines.append(f"#define TRUM_REGIONS {len(REGIONS)}")
     lines += [f"#define TRUM_GATES_{p} {{{', '.join(str(gate) for gate in GATES[p])}}}" for p in PHASES]
@@ -168,7 +173,7 @@ def render() -> dict[str, str]:
         )
     files["trum_kernels.h"] = _header()
     files["trum_quadrature.h"] = _quadrature()
-    versions = {"casadi": ca.__version__, "sympy": sp.__version__}
+    versions = {"casadi": ca.CasadiMeta.version(), "sympy": sp.__version__}
     files["manifest.json"] = json.dumps({"generator": versions, "kernels": manifest}, indent=1) + "\n"
     return dict(sorted(files.items()))
 

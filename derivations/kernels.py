@@ -15,7 +15,7 @@ import sympy as sp
 from derivations import amplitude, beam, contact, determinant, phases, section
 from derivations.nomenclature import sym
 
-__all__ = ["KERNELS", "Kernel", "kernels"]
+__all__ = ["Kernel", "kernels"]
 
 
 @dataclass(frozen=True)
@@ -86,7 +86,9 @@ def _contact() -> list[Kernel]:
     theta = contact.hertz_half_angle()
     units = {"harmonic": "N/m^2", "smeared": "N/m^2", "printed": "N/m"}
     return [
-        Kernel("trum_layer_stiffness", "Layer stiffness (eq. 30)", {"k_N": contact.layer_stiffness()}, {"k_N": "N/m^2"}),
+        Kernel(
+            "trum_layer_stiffness", "Layer stiffness (eq. 30)", {"k_N": contact.layer_stiffness()}, {"k_N": "N/m^2"}
+        ),
         Kernel(
             "trum_winkler_balance",
             "Load balance of the Winkler layer and its slope (eq. 31)",

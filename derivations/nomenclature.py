@@ -70,19 +70,22 @@ p_minus     | 1/s      | + | integral of the square of the negative part
 """
 
 
+def _symbol(name: str, positive: bool) -> sp.Symbol:
+    return sp.Symbol(name, positive=True) if positive else sp.Symbol(name, real=True)
+
+
 def _entries() -> dict[str, Entry]:
     table: dict[str, Entry] = {}
     for field in fields(Motor):
         spec = field.metadata.get("spec")
         if spec is not None:
-            kind = {"positive": True} if spec.domain.low >= 0 else {"real": True}
-            table[spec.symbol] = Entry(sp.Symbol(spec.symbol, **kind), spec.unit, field.name.replace("_", " "))
+            symbol = _symbol(spec.symbol, positive=spec.domain.low >= 0)
+            table[spec.symbol] = Entry(symbol, spec.unit, field.name.replace("_", " "))
     for line in _REST.strip().splitlines():
         name, unit, kind, meaning = (part.strip() for part in line.split("|"))
         if name in table:
             raise ValueError(f"symbol {name} is defined twice")
-        assumption = {"positive": True} if kind == "+" else {"real": True}
-        table[name] = Entry(sp.Symbol(name, **assumption), unit, meaning)
+        table[name] = Entry(_symbol(name, positive=kind == "+"), unit, meaning)
     return table
 
 

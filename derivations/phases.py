@@ -32,8 +32,8 @@ __all__ = [
     "propagate_cycle",
     "region_times",
     "repetition",
-    "rest_start",
     "response",
+    "rest_start",
     "steady",
 ]
 
@@ -124,7 +124,8 @@ def propagate_cycle(phase: str, before: State) -> tuple[State, State, State, Sta
 
     Parameters
     ----------
-    phase : {"A", "B"}
+    phase : str
+        ``"A"`` or ``"B"``.
     before : (displacement, velocity)
         Free motion just before t1, while the phase is still on.
     """

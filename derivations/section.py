@@ -1,6 +1,7 @@
 """Composite section of the unrolled stator ring (eqs. 1 and 2), by integration over the height.
 
-z runs from the tooth surface down (in eq. 2 from the neutral axis); metal fills 0..h_e, piezoelectric ceramic h_e..h_e + h_p.
+z runs from the tooth surface down, in eq. 2 from the neutral axis; metal fills the first h_e, piezoelectric
+ceramic the next h_p.
 Grooves soften the metal: only the height below the teeth carries bending stress, which scales its
 second moment, and so its modulus, by (1 - h_t/h_e)^3; mass and shear area lose the grooves' volume.
 """

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import reduce
 from operator import add, mul
+from typing import TypeAlias
 
 import casadi as ca
 import sympy as sp
 
 __all__ = ["to_casadi"]
 
-_ELEMENTARY = {
+Walk: TypeAlias = Callable[[sp.Basic], ca.SX]
+
+_ELEMENTARY: dict[type, Callable[..., ca.SX]] = {
     sp.sin: ca.sin,
     sp.cos: ca.cos,
     sp.exp: ca.exp,
@@ -59,31 +62,31 @@ def _translate(expr: sp.Expr, symbols: Mapping[sp.Symbol, ca.SX], memo: dict[sp.
     if isinstance(expr, sp.Pow):
         return _power(walk(expr.base), expr.exp, walk)
     if type(expr) in _ELEMENTARY:
-        return _ELEMENTARY[type(expr)](*(walk(argument) for argument in expr.args))
+        return ca.SX(_ELEMENTARY[type(expr)](*(walk(argument) for argument in expr.args)))
     if expr.is_Function and expr.func.__name__ == "expm1":
         return ca.expm1(walk(expr.args[0]))
     raise NotImplementedError(f"no C operation for {type(expr).__name__} in {expr}")
 
 
-def _signed_sum(expr: sp.Add, walk: object) -> ca.SX:
+def _signed_sum(expr: sp.Add, walk: Walk) -> ca.SX:
     """A sum with its positive terms first, so that negative ones become subtractions."""
     terms = list(sp.ordered(expr.args))
     plus = [term for term in terms if not term.could_extract_minus_sign()]
     minus = [-term for term in terms if term.could_extract_minus_sign()]
     if not plus:
-        return -reduce(add, (walk(term) for term in minus))  # type: ignore[operator]
-    total = reduce(add, (walk(term) for term in plus))  # type: ignore[operator]
+        return -reduce(add, (walk(term) for term in minus))
+    total = reduce(add, (walk(term) for term in plus))
     for term in minus:
-        total = total - walk(term)  # type: ignore[operator]
+        total = total - walk(term)
     return total
 
 
-def _power(base: ca.SX, exponent: sp.Expr, walk: object) -> ca.SX:
+def _power(base: ca.SX, exponent: sp.Expr, walk: Walk) -> ca.SX:
     if exponent.is_Integer:
-        return base**int(exponent) if exponent > 0 else 1 / base ** int(-exponent)
+        return base ** int(exponent) if exponent > 0 else 1 / base ** int(-exponent)
     if exponent.is_Rational and exponent.q == 2:
         root = ca.sqrt(base)
         whole = abs(int(exponent.p)) // 2
         value = root if whole == 0 else base**whole * root
         return value if exponent > 0 else 1 / value
-    return ca.power(base, walk(exponent))  # type: ignore[operator]
+    return ca.power(base, walk(exponent))

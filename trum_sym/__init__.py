@@ -16,7 +16,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from trum_sym.drive import Drive
     from trum_sym.errors import ConvergenceError, ParameterError, ValidityWarning
-    from trum_sym.motor import Motor, Parameter, load_motor
+    from trum_sym.motor import Motor, Parameter
+    from trum_sym.motor_file import load_motor
     from trum_sym.operating_point import OperatingPoint, evaluate
 
 __all__ = [
@@ -40,7 +41,7 @@ _HOME = {
     "ParameterError": "errors",
     "ValidityWarning": "errors",
     "evaluate": "operating_point",
-    "load_motor": "motor",
+    "load_motor": "motor_file",
 }
 
 

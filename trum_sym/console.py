@@ -17,7 +17,7 @@ __all__ = ["main"]
 _STARTS = ("periodic", "steady", "rest")
 
 
-class _Quantity(click.ParamType):
+class _Quantity(click.ParamType):  # type: ignore[type-arg, unused-ignore]
     """A number, bare in its SI unit or with a unit that converts to it."""
 
     def __init__(self, unit: str) -> None:
@@ -42,7 +42,8 @@ def _choice(name: str, words: tuple[str, ...], text: str) -> Callable[..., Any]:
 
 
 _POINT_OPTIONS = (
-    click.option("--motor", default="trum60", show_default=True, metavar="NAME|FILE", help="Motor: trum60 or a TOML file."),
+    click.option("--motor", default="trum60", show_default=True, metavar="NAME|FILE",
+                 help="Motor: trum60 or a TOML file."),
     click.option("--set", "overrides", multiple=True, metavar="NAME=VALUE",
                  help="Replace a value of the motor file, in its SI unit or with one: --set contact_radius='26 mm'."),
     _option("--prepressure", "N", 180.0, "Prepressure F_c.", "N"),
@@ -70,7 +71,7 @@ def _point_options(command: Callable[..., Any]) -> Callable[..., Any]:
 
 def _motor(name: str, overrides: tuple[str, ...]) -> Motor:
     from trum_sym.errors import ParameterError
-    from trum_sym.motor import load_motor
+    from trum_sym.motor_file import load_motor
 
     values: dict[str, str] = {}
     for override in overrides:

@@ -10,15 +10,15 @@ import numpy as np
 from trum_sym.errors import ParameterError
 from trum_sym.validate import ArrayLike, Domain, broadcast_shape, number
 
-__all__ = ["STARTS", "Drive", "Start", "choice"]
+__all__ = ["DRIVE_DOMAINS", "STARTS", "Drive", "Start", "choice"]
 
 Start = Literal["periodic", "steady", "rest"]
 STARTS: tuple[Start, ...] = ("periodic", "steady", "rest")
 
-_PULSES = Domain(low=1, low_open=False, high=1_000_000, high_open=False, integer=True)
-_DOMAINS = {
+_PULSES = Domain(low=1, low_open=False, high=100_000, high_open=False, integer=True)
+DRIVE_DOMAINS = {
     "prepressure": (Domain(low=0.0, high=1e6), "N"),
-    "frequency_difference": (Domain(), "Hz"),
+    "frequency_difference": (Domain(low=-1e9, high=1e9), "Hz"),
     "periods": (_PULSES, "1"),
     "on_periods": (_PULSES, "1"),
     "load_torque": (Domain(), "N*m"),
@@ -79,9 +79,9 @@ class Drive:
 
     def __post_init__(self) -> None:
         """Checks and stores every number as float64."""
-        for name, (domain, unit) in _DOMAINS.items():
+        for name, (domain, unit) in DRIVE_DOMAINS.items():
             object.__setattr__(self, name, number(name, getattr(self, name), domain, unit))
-        lead = number("phase_lead", self.phase_lead, Domain(low=-1, low_open=False, high=1, high_open=False), "1")
+        lead = number("phase_lead", self.phase_lead, Domain(), "1")
         if np.any(np.abs(lead) != 1):
             raise ParameterError("phase_lead", np.asarray(lead)[np.abs(lead) != 1].flat[0].item(), "1 or -1")
         object.__setattr__(self, "phase_lead", lead)

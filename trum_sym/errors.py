@@ -2,11 +2,20 @@
 
 from __future__ import annotations
 
-__all__ = ["ConvergenceError", "ParameterError", "ValidityWarning"]
+__all__ = ["ConvergenceError", "ParameterError", "ValidityWarning", "shorten"]
 
 
-def _short(value: object) -> str:
-    text = " ".join((value if isinstance(value, str) else repr(value)).split())
+def _one_line(text: str) -> str:
+    return " ".join(text.split())
+
+
+def shorten(value: object) -> str:
+    """What was given, on one line of at most 80 characters."""
+    try:
+        text = " ".join((value if isinstance(value, str) else repr(value)).split())
+    except ValueError:  # Python does not print integers of more than 4300 digits
+        text = "a number of too many digits"
+    text = text or "empty text"
     return text if len(text) <= 80 else text[:77] + "..."
 
 
@@ -27,7 +36,7 @@ class ParameterError(ValueError):
         self.name = name
         self.got = got
         self.allowed = allowed
-        super().__init__(f"{name}: got {_short(got)}, need {allowed}")
+        super().__init__(f"{_one_line(name)}: got {shorten(got)}, need {_one_line(allowed)}")
 
     def __reduce__(self) -> tuple[type[ParameterError], tuple[str, object, str]]:
         return type(self), (self.name, self.got, self.allowed)

@@ -9,7 +9,7 @@ import numpy as np
 from trum_sym.validate import ArrayLike
 
 try:
-    from trum_sym import _kernels  # type: ignore[attr-defined, unused-ignore]
+    from trum_sym import _kernels
 except ImportError as error:  # pragma: no cover - an installed package has them
     raise ImportError(
         f"the compiled kernels are not beside {__file__}: this is a source tree; install it with "

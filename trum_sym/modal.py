@@ -9,13 +9,23 @@ from trum_sym.errors import ParameterError
 from trum_sym.kernels import call
 from trum_sym.validate import ArrayLike
 
-__all__ = ["cycle_sums", "modal_values", "response"]
+__all__ = ["check_steady_state", "cycle_sums", "modal_values", "response"]
 
 _MIN_REPETITION = 1e-9
 PANELS_PER_PERIOD = 4
 
 
-def modal_values(omega_n: ArrayLike, damping_ratio: ArrayLike, drive: Drive, amplitude: ArrayLike = 1.0) -> dict[str, ArrayLike]:
+def check_steady_state(damping_ratio: ArrayLike, drive: Drive) -> None:
+    """Raise a ParameterError for an undamped drive at resonance."""
+    if np.any((np.asarray(damping_ratio) == 0) & (np.asarray(drive.frequency_difference) == 0)):
+        raise ParameterError(
+            "damping_ratio", 0, "a number > 0 when frequency_difference is 0 Hz: undamped resonance has no steady state"
+        )
+
+
+def modal_values(
+    omega_n: ArrayLike, damping_ratio: ArrayLike, drive: Drive, amplitude: ArrayLike = 1.0
+) -> dict[str, ArrayLike]:
     """The kernels' arguments for a drive cycle, with the free motion before t1 that ``drive.start`` asks for.
 
     Raises
@@ -23,11 +33,7 @@ def modal_values(omega_n: ArrayLike, damping_ratio: ArrayLike, drive: Drive, amp
     ParameterError
         For an undamped resonant drive, or a periodic start that the cycle does not fix.
     """
-    undamped = (np.asarray(damping_ratio) == 0) & (np.asarray(drive.frequency_difference) == 0)
-    if undamped.any():
-        raise ParameterError(
-            "damping_ratio", 0, "a number > 0 when frequency_difference is 0 Hz: undamped resonance has no steady state"
-        )
+    check_steady_state(damping_ratio, drive)
     values: dict[str, ArrayLike] = {
         "omega_n": omega_n,
         "Delta_omega": 2 * np.pi * np.asarray(drive.frequency_difference),
@@ -52,7 +58,9 @@ def modal_values(omega_n: ArrayLike, damping_ratio: ArrayLike, drive: Drive, amp
     return {**values, **start}
 
 
-def response(time: ArrayLike, values: dict[str, ArrayLike], D: ArrayLike = 1.0, k_c: ArrayLike = 1.0) -> dict[str, ArrayLike]:
+def response(
+    time: ArrayLike, values: dict[str, ArrayLike], D: ArrayLike = 1.0, k_c: ArrayLike = 1.0
+) -> dict[str, ArrayLike]:
     """w_A, w_B (m), v_A, v_B (m/s) and the determinant Q (m^2/s) at times within one cycle (eqs. 9, 10, A5).
 
     Parameters

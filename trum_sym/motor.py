@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, fields, replace
-from importlib.resources import files
-from os import PathLike
-from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from trum_sym.errors import ParameterError
-from trum_sym.units import parse_quantity, parse_unit
-from trum_sym.validate import ArrayLike, Domain, number
+import numpy as np
 
-__all__ = ["Motor", "Parameter", "Published", "load_motor"]
+from trum_sym.errors import ParameterError
+from trum_sym.units import parse_quantity
+from trum_sym.validate import ArrayLike, Domain, broadcast_shape, number
+
+__all__ = ["SPECS", "Motor", "Parameter", "Published", "Spec", "spec"]
 
 _POSITIVE = Domain(low=0.0)
 _NOT_NEGATIVE = Domain(low=0.0, low_open=False)
@@ -53,19 +51,21 @@ class Parameter:
 
 
 @dataclass(frozen=True)
-class _Spec:
+class Spec:
+    """What a parameter must be: SI unit, symbol, domain, and whether a motor file must give it."""
+
     unit: str
     symbol: str
     domain: Domain
     required: bool
 
 
-def _p(unit: str, symbol: str, domain: Domain = _POSITIVE) -> Any:
-    return field(metadata={"spec": _Spec(unit, symbol, domain, required=True)})
+def _p(unit: str, symbol: str, domain: Domain = _POSITIVE) -> Any:  # noqa: ANN401
+    return field(metadata={"spec": Spec(unit, symbol, domain, required=True)})
 
 
-def _optional(unit: str, symbol: str, domain: Domain = _POSITIVE) -> Any:
-    return field(default=None, metadata={"spec": _Spec(unit, symbol, domain, required=False)})
+def _optional(unit: str, symbol: str, domain: Domain = _POSITIVE) -> Any:  # noqa: ANN401
+    return field(default=None, metadata={"spec": Spec(unit, symbol, domain, required=False)})
 
 
 @dataclass(frozen=True)
@@ -131,7 +131,7 @@ class Motor:
     curvature_radius: Parameter = _p("m", "r_t")
     rotor_inertia: Parameter = _p("kg*m^2", "J")
     # A measured value replaces the modelled one
-    resonance_frequency: Parameter | None = _optional("Hz", "f_n")
+    resonance_frequency: Parameter | None = _optional("Hz", "f_n", Domain(low=0.0, high=1e9))
     amplitude: Parameter | None = _optional("m", "W_maxf")
     neutral_axis: Parameter | None = _optional("m", "D")
     wavenumber: Parameter | None = _optional("1/m", "k_c")
@@ -139,16 +139,19 @@ class Motor:
     published: tuple[Published, ...] = ()
 
     def __post_init__(self) -> None:
-        """Checks that no single value can fail: sizes that must fit each other."""
+        """Checks every value, and the sizes that must fit each other."""
+        for name, parameter in self.parameters():
+            number(name, parameter.value, SPECS[name].domain, parameter.unit)
+        broadcast_shape({name: parameter.value for name, parameter in self.parameters()})
         _ordered(self, "tooth_height", "beam_thickness")
         _ordered(self, "fit_prepressure_min", "fit_prepressure_max")
-        gaps = _value(self.tooth_count) * _value(self.slot_width)
-        if _any(gaps >= _value(self.perimeter)):
-            raise ParameterError("slot_width", self.slot_width.value, "slots that fit the perimeter: n_s b_s < l_s")
+        gaps = self.tooth_count.value * self.slot_width.value
+        if np.any(gaps >= self.perimeter.value):
+            raise ParameterError("slot_width", self.slot_width.value, "less than perimeter / tooth_count")
 
     def parameters(self) -> Iterator[tuple[str, Parameter]]:
         """The parameters that are set, by name."""
-        for name in _SPECS:
+        for name in SPECS:
             parameter = getattr(self, name)
             if parameter is not None:
                 yield name, parameter
@@ -174,136 +177,30 @@ class Motor:
         """
         changed = {}
         for name, given in values.items():
-            spec = _spec(name)
-            value = parse_quantity(name, given, spec.unit) if isinstance(given, str) else given
-            changed[name] = Parameter(number(name, value, spec.domain, spec.unit), spec.unit, spec.symbol, source)
+            wanted = spec(name)
+            value = parse_quantity(name, given, wanted.unit) if isinstance(given, str) else given
+            checked = number(name, value, wanted.domain, wanted.unit)
+            changed[name] = Parameter(checked, wanted.unit, wanted.symbol, source)
         return replace(self, **changed)  # type: ignore[arg-type]
-
-
-def _any(condition: object) -> bool:
-    import numpy as np
-
-    return bool(np.any(condition))  # type: ignore[arg-type]
-
-
-def _value(parameter: Parameter) -> ArrayLike:
-    return parameter.value
 
 
 def _ordered(motor: Motor, low: str, high: str) -> None:
     small, large = getattr(motor, low), getattr(motor, high)
-    if _any(small.value >= large.value):
-        raise ParameterError(low, small.value, f"less than {high} ({large.value} {large.unit})")
+    if np.any(small.value >= large.value):
+        raise ParameterError(low, small.value, f"less than {high} ({np.max(large.value):g} {large.unit})")
 
 
-_SPECS: Mapping[str, _Spec] = MappingProxyType(
+SPECS: Mapping[str, Spec] = MappingProxyType(
     {f.name: f.metadata["spec"] for f in fields(Motor) if "spec" in f.metadata}
 )
 
 
-def _spec(name: str) -> _Spec:
-    if name not in _SPECS:
+def spec(name: str) -> Spec:
+    """The specification of a parameter; a ParameterError for a name that is none."""
+    if name not in SPECS:
         from difflib import get_close_matches
 
-        close = get_close_matches(name, _SPECS, n=3, cutoff=0.5)
+        close = get_close_matches(name, SPECS, n=3, cutoff=0.5)
         hint = f"; close names: {', '.join(close)}" if close else ""
         raise ParameterError("motor parameter", name, f"a name of the motor file{hint}")
-    return _SPECS[name]
-
-
-def _read_parameter(name: str, entry: object) -> Parameter:
-    spec = _spec(name)
-    if not isinstance(entry, dict):
-        raise ParameterError(name, entry, "a table with value, unit and source")
-    unknown = sorted(set(entry) - {"value", "unit", "symbol", "source", "range", "reason", "note"})
-    if unknown:
-        raise ParameterError(f"{name}.{unknown[0]}", entry[unknown[0]], "value, unit, symbol, source, range, reason, note")
-    for key in ("value", "unit", "source"):
-        if key not in entry:
-            raise ParameterError(f"{name}.{key}", "nothing", f"{key} in the motor file")
-    for key in ("unit", "symbol", "source", "reason", "note"):
-        if not isinstance(entry.get(key, ""), str):
-            raise ParameterError(f"{name}.{key}", entry[key], "text")
-    symbol, source, reason = entry.get("symbol", spec.symbol), entry["source"].strip(), entry.get("reason", "").strip()
-    if symbol != spec.symbol:
-        raise ParameterError(f"{name}.symbol", symbol, f"{spec.symbol}, the equations' symbol")
-    if not source:
-        raise ParameterError(f"{name}.source", "empty text", "where the value comes from")
-    try:
-        unit = parse_unit(entry["unit"])
-    except ValueError as error:
-        raise ParameterError(f"{name}.unit", entry["unit"], f"a unit that converts to {spec.unit} ({error})") from None
-    if unit.dimension != parse_unit(spec.unit).dimension:
-        raise ParameterError(f"{name}.unit", entry["unit"], f"a unit that converts to {spec.unit}")
-
-    def si(label: str, raw: object) -> float:
-        if isinstance(raw, bool) or not isinstance(raw, int | float):
-            raise ParameterError(label, raw, f"a number in {entry['unit']}")
-        return unit.to_si(raw)
-
-    value = number(name, si(f"{name}.value", entry["value"]), spec.domain, spec.unit)
-    limits = None
-    if "range" in entry:
-        raw = entry["range"]
-        if not isinstance(raw, list) or len(raw) != 2:
-            raise ParameterError(f"{name}.range", raw, "two numbers, low and high")
-        low, high = (si(f"{name}.range", end) for end in raw)
-        if not low <= value <= high:
-            raise ParameterError(f"{name}.range", raw, "low <= value <= high")
-        limits = (low, high)
-    if source == "assumed" and (limits is None or not reason):
-        raise ParameterError(name, "source = 'assumed'", "a range and a reason beside it")
-    return Parameter(value, spec.unit, spec.symbol, source, limits, reason)
-
-
-def _read_published(entry: object) -> Published:
-    keys = {"output", "value", "unit", "source", "drive"}
-    if not isinstance(entry, dict) or set(entry) != keys or not isinstance(entry["drive"], dict):
-        raise ParameterError("published", entry, "tables with output, value, unit, source, drive")
-    return Published(**{**entry, "drive": MappingProxyType(entry["drive"])})
-
-
-def load_motor(source: str | PathLike[str] = "trum60") -> Motor:
-    """Read a motor by name (``"trum60"`` ships with the package) or from a TOML file.
-
-    Returns
-    -------
-    Motor
-        Frozen; every value in SI with unit and source.
-
-    Raises
-    ------
-    ParameterError
-        If the file is missing, is not TOML, or an entry is unknown, incomplete, of a wrong unit or
-        outside its domain.
-    """
-    if str(source) == "trum60":
-        text = files("trum_sym").joinpath("data/trum60.toml").read_text("utf-8")
-    else:
-        path = Path(source)
-        try:
-            text = path.read_text("utf-8")
-        except FileNotFoundError:
-            raise ParameterError("motor", str(source), "trum60 or the path of a TOML file that exists") from None
-        except (OSError, ValueError) as error:
-            reason = error.strerror if isinstance(error, OSError) else "not UTF-8 text"
-            raise ParameterError("motor", str(source), f"a readable TOML file ({reason})") from None
-    try:
-        data = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise ParameterError("motor", str(source), f"a valid TOML file ({error})") from None
-    unknown = sorted(set(data) - {"name", "parameters", "published"})
-    if unknown:
-        raise ParameterError("motor file", unknown[0], "name, parameters and published at the top level")
-    if not isinstance(data.get("name"), str):
-        raise ParameterError("motor file: name", data.get("name", "nothing"), "the motor's name as text")
-    if not isinstance(data.get("parameters"), dict):
-        raise ParameterError("motor file: parameters", "nothing", "a table [parameters]")
-    if not isinstance(data.get("published", []), list):
-        raise ParameterError("published", data["published"], "an array of tables [[published]]")
-    parameters = {name: _read_parameter(name, entry) for name, entry in data["parameters"].items()}
-    missing = [name for name, spec in _SPECS.items() if spec.required and name not in parameters]
-    if missing:
-        raise ParameterError("motor file: parameters", f"no {', '.join(missing)}", "every required parameter")
-    published = tuple(_read_published(entry) for entry in data.get("published", []))
-    return Motor(name=data["name"], published=published, **parameters)
+    return SPECS[name]

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from typing import Any
 
 import numpy as np
 
 from trum_sym.drive import Drive, choice
+from trum_sym.errors import ParameterError
 from trum_sym.kernels import call
-from trum_sym.modal import cycle_sums, modal_values
+from trum_sym.modal import check_steady_state, cycle_sums, modal_values
 from trum_sym.motor import Motor
 from trum_sym.stator import (
     AMPLITUDES,
@@ -88,13 +90,14 @@ def evaluate(
     resonance: Resonance = "quartic",
     foundation: Foundation = "harmonic",
     amplitude: Amplitude = "measured",
-    sampling_period: float | None = None,
+    sampling_period: ArrayLike | None = None,
 ) -> OperatingPoint:
     """The operating point of a motor under a drive.
 
     Parameters
     ----------
     motor : Motor
+        Its parameters may be arrays.
     drive : Drive, optional
         The paper's Table 3 if not given.  Its fields and the motor's values broadcast.
     contact : {"winkler", "hertz"}
@@ -105,7 +108,7 @@ def evaluate(
         How the friction layer stiffens the stator.
     amplitude : {"measured", "forced"}
         Eq. 8 on the measured amplitude, or on the derived forced one (eq. 7 put right).
-    sampling_period : float, s, optional
+    sampling_period : float or array, s, optional
         Averaging period of the encoder behind ``speed_volatility``; continuous if not given.
 
     Returns
@@ -126,10 +129,16 @@ def evaluate(
         ("amplitude", amplitude, AMPLITUDES),
     ):
         choice(name, value, allowed)
-    if sampling_period is not None:
-        number("sampling_period", sampling_period, Domain(low=0.0), "s")
     drive = Drive() if drive is None else drive
-    shape = broadcast_shape({**drive.numbers(), **{name: p.value for name, p in motor.parameters()}})
+    if not isinstance(motor, Motor):
+        raise ParameterError("motor", motor, "a Motor, as load_motor returns it")
+    if not isinstance(drive, Drive):
+        raise ParameterError("drive", drive, "a Drive")
+    inputs = {**drive.numbers(), **{name: p.value for name, p in motor.parameters()}}
+    if sampling_period is not None:
+        inputs["sampling_period"] = number("sampling_period", sampling_period, Domain(low=0.0), "s")
+    shape = broadcast_shape(inputs)
+    check_steady_state(motor.damping_ratio.value, drive)
     stator = solve_stator(motor, drive, Levels(contact, resonance, foundation, amplitude))
     values = modal_values(stator.omega_n, motor.damping_ratio.value, drive)
     timing = call("trum_drive", values)
@@ -145,12 +154,8 @@ def evaluate(
         "wavenumber": stator.k_c,
         **cycle_sums(values),
     }
-    return OperatingPoint(
-        motor=motor.name,
-        start=drive.start,
-        contact=contact,
-        **{name: _shaped(value, shape) for name, value in figures.items()},
-    )
+    shaped: dict[str, Any] = {name: _shaped(value, shape) for name, value in figures.items()}
+    return OperatingPoint(motor=motor.name, start=drive.start, contact=contact, **shaped)
 
 
 def _shaped(value: ArrayLike, shape: tuple[int, ...]) -> ArrayLike:

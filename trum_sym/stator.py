@@ -79,15 +79,23 @@ def _warn_outside_fit(motor: Motor, drive: Drive) -> None:
         warnings.warn(message, ValidityWarning, stacklevel=4)
 
 
-def check_drive_frequency(omega_n: ArrayLike, drive: Drive) -> None:
-    """Raise a ParameterError unless the drive frequency is at least a hundredth of the resonance."""
+def _check_size(name: str, value: ArrayLike) -> None:
+    """Raise a ParameterError unless what follows from the motor's values is finite and positive."""
+    values = np.asarray(value)
+    good = np.isfinite(values) & (values > 0)
+    if not good.all():
+        raise ParameterError("motor", f"{name} = {values[~good].flat[0]:g}", "values that give it a finite size")
+
+
+def _check_drive_frequency(omega_n: ArrayLike, drive: Drive) -> None:
+    """Raise a ParameterError unless the drive frequency is at least a tenth of the resonance."""
     f_n, difference = np.broadcast_arrays(np.asarray(omega_n) / _TURN, drive.frequency_difference)
-    wrong = ~(f_n + difference >= 0.01 * f_n)
+    wrong = ~(f_n + difference >= 0.1 * f_n)
     if wrong.any():
         raise ParameterError(
             "frequency_difference",
             f"{difference[wrong].flat[0]:g}",
-            f"more than -0.99 times the resonance, {f_n[wrong].flat[0]:.6g} Hz",
+            f"at least -0.9 times the resonance, {f_n[wrong].flat[0]:.6g} Hz",
         )
 
 
@@ -116,7 +124,8 @@ def solve_stator(motor: Motor, drive: Drive, levels: Levels) -> Stator:
     values["W"] = fixed if fixed is not None else call("trum_amplitude_measured", values)["W"]
     for _ in range(_MAX_ITERATIONS):
         _resonance(motor, values, levels)
-        check_drive_frequency(values["omega_n"], drive)
+        _check_size("resonance_frequency", values["omega_n"])
+        _check_drive_frequency(values["omega_n"], drive)
         if fixed is not None or levels.amplitude == "measured":
             break
         previous = values["W"]
@@ -128,11 +137,8 @@ def solve_stator(motor: Motor, drive: Drive, levels: Levels) -> Stator:
             f"forced amplitude and resonance did not settle in {_MAX_ITERATIONS} steps; "
             "set amplitude or resonance_frequency, or use another foundation"
         )
-    for name, symbol in (("resonance_frequency", "omega_n"), ("amplitude", "W"), ("neutral_axis", "D")):
-        value = np.asarray(values[symbol])
-        good = np.isfinite(value) & (value > 0)
-        if not good.all():
-            raise ParameterError("motor", f"{name} = {value[~good].flat[0]:g}", "values that give it a finite size")
+    for name, symbol in (("amplitude", "W"), ("neutral_axis", "D"), ("wavenumber", "k_c")):
+        _check_size(name, values[symbol])
     return Stator(values["omega_n"], values["W"], values["D"], values["k_c"], values.get("theta"))
 
 

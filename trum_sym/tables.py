@@ -11,29 +11,10 @@ import numpy as np
 from trum_sym.drive import Drive
 from trum_sym.motor import Motor, Published
 from trum_sym.operating_point import OperatingPoint
+from trum_sym.outputs import OUTPUTS
 from trum_sym.units import parse_unit
 
 __all__ = ["as_json_text", "as_table"]
-
-# field, label, unit it has, unit shown
-_ROWS = (
-    ("resonance_frequency", "resonance frequency f_n", "Hz", "Hz"),
-    ("drive_frequency", "drive frequency f_q", "Hz", "Hz"),
-    ("cycle_time", "cycle time T_Qall", "s", "ms"),
-    ("amplitude", "amplitude of a phase W_maxf", "m", "µm"),
-    ("neutral_axis", "neutral axis D", "m", "mm"),
-    ("wavenumber", "wavenumber k_c", "1/m", "1/m"),
-    ("q_ratio", "forward over backward X", "1", "1"),
-    ("q_square_ratio", "the same of squares Y", "1", "1"),
-    ("q_average", "speed determinant Q_aver", "1/s", "1/s"),
-    ("q_volatility", "volatility determinant Q_vib", "1/s", "1/s"),
-    ("mean_speed", "mean speed v_s", "rad/s", "arcsec/s"),
-    ("min_speed", "lowest speed", "rad/s", "arcsec/s"),
-    ("max_speed", "highest speed", "rad/s", "arcsec/s"),
-    ("speed_volatility", "speed volatility sigma_s", "1", "%"),
-    ("stall_torque", "stall torque", "N*m", "N*m"),
-    ("contact_fraction", "contact fraction", "1", "1"),
-)
 
 
 def as_json_text(point: OperatingPoint) -> str:
@@ -65,14 +46,14 @@ def as_table(motor: Motor, drive: Drive, point: OperatingPoint, levels: Mapping[
 
     published = _published(motor, drive)
     rows = []
-    for name, label, unit, shown in _ROWS:
+    for name, (label, unit, shown) in OUTPUTS.items():
         value, entry = getattr(point, name), published.get(name)
         ours = "not computed" if value is None else f"{_convert(value, unit, shown):.6g}"
         paper = difference = source = ""
         if entry is not None:
             theirs = _convert(entry.value, entry.unit, shown)
             paper, source = f"{theirs:.6g}", entry.source
-            if value is not None:
+            if value is not None and theirs:
                 difference = f"{100 * (_convert(value, unit, shown) / theirs - 1):+.2f} %"
         rows.append((label, ours, "" if shown == "1" else shown, paper, difference, source))
     table = tabulate(

@@ -12,7 +12,7 @@ import re
 from fractions import Fraction
 from typing import NamedTuple
 
-from trum_sym.errors import ParameterError
+from trum_sym.errors import ParameterError, shorten
 
 __all__ = ["Dimension", "Unit", "parse_quantity", "parse_unit"]
 
@@ -86,7 +86,7 @@ def _symbols() -> dict[str, Unit]:
 
 
 _SYMBOLS = _symbols()
-_TERM = re.compile(r"([^\^\d]+|1)(?:\^?([+-]?\d+))?$")
+_TERM = re.compile(r"([^\^\d]+)(?:\^?([+-]?\d\d?))?$|(1)$", re.ASCII)
 
 
 def parse_unit(text: str) -> Unit:
@@ -97,7 +97,7 @@ def parse_unit(text: str) -> Unit:
     Raises
     ------
     ValueError
-        If a part of the text is not a known unit.
+        If a part of the text is not a known unit, or the unit is beyond any use.
     """
     dimension, factor = Dimension(), Fraction(1)
     scale: float = 1.0
@@ -105,19 +105,21 @@ def parse_unit(text: str) -> Unit:
         terms = re.split(r"[*·\s]+", part.strip())
         for term in terms:
             match = _TERM.match(term)
-            if match is None or match[1] not in _SYMBOLS:
-                raise ValueError(f"unknown unit {term!r} in {text!r}")
+            unit = _SYMBOLS.get(match[1] or match[3]) if match else None
+            if match is None or unit is None:
+                raise ValueError(f"unknown unit {shorten(repr(term))}")
             exponent = int(match[2] or 1) * (-1 if position else 1)
-            unit = _SYMBOLS[match[1]]
             dimension = dimension.times(unit.dimension.power(exponent))
             if isinstance(unit.factor, Fraction):
                 factor *= unit.factor**exponent
             else:
                 scale *= unit.factor**exponent
+    if not 1e-60 < factor * Fraction(scale) < 1e60:
+        raise ValueError("a unit too large or too small")
     return Unit(dimension, factor if scale == 1.0 else float(factor) * scale)
 
 
-_QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?inf|nan)\s*(.*?)\s*$", re.IGNORECASE)
+_NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?|[+-]?inf|nan)(.*)", re.I | re.S | re.ASCII)
 
 
 def parse_quantity(name: str, text: str, unit: str) -> float:
@@ -130,16 +132,17 @@ def parse_quantity(name: str, text: str, unit: str) -> float:
     ParameterError
         If the text is no number, or its unit is unknown or of another dimension than ``unit``.
     """
-    match = _QUANTITY.match(text)
+    wanted = "a number" if unit == "1" else f"a number in {unit}"
+    match = _NUMBER.fullmatch(text.strip())
     if match is None:
-        raise ParameterError(name, text, f"a number in {unit}")
-    value = float(match[1])
-    if not match[2]:
+        raise ParameterError(name, text, wanted)
+    value, given_unit = float(match[1]), match[2].strip()
+    if not given_unit:
         return value
     try:
-        given = parse_unit(match[2])
+        given = parse_unit(given_unit)
     except ValueError as error:
-        raise ParameterError(name, text, f"a number in {unit} ({error})") from None
+        raise ParameterError(name, text, f"{wanted} ({error})") from None
     if given.dimension != parse_unit(unit).dimension:
-        raise ParameterError(name, text, f"a number in {unit}, or in a unit that converts to it")
+        raise ParameterError(name, text, wanted if unit == "1" else f"{wanted}, or in a unit that converts to it")
     return given.to_si(value)

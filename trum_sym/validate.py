@@ -58,10 +58,13 @@ def number(name: str, value: object, domain: Domain, unit: str) -> ArrayLike:
     """
     allowed = domain.describe(unit)
     try:
+        if np.ma.is_masked(value):
+            raise TypeError
         raw = np.asarray(value)
         if raw.dtype.kind not in "iuf":
             raise TypeError
-        values = raw.astype(np.float64)
+        with np.errstate(over="ignore"):
+            values = raw.astype(np.float64)
     except (TypeError, ValueError):
         raise ParameterError(name, value, allowed) from None
     if values.size == 0:

@@ -12,23 +12,22 @@
 namespace trum {
 
 // Newton on a bracketed root, with bisection whenever Newton leaves the bracket or stalls.
-// f(x) returns {value, slope}; f(low) and f(high) have different signs or one is zero.
+// f(x) returns {value, slope}.  Zero counts as positive, so f(low) = 0 < f's later fall is no root yet;
+// f(low) and f(high) have different signs in that sense.
 template <class F>
 double bracketed_root(const F& f, double low, double high) {
-  auto [f_low, slope_low] = f(low);
-  if (f_low == 0.0) return low;
-  const bool rising = f_low < 0.0;
+  const bool rising = f(low).first < 0.0;
+  const double smallest = 1e-16 * (high - low);
   double x = 0.5 * (low + high), width_before = high - low;
   for (int i = 0; i < 200; ++i) {
     const auto [value, slope] = f(x);
-    if (value == 0.0) return x;
     ((value < 0.0) == rising ? low : high) = x;
     const double width = high - low;
     double next = x - value / slope;
     const bool usable = next > low && next < high && (i % 3 != 2 || width < 0.5 * width_before);
     if (i % 3 == 2) width_before = width;
     if (!usable) next = 0.5 * (low + high);
-    if (std::abs(next - x) <= 2e-16 * std::abs(next) || next == low || next == high) return next;
+    if (width <= smallest || std::abs(next - x) <= 2e-16 * std::abs(next)) return next;
     x = next;
   }
   return x;
@@ -227,6 +226,9 @@ class SignedQuadrature {
     return here;
   }
 
+  // Zero counts as positive, as in the sign changes: a phase at rest starts a region with Q = 0.
+  static bool towards_zero(const Sample& p) { return p.Q >= 0.0 ? p.rate < 0.0 : p.rate > 0.0; }
+
   void panel(const Sample& left, const Sample& right, double from, double to) {
     const double half = 0.5 * (to - from), middle = 0.5 * (to + from);
     Sample s[points_ + 2];
@@ -244,7 +246,7 @@ class SignedQuadrature {
       const Sample &p = s[i], &q = s[i + 1];
       if ((p.Q >= 0.0) != (q.Q >= 0.0)) {
         cut_at(crossing(p.tau, q.tau), start, cut);
-      } else if (p.Q * p.rate < 0.0 && q.Q * q.rate > 0.0) {  // |Q| dips between the samples
+      } else if (towards_zero(p) && !towards_zero(q)) {  // |Q| dips between the samples
         const Sample dip = extremum(p, q);
         if ((dip.Q >= 0.0) != (p.Q >= 0.0)) {
           cut_at(crossing(p.tau, dip.tau), start, cut);

@@ -1,0 +1,151 @@
+"""The operating point as users call it: broadcasting, JSON, table, exit codes, lean imports."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from dataclasses import FrozenInstanceError
+
+import numpy as np
+import pytest
+
+import trum_sym as ts
+from trum_sym.console import main
+
+JSON_KEYS = [
+    *("motor", "start", "contact", "prepressure", "frequency_difference", "resonance_frequency", "drive_frequency"),
+    *("cycle_time", "amplitude", "neutral_axis", "wavenumber", "q_ratio", "q_square_ratio", "q_average"),
+    *("q_volatility", "mean_speed", "min_speed", "max_speed", "speed_volatility", "stall_torque"),
+    *("contact_fraction", "converged"),
+]
+OPTIONS = [
+    *("motor", "set", "prepressure", "frequency-difference", "periods", "on-periods", "load-torque", "start"),
+    *("switching-phase", "phase-lead", "contact", "resonance", "foundation", "amplitude", "sampling-period", "json"),
+]
+
+
+def run(capsys, *arguments):
+    code = main(["evaluate", *arguments])
+    captured = capsys.readouterr()
+    return code, captured.out, captured.err
+
+
+def test_json_has_the_fixed_keys_in_order(capsys):
+    code, out, err = run(capsys, "--json")
+    assert (code, err) == (0, "")
+    assert list(json.loads(out)) == JSON_KEYS
+
+
+def test_json_is_the_python_result(capsys, trum60):
+    _, out, _ = run(capsys, "--json", "--start", "rest", "--phase-lead", "-1", "--frequency-difference", "-2.5 kHz")
+    printed = json.loads(out)
+    point = ts.evaluate(trum60, ts.Drive(start="rest", phase_lead=-1, frequency_difference=-2500.0))
+    assert printed == point.as_dict()
+
+
+def test_infinite_ratios_are_null_in_json(capsys):
+    _, out, _ = run(capsys, "--json", "--on-periods", "20")
+    printed = json.loads(out)
+    assert printed["q_ratio"] is None
+    assert printed["q_average"] > 0
+
+
+def test_table_shows_ours_and_the_papers_values_at_table_3(capsys):
+    code, out, _ = run(capsys)
+    assert code == 0
+    for text in ("1447.5", "3446.4", "39703", "5.5", "633", "17.3", "Table 4", "not computed"):
+        assert text in out
+
+
+def test_table_shows_no_published_value_at_another_drive(capsys):
+    _, out, _ = run(capsys, "--prepressure", "170")
+    assert "1447.5" not in out
+    assert "Table 4" not in out
+
+
+def test_set_overrides_take_units(capsys):
+    _, bare, _ = run(capsys, "--json", "--set", "resonance_frequency=39703")
+    _, unit, _ = run(capsys, "--json", "--set", "resonance_frequency=39.703 kHz")
+    assert json.loads(bare) == pytest.approx(json.loads(unit))
+    assert json.loads(bare)["resonance_frequency"] == pytest.approx(39703)
+
+
+def test_prepressure_outside_the_fit_is_a_warning_on_stderr(capsys):
+    code, out, err = run(capsys, "--json", "--prepressure", "50")
+    assert code == 0
+    assert json.loads(out)["amplitude"] > 0
+    assert (
+        err == "trum-sym: warning: prepressure: 50 N lies outside 100 to 220 N, where eq. 8's amplitude was measured\n"
+    )
+
+
+def test_fields_broadcast_like_arrays(trum60):
+    force, difference = np.array([[160.0], [180.0]]), np.array([2800.0, 3000.0, 3300.0])
+    grid = ts.evaluate(trum60, ts.Drive(prepressure=force, frequency_difference=difference))
+    assert grid.q_average.shape == grid.wavenumber.shape == (2, 3)
+    for i in range(2):
+        for j in range(3):
+            one = ts.evaluate(trum60, ts.Drive(prepressure=force[i, 0], frequency_difference=difference[j]))
+            assert one.q_average == grid.q_average[i, j]
+            assert one.resonance_frequency == grid.resonance_frequency[i, j]
+
+
+def test_motor_values_broadcast_against_the_drive(trum60):
+    motor = trum60.with_values({"damping_ratio": np.array([0.004, 0.006, 0.008])})
+    grid = ts.evaluate(motor, ts.Drive(periods=np.array([[20], [30]]), on_periods=np.array([[14], [20]])))
+    assert grid.q_average.shape == (2, 3)
+    assert grid.q_average[0, 1] == ts.evaluate(trum60).q_average
+
+
+def test_motor_and_drive_are_frozen(trum60):
+    with pytest.raises(FrozenInstanceError):
+        trum60.radius = None
+    with pytest.raises(FrozenInstanceError):
+        ts.Drive().periods = 3
+    values = np.array([1000.0, 2000.0])
+    drive = ts.Drive(frequency_difference=values)
+    with pytest.raises(ValueError, match="read-only"):
+        drive.frequency_difference[0] = 0
+    values[0] = 5.0
+    assert drive.frequency_difference[0] == 1000.0
+
+
+def test_every_parameter_of_the_motor_has_a_unit_and_a_source(trum60):
+    named = dict(trum60.parameters())
+    assert len(named) == 37
+    for name, parameter in named.items():
+        assert parameter.unit, name
+        assert parameter.source, name
+        if parameter.source == "assumed":
+            assert parameter.reason, name
+            low, high = parameter.range
+            assert low <= parameter.value <= high, name
+
+
+def test_table_1_traps_are_settled_in_the_data(trum60):
+    assert 2 * np.pi * trum60.radius.value == pytest.approx(trum60.perimeter.value, rel=1e-3)
+    assert trum60.tooth_height.value < trum60.beam_thickness.value
+    assert trum60.voltage.value == 200.0
+
+
+def test_help_names_every_option_of_the_interface(capsys):
+    _, out, _ = run(capsys, "--help")
+    for option in OPTIONS:
+        assert f"--{option}" in out
+
+
+def test_evaluate_imports_neither_sympy_nor_casadi_nor_scipy():
+    code = (
+        "import sys; from trum_sym.console import main; main(['evaluate', '--json']);"
+        "sys.exit(bool({'sympy', 'casadi', 'scipy', 'derivations', 'tabulate'} & set(sys.modules)))"
+    )
+    assert subprocess.run([sys.executable, "-c", code], stdout=subprocess.DEVNULL).returncode == 0
+
+
+def test_module_runs_as_a_program():
+    done = subprocess.run(
+        [sys.executable, "-m", "trum_sym.console", "evaluate", "--json"], capture_output=True, text=True
+    )
+    assert done.returncode == 0
+    assert json.loads(done.stdout)["motor"] == "TRUM-60"

@@ -1,0 +1,168 @@
+"""generated/ is what the derivations give, byte for byte, and computes what they say, at 50 digits."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import mpmath as mp
+import numpy as np
+import pytest
+import sympy as sp
+
+import trum_sym as ts
+from derivations.emit import GENERATED, render, stale, write
+from derivations.kernels import kernels
+from derivations.nomenclature import sym
+from trum_sym.kernels import call
+
+ROOT = Path(__file__).parent.parent
+
+
+@pytest.fixture(scope="module")
+def files():
+    return render()
+
+
+def test_generated_files_are_what_the_derivations_give(files):
+    difference = stale(files)
+    assert not difference, f"run `python -m derivations generate`\n{difference}"
+
+
+def test_one_kernel_is_one_file_of_its_name(files):
+    names = {kernel.name for kernel in kernels()}
+    assert {name for name in files if name.endswith(".c")} == {f"{name}.c" for name in names}
+    assert [entry["name"] for entry in json.loads(files["manifest.json"])["kernels"]] == [k.name for k in kernels()]
+
+
+def test_every_file_states_its_operations_and_arguments(files):
+    manifest = json.loads(files["manifest.json"])
+    for entry in manifest["kernels"]:
+        text = files[f"{entry['name']}.c"]
+        assert f"{sum(entry['operations'].values())} operations" in text
+        for argument in entry["inputs"]:
+            assert f": {argument['name']} [{argument['unit']}]" in text
+
+
+def generate(folder, *arguments, seed="0"):
+    return subprocess.run(
+        [sys.executable, "-m", "derivations", "generate", *arguments],
+        cwd=folder, env={**os.environ, "PYTHONHASHSEED": seed}, capture_output=True, text=True,
+    )  # fmt: skip
+
+
+@pytest.fixture
+def tree(tmp_path):
+    """A copy of the derivations and what they generated, free to be broken."""
+    for name in ("derivations", "generated"):
+        shutil.copytree(ROOT / name, tmp_path / name, ignore=shutil.ignore_patterns("__pycache__"))
+    return tmp_path
+
+
+@pytest.mark.parametrize("seed", ["1", "4242"])
+def test_generation_does_not_depend_on_the_process_or_its_hash_seed(tree, seed):
+    shutil.rmtree(tree / "generated")
+    done = generate(tree, seed=seed)
+    assert done.returncode == 0, done.stderr
+    written = {path.name: path.read_bytes() for path in (tree / "generated").iterdir()}
+    assert written == {path.name: path.read_bytes() for path in GENERATED.iterdir()}
+
+
+def test_check_is_silent_and_0_when_nothing_is_stale(tree):
+    done = generate(tree, "--check")
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+@pytest.mark.parametrize(
+    ("module", "right", "wrong"),
+    [
+        ("contact.py", "sp.cos(_u) - sp.cos(theta)", "sp.cos(_u) + sp.cos(theta)"),
+        ("phases.py", "return omega_n + Delta_omega", "return omega_n - Delta_omega"),
+        ("section.py", "1 - k_t * k_s", "1 + k_t * k_s"),
+    ],
+)
+def test_a_changed_sign_is_stale_and_changes_nothing(tree, module, right, wrong):
+    path = tree / "derivations" / module
+    text = path.read_text()
+    assert right in text
+    path.write_text(text.replace(right, wrong, 1))
+    before = {p.name: p.read_bytes() for p in (tree / "generated").iterdir()}
+    done = generate(tree, "--check")
+    assert done.returncode == 1
+    assert "(checked in)" in done.stdout
+    assert "stale" in done.stderr
+    assert before == {p.name: p.read_bytes() for p in (tree / "generated").iterdir()}
+
+
+@pytest.mark.parametrize(
+    ("module", "right", "wrong"),
+    [
+        ("phases.py", "(omega_n * a + xi * b)", "(omega_n * a - xi * b)"),
+        ("beam.py", "theta.diff(x) ** 2 + kappa", "theta.diff(x) ** 3 + kappa"),
+    ],
+)
+def test_a_broken_proof_or_dimension_stops_the_generation(tree, module, right, wrong):
+    path = tree / "derivations" / module
+    text = path.read_text()
+    assert right in text
+    path.write_text(text.replace(right, wrong, 1))
+    assert generate(tree, "--check").returncode != 0
+
+
+def test_missing_and_extra_files_are_stale(files, tmp_path):
+    write(files, tmp_path)
+    assert stale(files, tmp_path) == ""
+    (tmp_path / "trum_regions.c").unlink()
+    (tmp_path / "trum_old.c").write_text("int old;\n")
+    assert "trum_regions.c" in stale(files, tmp_path)
+    assert "trum_old.c" in stale(files, tmp_path)
+    assert write(files, tmp_path) == ["trum_regions.c", "trum_old.c"]
+    assert stale(files, tmp_path) == ""
+
+
+expm1 = sp.Function("expm1")
+
+
+def expm1_exact(z):
+    return sp.exp(z) - 1
+
+
+def random_arguments(kernel, rng):
+    """Arguments around TRUM-60 and Table 3, each 20 % to either side."""
+    usual = ts.load_motor().symbols()
+    for name in ("trum_neutral_axis", "trum_section", "trum_wavenumber", "trum_layer_stiffness"):
+        usual.update(call(name, usual))
+    usual.update(
+        k_f=3e8, k_dx=3e8, omega_n=2.45e5, omega_q=2.65e5, Delta_omega=1.9e4, beta=280.0, theta=0.4, W=5.5e-6,
+        F_c=180.0, m=20, n=14, psi=0.7, s=-1, tau=8e-5, T=4.7e-4, a_A=3e-6, b_A=-0.7, a_B=-4e-6, b_B=0.5, g_A=1, g_B=0,
+        q_plus=80.0, q_minus=30.0, p_plus=3e6, p_minus=7e5,
+    )  # fmt: skip
+    whole = {"m", "n", "s", "g_A", "g_B", "n_s", "n_j"}
+    return {
+        symbol.name: float(usual[symbol.name]) * (1.0 if symbol.name in whole else rng.uniform(0.8, 1.2))
+        for symbol in kernel.inputs
+    }
+
+
+@pytest.mark.parametrize("kernel", kernels(), ids=lambda kernel: kernel.name)
+def test_compiled_kernel_agrees_with_its_expression_at_50_digits(kernel):
+    rng = np.random.default_rng(17)
+    names = list(kernel.inputs)
+    one_newton = {sym("N_1")[0]: sp.Integer(1)}
+    exact = {
+        output: sp.lambdify(names, sp.sympify(expr).subs(one_newton).replace(expm1, expm1_exact), "mpmath")
+        for output, expr in kernel.outputs.items()
+    }
+    for _ in range(20):
+        arguments = random_arguments(kernel, rng)
+        ours = call(kernel.name, arguments)
+        with mp.workdps(50):
+            values = {name: f(*(mp.mpf(arguments[s.name]) for s in names)) for name, f in exact.items()}
+            # free motion and Q are sums that may cancel: compare with the largest output of the same unit
+            for name, value in values.items():
+                size = max(abs(v) for other, v in values.items() if kernel.units[other] == kernel.units[name])
+                assert abs(ours[name] - value) <= 1e-12 * size, name
