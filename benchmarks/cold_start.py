@@ -20,6 +20,7 @@ COMMANDS = {
 
 
 def main(repeats: int = 15) -> None:
+    """Measure and print."""
     times: dict[str, list[float]] = {name: [] for name in COMMANDS}
     for _ in range(repeats):  # interleaved, so that a busy moment hits all
         for name, arguments in COMMANDS.items():

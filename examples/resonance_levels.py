@@ -35,6 +35,7 @@ def verdicts() -> tuple[dict[str, str], dict[str, str]]:
 
 
 def main() -> None:
+    """Print the table."""
     motor, (by_level, by_foundation) = ts.load_motor("trum60"), verdicts()
     rows = []
     for level in ("euler", "printed", "eq6", "quartic"):

@@ -17,11 +17,13 @@ STARTS = ("periodic", "steady", "rest")
 
 
 def trend(values: np.ndarray) -> str:
+    """One word for how a curve runs."""
     steps = np.diff(values)
     return "rises" if np.all(steps > 0) else "falls" if np.all(steps < 0) else "mixed"
 
 
 def main() -> None:
+    """Print both tables."""
     motor = ts.load_motor("trum60")
     motors = {"model": motor, "39703 Hz": motor.with_values({"resonance_frequency": 39703.0})}
     rows = []

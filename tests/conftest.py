@@ -1,6 +1,9 @@
 from __future__ import annotations
 
 import pytest
+from refusals import assert_one_clear_line
+
+from trum_sym import console
 
 
 @pytest.fixture(scope="session")
@@ -8,3 +11,29 @@ def trum60():
     import trum_sym as ts
 
     return ts.load_motor("trum60")
+
+
+@pytest.fixture
+def console_refuses(capsys):
+    def refuse(*arguments, naming):
+        code = console.main(list(arguments))
+        out, err = capsys.readouterr()
+        assert code == 2
+        assert out == ""
+        assert err.endswith("\n")
+        assert err.startswith("trum-sym: ")
+        assert not err.startswith("trum-sym: warning")
+        assert_one_clear_line(err, *naming)
+        return err
+
+    return refuse
+
+
+@pytest.fixture
+def motor_file(tmp_path):
+    def write(content):
+        path = tmp_path / "motor.toml"
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+        return path
+
+    return write

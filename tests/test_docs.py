@@ -1,0 +1,44 @@
+"""What the docs show is what the programs print."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from trum_sym.console import main
+
+ROOT = Path(__file__).parent.parent
+
+
+def shown(document, marker):
+    text = (ROOT / document).read_text("utf-8")
+    return re.search(rf"<!-- {re.escape(marker)} -->\n```\n(.*?)```", text, re.DOTALL)[1]
+
+
+def lines(text):
+    return [line.rstrip() for line in text.strip().splitlines()]
+
+
+@pytest.mark.parametrize("example", ["table4.py", "resonance_levels.py", "forced_amplitude.py"])
+def test_the_docs_show_what_the_examples_print(example):
+    done = subprocess.run(
+        [sys.executable, ROOT / "examples" / example], capture_output=True, text=True, encoding="utf-8", check=True
+    )
+    assert lines(shown("docs/operating-point.md", f"examples/{example}")) == lines(done.stdout)
+
+
+def test_the_readme_shows_what_evaluate_prints(capsys):
+    main(["evaluate"])
+    assert lines(shown("README.md", "trum-sym evaluate")) == lines(capsys.readouterr().out)
+
+
+def test_the_readme_has_the_two_commands_that_ci_runs():
+    text = (ROOT / "README.md").read_text("utf-8")
+    commands = re.findall(r"^    (python3 -m venv .*)$", text, re.MULTILINE)
+    assert len(commands) == 2
+    assert commands[0].endswith("trum-sym evaluate")
+    assert commands[1].endswith("python -m pytest")
