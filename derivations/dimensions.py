@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import sympy as sp
 
-from derivations.nomenclature import NOMENCLATURE
+from derivations.nomenclature import NOMENCLATURE, TINY
 from trum_sym.units import Dimension
 
 __all__ = ["DimensionError", "dimension"]
@@ -37,10 +37,14 @@ def dimension(expr: sp.Basic, known: Mapping[sp.Basic, Dimension] | None = None)
     """
     if known and expr in known:
         return known[expr]
-    if isinstance(expr, sp.Symbol):
+    if isinstance(expr, sp.Symbol) and expr != TINY:
         return NOMENCLATURE[expr.name].dimension
     if expr.is_number:
         return _NONE
+    if expr == TINY:
+        return _NONE
+    if isinstance(expr, sp.Add) and TINY in expr.args:
+        return dimension(expr - TINY, known)
     of_arguments = [dimension(argument, known) for argument in expr.args]
     if isinstance(expr, sp.Mul):
         product = _NONE
@@ -54,13 +58,14 @@ def dimension(expr: sp.Basic, known: Mapping[sp.Basic, Dimension] | None = None)
         if base == exponent == _NONE:
             return _NONE
         raise DimensionError(f"power of {expr.base} [{base}] to {expr.exp} [{exponent}]")
-    if isinstance(expr, (*_SAME_AS_ARGUMENTS, sp.atan2)):
+    comparison = isinstance(expr, sp.atan2) or expr.func.__name__ == "less"
+    if comparison or isinstance(expr, _SAME_AS_ARGUMENTS):
         for term, found in zip(expr.args, of_arguments, strict=True):
             if found != of_arguments[0]:
                 raise DimensionError(
                     f"{expr.args[0]} [{of_arguments[0]}] and {term} [{found}] meet in one {type(expr).__name__}"
                 )
-        return _NONE if isinstance(expr, sp.atan2) else of_arguments[0]
+        return _NONE if comparison else of_arguments[0]
     for argument, found in zip(expr.args, of_arguments, strict=True):
         if found != _NONE:
             raise DimensionError(f"argument {argument} [{found}] of {type(expr).__name__} is not a number")

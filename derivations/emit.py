@@ -6,15 +6,17 @@ import difflib
 import hashlib
 import json
 import os
+import re
 from collections import Counter
 from pathlib import Path
 
 import casadi as ca
+import mpmath as mp
 import sympy as sp
 
 from derivations.dimensions import DimensionError, dimension
 from derivations.kernels import Kernel, kernels
-from derivations.nomenclature import NOMENCLATURE, sym
+from derivations.nomenclature import CONSTANTS, NOMENCLATURE
 from derivations.phases import GATES, PHASES, REGIONS
 from derivations.to_casadi import to_casadi
 from trum_sym.units import parse_unit
@@ -57,7 +59,7 @@ def casadi_function(kernel: Kernel) -> ca.Function:
     """The kernel as a CasADi function of scalars."""
     symbols = {symbol: ca.SX.sym(symbol.name) for symbol in kernel.inputs}
     arguments = list(symbols.values())
-    constants = {sym("N_1")[0]: ca.SX(1.0)}
+    constants = {symbol: ca.SX(value) for symbol, value in CONSTANTS.items()}
     memo: dict[sp.Basic, ca.SX] = {}
     results = [to_casadi(sp.sympify(expr), {**symbols, **constants}, memo) for expr in kernel.outputs.values()]
     names = [symbol.name for symbol in kernel.inputs]
@@ -124,6 +126,27 @@ def _header() -> str:
     return "\n".join(lines)
 
 
+# The kernels that the rotor's driver evaluates over lanes of points at once.
+LANE_KERNELS = (
+    "trum_rotation",
+    "trum_wave",
+    "trum_filling",
+    "trum_contact_winkler",
+    "trum_contact_hertz",
+    "trum_friction",
+)
+
+
+def _lanes(files: dict[str, str]) -> str:
+    """Includes the C files as C++ over a lane class, and clears their macros after each."""
+    lines = [f"/* {_NOTE} */", "/* Include with casadi_real defined as a class of lanes. */"]
+    for name in LANE_KERNELS:
+        macros = re.findall(r"^ *#define (\w+)", files[f"{name}.c"], re.MULTILINE)
+        cleared = [macro for macro in dict.fromkeys(macros) if macro not in ("casadi_real", "casadi_int")]
+        lines += [f'#include "{name}.c"', *(f"#undef {macro}" for macro in cleared if macro != "CASADI_SYMBOL_EXPORT")]
+    return "\n".join([*lines, ""])
+
+
 def _quadrature() -> str:
     """Gauss-Legendre nodes and weights on [-1, 1], to 20 digits."""
     from sympy.integrals.quadrature import gauss_legendre
@@ -139,6 +162,25 @@ def _quadrature() -> str:
             "",
         ]
     )
+
+
+def _elementary() -> str:
+    """Coefficients of elementary functions over lanes, to 17 digits.
+
+    sin and cos by Taylor on [-pi/4, pi/4], exp within half a factor of 2; atan(t)/t as a polynomial in t^2 for t up to tan(pi/8).
+    """
+    with mp.workdps(40):
+        sine = [(-1) ** k / mp.factorial(2 * k + 1) for k in range(9)]
+        cosine = [(-1) ** k / mp.factorial(2 * k) for k in range(10)]
+        square = mp.tan(mp.pi / 8) ** 2
+        atan = mp.chebyfit(lambda q: mp.atan(mp.sqrt(q)) / mp.sqrt(q) if q else mp.mpf(1), [0, square], 13)
+        exponential = [1 / mp.factorial(k) for k in range(14)]
+        tables = {"SIN": sine, "COS": cosine, "EXP": exponential, "ATAN": list(reversed(atan))}
+        lines = [f"/* {_NOTE} */", "/* Polynomial coefficients, lowest power first. */"]
+        for name, values in tables.items():
+            numbers = ", ".join(mp.nstr(mp.mpf(value), 20) for value in values)
+            lines.append(f"#define TRUM_{name}_COEFFICIENTS {{{numbers}}}")
+    return "\n".join([*lines, ""])
 
 
 def render() -> dict[str, str]:
@@ -172,7 +214,9 @@ def render() -> dict[str, str]:
             }
         )
     files["trum_kernels.h"] = _header()
+    files["trum_lanes.h"] = _lanes(files)
     files["trum_quadrature.h"] = _quadrature()
+    files["trum_elementary.h"] = _elementary()
     versions = {"casadi": ca.CasadiMeta.version(), "sympy": sp.__version__}
     files["manifest.json"] = json.dumps({"generator": versions, "kernels": manifest}, indent=1) + "\n"
     return dict(sorted(files.items()))

@@ -12,8 +12,8 @@ from functools import cache
 
 import sympy as sp
 
-from derivations import amplitude, beam, contact, determinant, phases, section
-from derivations.nomenclature import sym
+from derivations import amplitude, beam, contact, determinant, phases, rotor, section
+from derivations.nomenclature import CONSTANTS, sym
 
 __all__ = ["Kernel", "kernels"]
 
@@ -44,9 +44,9 @@ class Kernel:
 
     @property
     def inputs(self) -> tuple[sp.Symbol, ...]:
-        """The free symbols, sorted by name; one newton is a constant, not an argument."""
+        """The free symbols, sorted by name, without the constants."""
         found = set().union(*(sp.sympify(expr).free_symbols for expr in self.outputs.values()))
-        return tuple(sorted(found - set(sym("N_1")), key=lambda symbol: symbol.name))
+        return tuple(sorted(found - set(CONSTANTS), key=lambda symbol: symbol.name))
 
 
 def _section() -> list[Kernel]:
@@ -174,7 +174,48 @@ def _measures() -> Kernel:
     )
 
 
+def _rotor() -> list[Kernel]:
+    phasor = dict(zip(("re", "im"), rotor.phasor(), strict=True))
+    rotation = dict(zip(("e_re", "e_im", "d_re", "d_im"), rotor.rotation(), strict=True))
+    wave_units = {"W_c": "m", "R_v": "m/s", "phi": "rad", "cos_phi": "1", "sin_phi": "1"}
+    return [
+        Kernel("trum_phasor", "Free motion as a phasor", phasor, dict.fromkeys(phasor, "m")),
+        Kernel("trum_rotation", "Turn of free motion and drive in a time", rotation, dict.fromkeys(rotation, "1")),
+        Kernel(
+            "trum_rotor_coefficients",
+            "What the steps of a point share (eqs. 25, 26, 38)",
+            {**rotor.coefficients(), "W_full": rotor.hertz_full_height()},
+            {"engagement_per_height": "1/m", "push": "m/s^2", "drag": "m/s^2", "W_full": "m"},
+        ),
+        Kernel("trum_wave", "Wave height and surface speed (eqs. 11, 16, 20)", rotor.wave(), wave_units),
+        Kernel(
+            "trum_filling",
+            "How far the layer is engaged (eq. 31)",
+            rotor.filling(),
+            {"engagement": "1", "fullness": "1"},
+        ),
+        Kernel(
+            "trum_contact_winkler",
+            "Contact of the Winkler layer (eqs. 30, 31)",
+            rotor.contact_winkler(),
+            {"theta": "rad", "sin_theta": "1", "share": "1"},
+        ),
+        Kernel(
+            "trum_contact_hertz",
+            "Contact of the paper's Hertz width (eqs. 25, 26, 30)",
+            rotor.contact_hertz(),
+            {"theta": "rad", "sin_theta": "1", "share": "1", "engagement": "1"},
+        ),
+        Kernel(
+            "trum_friction",
+            "Net friction fraction and its slope (eqs. 33 to 37)",
+            rotor.friction(),
+            {"f": "1", "f_v": "s/m"},
+        ),
+    ]
+
+
 @cache
 def kernels() -> tuple[Kernel, ...]:
     """All kernels, in the order of the manifest."""
-    return tuple(_section() + _resonance() + _amplitude() + _contact() + _cycle())
+    return tuple(_section() + _resonance() + _amplitude() + _contact() + _cycle() + _rotor())

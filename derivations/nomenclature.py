@@ -12,7 +12,7 @@ import sympy as sp
 from trum_sym.motor import Motor
 from trum_sym.units import Dimension, parse_unit
 
-__all__ = ["NOMENCLATURE", "Entry", "sym"]
+__all__ = ["CONSTANTS", "NOMENCLATURE", "TINY", "Entry", "sym"]
 
 
 @dataclass(frozen=True)
@@ -67,6 +67,30 @@ q_plus      | 1        | + | integral of the positive part of the determinant, W
 q_minus     | 1        | + | integral of the magnitude of its negative part
 p_plus      | 1/s      | + | integral of the square of the positive part
 p_minus     | 1/s      | + | integral of the square of the negative part
+W_full      | m        | + | wave height below which the Hertz width spans the whole wave
+engagement_per_height | 1/m | + | engagement over wave height
+f_A_re      | m        | r | phasor of phase A's free motion at the start of a step, real part
+f_A_im      | m        | r | its imaginary part
+f_B_re      | m        | r | phasor of phase B's free motion at the start of a step, real part
+f_B_im      | m        | r | its imaginary part
+p_re        | 1        | r | phasor of the drive at the start of a step, real part
+p_im        | 1        | r | its imaginary part
+e_re        | 1        | r | turn and decay of free motion within a step, real part
+e_im        | 1        | r | its imaginary part
+d_re        | 1        | r | turn of the drive within a step, real part
+d_im        | 1        | r | its imaginary part
+W_c         | m        | + | height of the wave at its crest
+engagement  | 1        | + | the layer's force at full wave over the prepressure, 2 n_j k_N W_c / (k_c F_c)
+share       | 1        | r | constant part of the pressure's share per angle
+sin_theta   | 1        | r | sine of the contact half-angle
+fullness    | 1        | + | how full the contact is, 1 when the whole wave touches
+fullness_root | 1      | + | its cube root
+phi         | rad      | r | phase of the surface speed, from the crest
+cos_phi     | 1        | r | its cosine
+sin_phi     | 1        | r | its sine
+R_v         | m/s      | + | amplitude of the surface speed along the wave
+v           | m/s      | r | speed of the rotor's rim, omega r_c
+T_load      | N*m      | r | load torque
 """
 
 
@@ -90,6 +114,12 @@ def _entries() -> dict[str, Entry]:
 
 
 NOMENCLATURE = _entries()
+
+
+# Keeps a quotient finite where both sides vanish; has whatever dimension it is added to.
+TINY = sp.Symbol("tiny", positive=True)
+# Symbols that are no arguments: their values in the kernels.
+CONSTANTS = {NOMENCLATURE["N_1"].symbol: 1.0, TINY: 1e-300}
 
 
 def sym(names: str) -> tuple[sp.Symbol, ...]:

@@ -65,6 +65,11 @@ def _translate(expr: sp.Expr, symbols: Mapping[sp.Symbol, ca.SX], memo: dict[sp.
         return ca.SX(_ELEMENTARY[type(expr)](*(walk(argument) for argument in expr.args)))
     if expr.is_Function and expr.func.__name__ == "expm1":
         return ca.expm1(walk(expr.args[0]))
+    if isinstance(expr, sp.Min | sp.Max):
+        pick = ca.fmin if isinstance(expr, sp.Min) else ca.fmax
+        return reduce(pick, (walk(argument) for argument in sp.ordered(expr.args)))
+    if expr.is_Function and expr.func.__name__ == "less":
+        return ca.SX(walk(expr.args[0]) < walk(expr.args[1]))
     raise NotImplementedError(f"no C operation for {type(expr).__name__} in {expr}")
 
 

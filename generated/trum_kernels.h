@@ -86,6 +86,46 @@ int trum_measures(const double** arg, double** res, long long int* iw, double* w
 enum { trum_measures_in_T, trum_measures_in_p_minus, trum_measures_in_p_plus, trum_measures_in_q_minus, trum_measures_in_q_plus, trum_measures_n_arg };
 enum { trum_measures_out_q_ratio, trum_measures_out_q_square_ratio, trum_measures_out_q_average, trum_measures_out_q_volatility, trum_measures_n_res };
 
+/* Free motion as a phasor */
+int trum_phasor(const double** arg, double** res, long long int* iw, double* w, int mem);
+enum { trum_phasor_in_a, trum_phasor_in_b, trum_phasor_in_omega_n, trum_phasor_in_xi, trum_phasor_n_arg };
+enum { trum_phasor_out_re, trum_phasor_out_im, trum_phasor_n_res };
+
+/* Turn of free motion and drive in a time */
+int trum_rotation(const double** arg, double** res, long long int* iw, double* w, int mem);
+enum { trum_rotation_in_Delta_omega, trum_rotation_in_omega_n, trum_rotation_in_tau, trum_rotation_in_xi, trum_rotation_n_arg };
+enum { trum_rotation_out_e_re, trum_rotation_out_e_im, trum_rotation_out_d_re, trum_rotation_out_d_im, trum_rotation_n_res };
+
+/* What the steps of a point share (eqs. 25, 26, 38) */
+int trum_rotor_coefficients(const double** arg, double** res, long long int* iw, double* w, int mem);
+enum { trum_rotor_coefficients_in_E_eq, trum_rotor_coefficients_in_E_m, trum_rotor_coefficients_in_F_c, trum_rotor_coefficients_in_J, trum_rotor_coefficients_in_T_load, trum_rotor_coefficients_in_b_m, trum_rotor_coefficients_in_k_N, trum_rotor_coefficients_in_k_c, trum_rotor_coefficients_in_mu, trum_rotor_coefficients_in_mu_e, trum_rotor_coefficients_in_mu_m, trum_rotor_coefficients_in_n_j, trum_rotor_coefficients_in_r_c, trum_rotor_coefficients_in_r_t, trum_rotor_coefficients_n_arg };
+enum { trum_rotor_coefficients_out_engagement_per_height, trum_rotor_coefficients_out_push, trum_rotor_coefficients_out_drag, trum_rotor_coefficients_out_W_full, trum_rotor_coefficients_n_res };
+
+/* Wave height and surface speed (eqs. 11, 16, 20) */
+int trum_wave(const double** arg, double** res, long long int* iw, double* w, int mem);
+enum { trum_wave_in_D, trum_wave_in_Delta_omega, trum_wave_in_W, trum_wave_in_d_im, trum_wave_in_d_re, trum_wave_in_e_im, trum_wave_in_e_re, trum_wave_in_f_A_im, trum_wave_in_f_A_re, trum_wave_in_f_B_im, trum_wave_in_f_B_re, trum_wave_in_g_A, trum_wave_in_g_B, trum_wave_in_k_c, trum_wave_in_omega_n, trum_wave_in_p_im, trum_wave_in_p_re, trum_wave_in_s, trum_wave_in_xi, trum_wave_n_arg };
+enum { trum_wave_out_W_c, trum_wave_out_R_v, trum_wave_out_phi, trum_wave_out_cos_phi, trum_wave_out_sin_phi, trum_wave_n_res };
+
+/* How far the layer is engaged (eq. 31) */
+int trum_filling(const double** arg, double** res, long long int* iw, double* w, int mem);
+enum { trum_filling_in_W_c, trum_filling_in_engagement_per_height, trum_filling_n_arg };
+enum { trum_filling_out_engagement, trum_filling_out_fullness, trum_filling_n_res };
+
+/* Contact of the Winkler layer (eqs. 30, 31) */
+int trum_contact_winkler(const double** arg, double** res, long long int* iw, double* w, int mem);
+enum { trum_contact_winkler_in_fullness, trum_contact_winkler_in_fullness_root, trum_contact_winkler_n_arg };
+enum { trum_contact_winkler_out_theta, trum_contact_winkler_out_sin_theta, trum_contact_winkler_out_share, trum_contact_winkler_n_res };
+
+/* Contact of the paper's Hertz width (eqs. 25, 26, 30) */
+int trum_contact_hertz(const double** arg, double** res, long long int* iw, double* w, int mem);
+enum { trum_contact_hertz_in_W_c, trum_contact_hertz_in_W_full, trum_contact_hertz_n_arg };
+enum { trum_contact_hertz_out_theta, trum_contact_hertz_out_sin_theta, trum_contact_hertz_out_share, trum_contact_hertz_out_engagement, trum_contact_hertz_n_res };
+
+/* Net friction fraction and its slope (eqs. 33 to 37) */
+int trum_friction(const double** arg, double** res, long long int* iw, double* w, int mem);
+enum { trum_friction_in_R_v, trum_friction_in_cos_phi, trum_friction_in_engagement, trum_friction_in_phi, trum_friction_in_share, trum_friction_in_sin_phi, trum_friction_in_sin_theta, trum_friction_in_theta, trum_friction_in_v, trum_friction_n_arg };
+enum { trum_friction_out_f, trum_friction_out_f_v, trum_friction_n_res };
+
 /* name, number of inputs and outputs, their names */
 #define TRUM_KERNELS(X) \
   X(trum_neutral_axis, 7, 1, "E_e E_p b_e b_p h_e h_p h_t", "D") \
@@ -103,7 +143,15 @@ enum { trum_measures_out_q_ratio, trum_measures_out_q_square_ratio, trum_measure
   X(trum_start_rest, 5, 4, "Delta_omega W omega_n psi s", "a_A b_A a_B b_B") \
   X(trum_regions, 12, 19, "Delta_omega W a_A a_B b_A b_B m n omega_n psi s xi", "time_redu time_addredu time_add a_A_redu b_A_redu a_B_redu b_B_redu a_A_addredu b_A_addredu a_B_addredu b_B_addredu a_A_add b_A_add a_B_add b_B_add a_A_end b_A_end a_B_end b_B_end") \
   X(trum_response, 15, 6, "D Delta_omega W a_A a_B b_A b_B g_A g_B k_c omega_n psi s tau xi", "w_A w_B v_A v_B Q Q_rate") \
-  X(trum_measures, 5, 4, "T p_minus p_plus q_minus q_plus", "q_ratio q_square_ratio q_average q_volatility")
+  X(trum_measures, 5, 4, "T p_minus p_plus q_minus q_plus", "q_ratio q_square_ratio q_average q_volatility") \
+  X(trum_phasor, 4, 2, "a b omega_n xi", "re im") \
+  X(trum_rotation, 4, 4, "Delta_omega omega_n tau xi", "e_re e_im d_re d_im") \
+  X(trum_rotor_coefficients, 14, 4, "E_eq E_m F_c J T_load b_m k_N k_c mu mu_e mu_m n_j r_c r_t", "engagement_per_height push drag W_full") \
+  X(trum_wave, 19, 5, "D Delta_omega W d_im d_re e_im e_re f_A_im f_A_re f_B_im f_B_re g_A g_B k_c omega_n p_im p_re s xi", "W_c R_v phi cos_phi sin_phi") \
+  X(trum_filling, 2, 2, "W_c engagement_per_height", "engagement fullness") \
+  X(trum_contact_winkler, 2, 3, "fullness fullness_root", "theta sin_theta share") \
+  X(trum_contact_hertz, 2, 4, "W_c W_full", "theta sin_theta share engagement") \
+  X(trum_friction, 9, 2, "R_v cos_phi engagement phi share sin_phi sin_theta theta v", "f f_v")
 
 /* gates of the phases in the regions of a cycle */
 #define TRUM_REGIONS 3

@@ -4,11 +4,14 @@
 
 #include <array>
 #include <cstddef>
+#include <cstring>
+#include <vector>
 
 #include <numpy/arrayobject.h>
 #include <numpy/ufuncobject.h>
 
 #include "cycle.hpp"
+#include "orbit.hpp"
 
 namespace {
 
@@ -72,13 +75,117 @@ void cycle_response_loop(char** args, const npy_intp* dimensions, const npy_intp
   }
 }
 
+constexpr char orbit_in[] =
+    "omega_n Delta_omega xi psi s m n a_A b_A a_B b_B W D k_c engagement_per_height W_full hertz push drag tolerance";
+constexpr char orbit_out[] = "mean low high variance contact held start level error flags";
+constexpr int n_orbit_in = sizeof(trum::OrbitInput) / sizeof(double);
+constexpr int n_orbit_out = sizeof(trum::OrbitOutput) / sizeof(double);
+const trum::OrbitCode* orbit_code = &trum::orbit_baseline;
+
+trum::OrbitInput orbit_input(char** args, const npy_intp* steps, npy_intp i) {
+  const auto values = gather<n_orbit_in>(args, steps, i);
+  trum::OrbitInput point;
+  std::memcpy(&point, values.data(), sizeof point);
+  return point;
+}
+
+// Neighbours with the same pulses share lanes; a block is small enough to keep its inputs in cache.
+void rotor_orbit_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
+  constexpr npy_intp most = 256;
+  std::array<trum::OrbitInput, most> in;
+  std::array<trum::OrbitOutput, most> out;
+  for (npy_intp i = 0; i < dimensions[0];) {
+    npy_intp count = 0;
+    for (; i + count < dimensions[0] && count < most; ++count) {
+      in[count] = orbit_input(args, steps, i + count);
+      if (in[count].m != in[0].m || in[count].n != in[0].n || in[count].hertz != in[0].hertz) break;
+    }
+    orbit_code->orbits(in.data(), out.data(), static_cast<int>(count));
+    for (npy_intp k = 0; k < count; ++k) {
+      std::array<double, n_orbit_out> values;
+      std::memcpy(values.data(), &out[k], sizeof out[k]);
+      scatter(values, args + n_orbit_in, steps + n_orbit_in, i + k);
+    }
+    i += count;
+  }
+}
+
+// Core dimension k: equal times of a cycle; `times` only gives their number.
+constexpr char history_in[] =
+    "omega_n Delta_omega xi psi s m n a_A b_A a_B b_B W D k_c engagement_per_height W_full hertz push drag tolerance "
+    "low high start level times";
+constexpr char history_out[] = "speed distance friction";
+constexpr char history_signature[] =
+    "(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(k)->(k),(k),(k)";
+constexpr int n_history_in = n_orbit_in + 5;
+void rotor_history_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
+  const npy_intp k = dimensions[1];
+  const npy_intp* core = steps + n_history_in + 3;  // strides of shape, speed, distance, friction
+  std::vector<double> out(static_cast<std::size_t>(3 * k));
+  for (npy_intp i = 0; i < dimensions[0]; ++i) {
+    const trum::OrbitInput point = orbit_input(args, steps, i);
+    const auto from = gather<4>(args + n_orbit_in, steps + n_orbit_in, i);
+    trum::OrbitOutput orbit{};
+    orbit.low = from[0], orbit.high = from[1], orbit.start = from[2], orbit.level = from[3];
+    orbit_code->history(&point, &orbit, out.data(), out.data() + k, out.data() + 2 * k, k);
+    for (int o = 0; o < 3; ++o) {
+      char* to = args[n_history_in + o] + i * steps[n_history_in + o];
+      for (npy_intp j = 0; j < k; ++j) *reinterpret_cast<double*>(to + j * core[1 + o]) = out[o * k + j];
+    }
+  }
+}
+
+// Which instruction set the orbits run on: the best that this CPU has, until a test asks for another.
+bool supported(const trum::OrbitCode& code) {
+#if defined(__x86_64__)
+  if (&code == &trum::orbit_avx2) return __builtin_cpu_supports("avx2");
+  if (&code == &trum::orbit_avx512)
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+#endif
+  return true;
+}
+constexpr const trum::OrbitCode* orbit_codes[] = {
+    &trum::orbit_baseline,
+#if defined(__x86_64__)
+    &trum::orbit_avx2, &trum::orbit_avx512,
+#endif
+};
+
+PyObject* use(PyObject*, PyObject* name) {
+  const char* wanted = PyUnicode_AsUTF8(name);
+  if (wanted == nullptr) return nullptr;
+  for (const trum::OrbitCode* code : orbit_codes)
+    if (std::strcmp(code->name, wanted) == 0 && supported(*code)) {
+      orbit_code = code;
+      Py_RETURN_NONE;
+    }
+  return PyErr_Format(PyExc_ValueError, "%s is not an instruction set of this CPU", wanted);
+}
+
+PyObject* instruction_sets(PyObject*, PyObject*) {
+  PyObject* found = PyDict_New();
+  for (const trum::OrbitCode* code : orbit_codes) {
+    if (found == nullptr || !supported(*code)) continue;
+    PyObject* lanes = PyLong_FromLong(code->lanes);
+    if (lanes == nullptr || PyDict_SetItemString(found, code->name, lanes) < 0) Py_CLEAR(found);
+    Py_XDECREF(lanes);
+  }
+  return found;
+}
+
+PyMethodDef methods[] = {
+    {"use", use, METH_O, "Run the orbits on an instruction set of instruction_sets()."},
+    {"instruction_sets", instruction_sets, METH_NOARGS, "The sets that this CPU has, slowest first, with their lanes."},
+    {nullptr, nullptr, 0, nullptr}};
+
 constexpr int max_args = 40;
 char types[max_args];
 void* no_data[1] = {nullptr};
 
 bool add(PyObject* module, PyObject* signatures, const char* name, PyUFuncGenericFunction* loop, int n_in, int n_out,
-         const char* inputs, const char* outputs) {
-  PyObject* ufunc = PyUFunc_FromFuncAndData(loop, no_data, types, 1, n_in, n_out, PyUFunc_None, name, outputs, 0);
+         const char* inputs, const char* outputs, const char* core = nullptr) {
+  PyObject* ufunc = PyUFunc_FromFuncAndDataAndSignature(loop, no_data, types, 1, n_in, n_out, PyUFunc_None, name,
+                                                        outputs, 0, core);
   if (ufunc == nullptr || PyModule_AddObject(module, name, ufunc) < 0) {
     Py_XDECREF(ufunc);
     return false;
@@ -96,9 +203,11 @@ TRUM_KERNELS(LOOP)
 PyUFuncGenericFunction loop_half_angle[1] = {half_angle_loop};
 PyUFuncGenericFunction loop_cycle_sums[1] = {cycle_sums_loop};
 PyUFuncGenericFunction loop_cycle_response[1] = {cycle_response_loop};
+PyUFuncGenericFunction loop_rotor_orbit[1] = {rotor_orbit_loop};
+PyUFuncGenericFunction loop_rotor_history[1] = {rotor_history_loop};
 
 PyModuleDef definition = {PyModuleDef_HEAD_INIT, "_kernels", "Compiled kernels as NumPy ufuncs.", -1,
-                          nullptr, nullptr, nullptr, nullptr, nullptr};
+                          methods, nullptr, nullptr, nullptr, nullptr};
 
 }  // namespace
 
@@ -117,6 +226,13 @@ PyMODINIT_FUNC PyInit__kernels() {
   if (!add(module, signatures, "cycle_sums", loop_cycle_sums, 12, 4, cycle_sums_in, cycle_sums_out)) return nullptr;
   if (!add(module, signatures, "cycle_response", loop_cycle_response, 15, 5, cycle_response_in, cycle_response_out))
     return nullptr;
+  if (!add(module, signatures, "rotor_orbit", loop_rotor_orbit, n_orbit_in, n_orbit_out, orbit_in, orbit_out))
+    return nullptr;
+  if (!add(module, signatures, "rotor_history", loop_rotor_history, n_history_in, 3, history_in, history_out,
+           history_signature))
+    return nullptr;
+  for (const trum::OrbitCode* code : orbit_codes)
+    if (supported(*code)) orbit_code = code;
   if (PyModule_AddObject(module, "signatures", signatures) < 0) return nullptr;
   return module;
 }

@@ -1,0 +1,206 @@
+"""From two modal displacements to the torque on the rotor (Sect. 4), in the form that a time step evaluates.
+
+The wave at an instant is one cosine of height W_c on the unrolled stator; u = k_c (x - x_max) counts from its crest.
+Its surface moves tangentially with v_x(u) = R cos(u - phi).  The friction layer presses with a density that is a
+cosine plus a constant inside |u| < theta, so its cumulative share is elementary, and the net Coulomb friction follows
+from the two points where the surface is as fast as the rotor.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import mpmath as mp
+import sympy as sp
+
+from derivations.contact import hertz_half_angle
+from derivations.nomenclature import TINY, sym
+
+__all__ = [
+    "coefficients",
+    "contact_hertz",
+    "contact_winkler",
+    "filling",
+    "friction",
+    "hertz_full_height",
+    "less",
+    "phasor",
+    "rotation",
+    "wave",
+]
+
+omega_n, Delta_omega, xi, tau = sym("omega_n Delta_omega xi tau")
+a, b, W, D, k_c, s = sym("a b W D k_c s")
+f_A_re, f_A_im, f_B_re, f_B_im = sym("f_A_re f_A_im f_B_re f_B_im")
+p_re, p_im, e_re, e_im, d_re, d_im, g_A, g_B = sym("p_re p_im e_re e_im d_re d_im g_A g_B")
+W_c, engagement, share, theta, phi, R_v, v = sym("W_c engagement share theta phi R_v v")
+fullness, fullness_root, sin_theta, cos_phi, sin_phi = sym("fullness fullness_root sin_theta cos_phi sin_phi")
+n_j, k_N, F_c, mu, r_c, J, T_load = sym("n_j k_N F_c mu r_c J T_load")
+engagement_per_height, W_full = sym("engagement_per_height W_full")
+
+
+class less(sp.Function):  # noqa: N801 - written as a function in expressions
+    """1 where the first argument is less than the second, else 0."""
+
+    @classmethod
+    def eval(cls, x: sp.Expr, y: sp.Expr) -> sp.Expr | None:
+        """Numbers compare at once."""
+        if x.is_number and y.is_number:
+            return sp.Integer(1) if x < y else sp.Integer(0)
+        return None
+
+
+def phasor() -> tuple[sp.Expr, sp.Expr]:
+    """z of a free motion with displacement a and velocity b: a = Re z, b = Re(lambda z).
+
+    lambda = omega_n (-xi + i sqrt(1 - xi^2)); free motion only turns and shrinks z.
+    """
+    omega_d = omega_n * sp.sqrt(1 - xi**2)
+    return a, -(b + xi * omega_n * a) / omega_d
+
+
+def rotation() -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
+    """exp(lambda tau) of the free motion and exp(i omega_q tau) of the drive, real and imaginary parts."""
+    omega_d = omega_n * sp.sqrt(1 - xi**2)
+    decay, angle = sp.exp(-xi * omega_n * tau), (omega_n + Delta_omega) * tau
+    return decay * sp.cos(omega_d * tau), decay * sp.sin(omega_d * tau), sp.cos(angle), sp.sin(angle)
+
+
+def _turned(re: sp.Expr, im: sp.Expr, c_re: sp.Expr, c_im: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+    return re * c_re - im * c_im, re * c_im + im * c_re
+
+
+@cache
+def wave() -> dict[str, sp.Expr]:
+    """Wave height, surface speed amplitude and phase, after phasors f and p have turned by e and d (eqs. 11, 20).
+
+    W_c = sqrt(w_A^2 + w_B^2); with q = w_A' w_B - w_B' w_A the surface speed is
+    D k_c (q cos u - W_c W_c' sin u) / W_c = R_v cos(u - phi).
+    """
+    omega_d, omega_q = omega_n * sp.sqrt(1 - xi**2), omega_n + Delta_omega
+    drive = _turned(p_re, p_im, d_re, d_im)
+    steady = {"A": (drive[0], drive[1]), "B": (-s * drive[1], s * drive[0])}
+    w, velocity = {}, {}
+    for phase, re, im, gate in (("A", f_A_re, f_A_im, g_A), ("B", f_B_re, f_B_im, g_B)):
+        z_re, z_im = _turned(re, im, e_re, e_im)
+        on_re, on_im = steady[phase]
+        w[phase] = z_re + gate * W * on_re
+        velocity[phase] = -xi * omega_n * z_re - omega_d * z_im - gate * W * omega_q * on_im
+    q = velocity["A"] * w["B"] - velocity["B"] * w["A"]
+    growth = w["A"] * velocity["A"] + w["B"] * velocity["B"]
+    length = sp.sqrt(q**2 + growth**2) + TINY
+    return {
+        "W_c": sp.sqrt(w["A"] ** 2 + w["B"] ** 2),
+        "R_v": D * k_c * sp.sqrt(velocity["A"] ** 2 + velocity["B"] ** 2),
+        "phi": sp.atan2(-growth, q),
+        "cos_phi": q / length,
+        "sin_phi": -growth / length,
+    }
+
+
+def coefficients() -> dict[str, sp.Expr]:
+    """What a point's steps share: engagement per wave height, and the accelerations of the rotor's rim (eq. 38).
+
+    engagement = 2 n_j k_N W_c / (k_c F_c) compares the layer's force at full wave with the prepressure; the rim's
+    speed v = omega r_c obeys v' = push f - drag.
+    """
+    return {
+        "engagement_per_height": 2 * n_j * k_N / (k_c * F_c),
+        "push": r_c**2 * mu * F_c / J,
+        "drag": r_c * T_load / J,
+    }
+
+
+def hertz_full_height() -> sp.Expr:
+    """Wave height at which the Hertz half-angle, which falls as 1/sqrt(W), is pi (eqs. 25, 26)."""
+    return hertz_half_angle() ** 2 * W / sp.pi**2
+
+
+def filling() -> dict[str, sp.Expr]:
+    """Engagement of the layer, and how full the contact is: 1 when the whole wave touches, W_c small (eq. 31)."""
+    engaged = engagement_per_height * W_c
+    return {"engagement": engaged, "fullness": sp.Min(1, 1 / (sp.pi * engaged + TINY))}
+
+
+@cache
+def _guess() -> sp.Expr:
+    """theta from its fullness t to 2e-4: pi - sqrt(1 - t) times a polynomial in the cube root of t and sqrt(1 - t).
+
+    sin theta - theta cos theta = pi t has a cube root at t = 0 and a square root at t = 1; the fit takes both out.
+    Least squares on a fixed grid of theta in multiprecision, so the coefficients are reproducible.
+    """
+    with mp.workdps(40):
+        rows, right = [], []
+        count = 160
+        for i in range(1, count):
+            angle = mp.pi * (1 - mp.cos(mp.pi * i / count)) / 2
+            t = (mp.sin(angle) - angle * mp.cos(angle)) / mp.pi
+            root, rest = mp.cbrt(t), mp.sqrt(1 - t)
+            weight = rest / min(angle, mp.pi - angle)
+            basis = [root**k for k in range(5)] + [rest * root**k for k in range(3)]
+            rows.append([weight * value for value in basis])
+            right.append(weight * (mp.pi - angle) / rest)
+        solution = mp.lu_solve(mp.matrix(rows), mp.matrix(right))
+        fitted = [sp.Float(mp.nstr(value, 17), 17) for value in solution]
+    rest_ = sp.sqrt(1 - fullness)
+    polynomial = sum(c * fullness_root**k for k, c in enumerate(fitted[:5]))
+    polynomial += rest_ * sum(c * fullness_root**k for k, c in enumerate(fitted[5:]))
+    return sp.pi - rest_ * polynomial
+
+
+@cache
+def contact_winkler() -> dict[str, sp.Expr]:
+    """Half-angle, its sine, and the constant part of the pressure's share, from fullness t and its cube root (eq. 31).
+
+    One Halley step on sin theta - theta cos theta = pi t from the guess.  The share of pressure between -u and u is
+    engagement sin u + share u; a whole wave in contact (t = 1) has theta = pi and share = 1/pi.
+    """
+    guess = _guess()
+    sine, cosine = sp.sin(guess), sp.cos(guess)
+    residual = sine - guess * cosine - sp.pi * fullness
+    slope, bend = guess * sine, sine + guess * cosine
+    angle = sp.Min(guess - 2 * residual * slope / (2 * slope**2 - residual * bend + TINY), sp.pi)
+    step = angle - guess
+    sin_angle = sine + step * (cosine - step * sine / 2)
+    cos_angle = cosine - step * (sine + step * cosine / 2)
+    return {"theta": angle, "sin_theta": sin_angle, "share": -cos_angle / (sp.pi * fullness)}
+
+
+@cache
+def contact_hertz() -> dict[str, sp.Expr]:
+    """The same for the paper's Hertz width at wave height W_c (eqs. 25, 26), theta limited to pi.
+
+    The pressure keeps the cosine shape over that width (eq. 30), scaled to carry the prepressure.
+    """
+    angle = sp.pi * sp.sqrt(sp.Min(1, W_full / (W_c + TINY)))
+    scale = 1 / (sp.sin(angle) - angle * sp.cos(angle))
+    return {"theta": angle, "sin_theta": sp.sin(angle), "share": -scale * sp.cos(angle), "engagement": scale}
+
+
+@cache
+def friction() -> dict[str, sp.Expr]:
+    """Net friction fraction f of mu F_c at rim speed v, and df/dv (eqs. 33 to 37 in one form).
+
+    The surface is faster than the rotor between phi - alpha and phi + alpha, cos alpha = v / R_v.  With C(u) the
+    pressure's cumulative share, continued over the crests, f = 2 (C(phi + alpha) - C(phi - alpha)) - 1: f = -1 for a
+    rotor faster than all of the surface, +1 for one slower.
+    """
+    ratio = sp.Max(-1, sp.Min(1, v / (R_v + TINY)))
+    alpha, sine = sp.acos(ratio), sp.sqrt(1 - ratio**2)
+    shares, pressures = [], []
+    for sign in (1, -1):
+        u = phi + sign * alpha
+        turns = less(sp.pi, u) - less(u, -sp.pi)
+        wrapped = u - 2 * sp.pi * turns
+        sin_u = sin_phi * ratio + sign * cos_phi * sine
+        cos_u = cos_phi * ratio - sign * sin_phi * sine
+        inside = less(sp.Abs(wrapped), theta)
+        side = 2 * less(0, wrapped) - 1
+        clipped = inside * wrapped + (1 - inside) * side * theta
+        sin_clipped = inside * sin_u + (1 - inside) * side * sin_theta
+        shares.append(turns + (engagement * sin_clipped + share * clipped) / 2)
+        pressures.append(sp.Max(0, engagement * cos_u + share) / 2)
+    fraction = 2 * (shares[0] - shares[1]) - 1
+    moving = less(sp.Abs(v), R_v)
+    slope = -2 * moving * (pressures[0] + pressures[1]) / (R_v * sine + TINY)
+    return {"f": fraction, "f_v": slope}

@@ -1,0 +1,107 @@
+// A value class over LANES points, on which the generated C runs unmodified.  Every operation acts on each lane
+// alone and in the same order whatever the width, so a result does not depend on the width or on its neighbours.
+// Include inside a namespace of its own, with LANES defined.
+
+typedef double Vector __attribute__((vector_size(8 * LANES)));
+typedef long long Bits __attribute__((vector_size(8 * LANES)));
+
+struct Lane {
+  Vector v;
+  Lane() = default;
+  Lane(Vector vector) : v(vector) {}
+  Lane(double x) : v(x - Vector{}) {}
+  Lane(int x) : Lane(static_cast<double>(x)) {}
+  double operator[](int i) const { return v[i]; }
+  void set(int i, double x) { v[i] = x; }
+};
+
+inline Lane operator+(Lane a, Lane b) { return a.v + b.v; }
+inline Lane operator-(Lane a, Lane b) { return a.v - b.v; }
+inline Lane operator*(Lane a, Lane b) { return a.v * b.v; }
+inline Lane operator/(Lane a, Lane b) { return a.v / b.v; }
+inline Lane operator-(Lane a) { return -a.v; }
+inline Lane& operator+=(Lane& a, Lane b) { return a = a + b; }
+
+inline Lane one_where(Bits mask) { return (Vector)(mask & (Bits)Lane(1.0).v); }
+inline Lane operator<(Lane a, Lane b) { return one_where(a.v < b.v); }
+
+inline Lane select(Bits mask, Lane a, Lane b) { return (Vector)((mask & (Bits)a.v) | (~mask & (Bits)b.v)); }
+inline bool any(Bits mask) {
+  long long found = 0;
+  for (int i = 0; i < LANES; ++i) found |= mask[i];
+  return found != 0;
+}
+
+inline Lane fabs(Lane a) { return (Vector)((Bits)a.v & ~(Bits)Lane(-0.0).v); }
+inline Lane fmin(Lane a, Lane b) { return select(a.v < b.v, a, b); }
+inline Lane fmax(Lane a, Lane b) { return select(a.v > b.v, a, b); }
+inline Lane sqrt(Lane a) {
+  Lane root;
+  for (int i = 0; i < LANES; ++i) root.v[i] = __builtin_sqrt(a.v[i]);
+  return root;
+}
+
+template <int n>
+inline Lane polynomial(const double (&c)[n], Lane x) {
+  Lane sum = c[n - 1];
+  for (int k = n - 2; k >= 0; --k) sum = sum * x + c[k];
+  return sum;
+}
+
+// sin and cos of moderate arguments: quarter turns off in two parts, then the polynomial of the quadrant.
+struct Turn {
+  Lane sine, cosine;
+  Bits quadrant;
+};
+inline Turn quarter_turn(Lane x) {
+  static constexpr double sine[] = TRUM_SIN_COEFFICIENTS, cosine[] = TRUM_COS_COEFFICIENTS;
+  const double magic = 6755399441055744.0;
+  const Lane shifted = x * Lane(0.63661977236758134308) + Lane(magic);
+  const Lane n = shifted - Lane(magic);
+  const Lane r = (x - n * Lane(1.5707963267948965580)) - n * Lane(6.1232339957367658e-17);
+  const Lane q = r * r;
+  return {r * polynomial(sine, q), polynomial(cosine, q), (Bits)shifted.v};
+}
+inline Lane sin(Lane x) {
+  const Turn t = quarter_turn(x);
+  const Lane value = select((t.quadrant & 1) == 1, t.cosine, t.sine);
+  return select((t.quadrant & 2) == 2, -value, value);
+}
+inline Lane cos(Lane x) {
+  const Turn t = quarter_turn(x);
+  const Lane value = select((t.quadrant & 1) == 1, t.sine, t.cosine);
+  return select(((t.quadrant + 1) & 2) == 2, -value, value);
+}
+
+inline Lane atan2(Lane y, Lane x) {
+  static constexpr double coefficients[] = TRUM_ATAN_COEFFICIENTS;
+  const Lane ax = fabs(x), ay = fabs(y);
+  const Bits steep = ay.v > ax.v;
+  const Lane t = fmin(ax, ay) / (fmax(ax, ay) + Lane(1e-300));
+  const Bits upper = t.v > 0.41421356237309504880 - Vector{};
+  const Lane u = select(upper, (t - Lane(1.0)) / (t + Lane(1.0)), t);
+  Lane angle = u * polynomial(coefficients, u * u);
+  angle = select(upper, angle + Lane(0.78539816339744830962), angle);
+  angle = select(steep, Lane(1.57079632679489661923) - angle, angle);
+  angle = select(x.v < Vector{}, Lane(3.14159265358979323846) - angle, angle);
+  return select(y.v < Vector{}, -angle, angle);
+}
+inline Lane acos(Lane x) { return atan2(sqrt((Lane(1.0) - x) * (Lane(1.0) + x)), x); }
+
+inline Lane exp(Lane x) {
+  static constexpr double coefficients[] = TRUM_EXP_COEFFICIENTS;
+  const double magic = 6755399441055744.0;
+  const Lane bounded = fmax(x, Lane(-700.0));
+  const Lane shifted = bounded * Lane(1.4426950408889634074) + Lane(magic);
+  const Lane n = shifted - Lane(magic);
+  const Lane r = (bounded - n * Lane(0.69314718055994528623)) - n * Lane(2.3190468138462995584e-17);
+  return (Vector)((Bits)polynomial(coefficients, r).v + ((Bits)shifted.v << 52));
+}
+
+// Cube root of a positive number to 1e-4, enough for the first guess that it serves.
+inline Lane cube_root_guess(Lane t) {
+  const Bits high = (Bits)t.v >> 32;
+  const Bits third = ((high * 0x55555556LL) >> 32) + 0x2A9F7893LL;
+  const Lane r = (Vector)(third << 32), cube = r * r * r;
+  return r * (cube + t + t) / (cube + cube + t);
+}

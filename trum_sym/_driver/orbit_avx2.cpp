@@ -1,0 +1,3 @@
+#define LANES 8
+#define ORBIT orbit_avx2
+#include "orbit.inc"

@@ -1,0 +1,3 @@
+#define LANES 16
+#define ORBIT orbit_avx512
+#include "orbit.inc"
