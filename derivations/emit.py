@@ -167,7 +167,8 @@ def _quadrature() -> str:
 def _elementary() -> str:
     """Coefficients of elementary functions over lanes, to 17 digits.
 
-    sin and cos by Taylor on [-pi/4, pi/4], exp within half a factor of 2; atan(t)/t as a polynomial in t^2 for t up to tan(pi/8).
+    sin and cos by Taylor on [-pi/4, pi/4], exp within half a factor of 2; atan(t)/t as a
+    polynomial in t^2 for t up to tan(pi/8).
     """
     with mp.workdps(40):
         sine = [(-1) ** k / mp.factorial(2 * k + 1) for k in range(9)]

@@ -207,6 +207,9 @@ def _rotor() -> list[Kernel]:
             {"theta": "rad", "sin_theta": "1", "share": "1", "engagement": "1"},
         ),
         Kernel(
+            "trum_stall_torque", "Torque on a held rotor (eq. 38)", {"torque": rotor.stall_torque()}, {"torque": "N*m"}
+        ),
+        Kernel(
             "trum_friction",
             "Net friction fraction and its slope (eqs. 33 to 37)",
             rotor.friction(),

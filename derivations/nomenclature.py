@@ -89,6 +89,7 @@ phi         | rad      | r | phase of the surface speed, from the crest
 cos_phi     | 1        | r | its cosine
 sin_phi     | 1        | r | its sine
 R_v         | m/s      | + | amplitude of the surface speed along the wave
+f           | 1        | r | net friction fraction, of mu F_c
 v           | m/s      | r | speed of the rotor's rim, omega r_c
 T_load      | N*m      | r | load torque
 """

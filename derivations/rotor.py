@@ -26,6 +26,7 @@ __all__ = [
     "less",
     "phasor",
     "rotation",
+    "stall_torque",
     "wave",
 ]
 
@@ -36,10 +37,10 @@ p_re, p_im, e_re, e_im, d_re, d_im, g_A, g_B = sym("p_re p_im e_re e_im d_re d_i
 W_c, engagement, share, theta, phi, R_v, v = sym("W_c engagement share theta phi R_v v")
 fullness, fullness_root, sin_theta, cos_phi, sin_phi = sym("fullness fullness_root sin_theta cos_phi sin_phi")
 n_j, k_N, F_c, mu, r_c, J, T_load = sym("n_j k_N F_c mu r_c J T_load")
-engagement_per_height, W_full = sym("engagement_per_height W_full")
+engagement_per_height, W_full, fraction = sym("engagement_per_height W_full f")
 
 
-class less(sp.Function):  # noqa: N801 - written as a function in expressions
+class less(sp.Function):  # type: ignore[misc]
     """1 where the first argument is less than the second, else 0."""
 
     @classmethod
@@ -51,7 +52,7 @@ class less(sp.Function):  # noqa: N801 - written as a function in expressions
 
 
 def phasor() -> tuple[sp.Expr, sp.Expr]:
-    """z of a free motion with displacement a and velocity b: a = Re z, b = Re(lambda z).
+    """Z of a free motion with displacement a and velocity b: a = Re z, b = Re(lambda z).
 
     lambda = omega_n (-xi + i sqrt(1 - xi^2)); free motion only turns and shrinks z.
     """
@@ -111,6 +112,11 @@ def coefficients() -> dict[str, sp.Expr]:
     }
 
 
+def stall_torque() -> sp.Expr:
+    """Torque on a rotor held still, from the cycle's mean net friction fraction f (eqs. 36, 38)."""
+    return r_c * mu * F_c * fraction
+
+
 def hertz_full_height() -> sp.Expr:
     """Wave height at which the Hertz half-angle, which falls as 1/sqrt(W), is pi (eqs. 25, 26)."""
     return hertz_half_angle() ** 2 * W / sp.pi**2
@@ -124,7 +130,7 @@ def filling() -> dict[str, sp.Expr]:
 
 @cache
 def _guess() -> sp.Expr:
-    """theta from its fullness t to 2e-4: pi - sqrt(1 - t) times a polynomial in the cube root of t and sqrt(1 - t).
+    """Theta from its fullness t to 2e-4: pi - sqrt(1 - t) times a polynomial in the cube root of t and sqrt(1 - t).
 
     sin theta - theta cos theta = pi t has a cube root at t = 0 and a square root at t = 1; the fit takes both out.
     Least squares on a fixed grid of theta in multiprecision, so the coefficients are reproducible.
@@ -200,7 +206,7 @@ def friction() -> dict[str, sp.Expr]:
         sin_clipped = inside * sin_u + (1 - inside) * side * sin_theta
         shares.append(turns + (engagement * sin_clipped + share * clipped) / 2)
         pressures.append(sp.Max(0, engagement * cos_u + share) / 2)
-    fraction = 2 * (shares[0] - shares[1]) - 1
+    net = 2 * (shares[0] - shares[1]) - 1
     moving = less(sp.Abs(v), R_v)
     slope = -2 * moving * (pressures[0] + pressures[1]) / (R_v * sine + TINY)
-    return {"f": fraction, "f_v": slope}
+    return {"f": net, "f_v": slope}

@@ -121,6 +121,11 @@ int trum_contact_hertz(const double** arg, double** res, long long int* iw, doub
 enum { trum_contact_hertz_in_W_c, trum_contact_hertz_in_W_full, trum_contact_hertz_n_arg };
 enum { trum_contact_hertz_out_theta, trum_contact_hertz_out_sin_theta, trum_contact_hertz_out_share, trum_contact_hertz_out_engagement, trum_contact_hertz_n_res };
 
+/* Torque on a held rotor (eq. 38) */
+int trum_stall_torque(const double** arg, double** res, long long int* iw, double* w, int mem);
+enum { trum_stall_torque_in_F_c, trum_stall_torque_in_f, trum_stall_torque_in_mu, trum_stall_torque_in_r_c, trum_stall_torque_n_arg };
+enum { trum_stall_torque_out_torque, trum_stall_torque_n_res };
+
 /* Net friction fraction and its slope (eqs. 33 to 37) */
 int trum_friction(const double** arg, double** res, long long int* iw, double* w, int mem);
 enum { trum_friction_in_R_v, trum_friction_in_cos_phi, trum_friction_in_engagement, trum_friction_in_phi, trum_friction_in_share, trum_friction_in_sin_phi, trum_friction_in_sin_theta, trum_friction_in_theta, trum_friction_in_v, trum_friction_n_arg };
@@ -151,6 +156,7 @@ enum { trum_friction_out_f, trum_friction_out_f_v, trum_friction_n_res };
   X(trum_filling, 2, 2, "W_c engagement_per_height", "engagement fullness") \
   X(trum_contact_winkler, 2, 3, "fullness fullness_root", "theta sin_theta share") \
   X(trum_contact_hertz, 2, 4, "W_c W_full", "theta sin_theta share engagement") \
+  X(trum_stall_torque, 4, 1, "F_c f mu r_c", "torque") \
   X(trum_friction, 9, 2, "R_v cos_phi engagement phi share sin_phi sin_theta theta v", "f f_v")
 
 /* gates of the phases in the regions of a cycle */

@@ -34,10 +34,16 @@ pytestmark = pytest.mark.filterwarnings("ignore::trum_sym.ValidityWarning")
 # --- Any input at all ----------------------------------------------------------------------------
 
 
+ROTOR_NUMBERS = ("mean_speed", "min_speed", "max_speed", "speed_volatility", "stall_torque", "contact_fraction")
+
+
 def assert_no_nan(point):
     for name in POINT_NUMBERS:
         value = getattr(point, name)
-        assert math.isfinite(value) or (name in ("q_ratio", "q_square_ratio") and value == math.inf), name
+        infinite = name in ("q_ratio", "q_square_ratio") and value == math.inf
+        unsettled = name in ROTOR_NUMBERS and not point.converged  # said so by the flag
+        volatile = name == "speed_volatility" and point.mean_speed == 0
+        assert math.isfinite(value) or infinite or unsettled or volatile, name
 
 
 def evaluate_or_refuse(make):

@@ -58,7 +58,7 @@ OUT_OF_DOMAIN = [
     ("--periods", "0", ("got 0", "an integer >= 1")),
     ("--periods", "-20", ("got -20", "an integer >= 1")),
     ("--periods", "20.5", ("got 20.5", "an integer")),
-    ("--periods", "100001", ("got 100001", "<= 100000")),
+    ("--periods", "10001", ("got 10001", "<= 10000")),
     ("--on-periods", "0", ("got 0", "an integer >= 1")),
     ("--on-periods", "-14", ("got -14", "an integer >= 1")),
     ("--on-periods", "13.5", ("got 13.5", "an integer")),
@@ -127,11 +127,11 @@ BAD_SETS = [
     ("contact_radius=26 kg", ("contact_radius", "got 26 kg", "in m")),
     ("contact_radius=26 inch", ("contact_radius", "got 26 inch", "in m", "unknown unit")),
     ("contact_radius=wide", ("contact_radius", "got wide", "in m")),
-    ("contact_radius=nan", ("contact_radius", "got nan", "> 0 in m")),
-    ("contact_radius=inf", ("contact_radius", "got inf", "> 0 in m")),
-    ("contact_radius=-inf", ("contact_radius", "got -inf", "> 0 in m")),
-    ("contact_radius=0", ("contact_radius", "got 0", "> 0 in m")),
-    ("contact_radius=-26 mm", ("contact_radius", "got -0.026", "> 0 in m")),
+    ("contact_radius=nan", ("contact_radius", "got nan", "> 0 and < 10 in m")),
+    ("contact_radius=inf", ("contact_radius", "got inf", "> 0 and < 10 in m")),
+    ("contact_radius=-inf", ("contact_radius", "got -inf", "> 0 and < 10 in m")),
+    ("contact_radius=0", ("contact_radius", "got 0", "> 0 and < 10 in m")),
+    ("contact_radius=-26 mm", ("contact_radius", "got -0.026", "> 0 and < 10 in m")),
     ("damping_ratio=1", ("damping_ratio", "got 1", "< 1")),
     ("damping_ratio=1.5", ("damping_ratio", "got 1.5", "< 1")),
     ("damping_ratio=-0.001", ("damping_ratio", "got -0.001", ">= 0")),
@@ -161,7 +161,9 @@ def test_console_refuses_a_bad_set(console_refuses, override, naming):
     console_refuses("evaluate", "--set", override, naming=naming)
 
 
-@pytest.mark.parametrize("override", ["crests=1e300", "radius=1e-300", "neutral_axis=1e300", "piezo_thickness=1e100"])
+@pytest.mark.parametrize(
+    "override", ["crests=1e300", "radius=1e-300", "piezo_density=1e300", "beam_young_modulus=1e300"]
+)
 def test_console_blames_the_motor_where_its_values_give_no_resonance(console_refuses, override):
     line = console_refuses("evaluate", "--set", override, naming=("resonance_frequency",))
     assert "frequency_difference" not in line

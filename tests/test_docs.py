@@ -23,7 +23,7 @@ def lines(text):
     return [line.rstrip() for line in text.strip().splitlines()]
 
 
-@pytest.mark.parametrize("example", ["table4.py", "resonance_levels.py", "forced_amplitude.py"])
+@pytest.mark.parametrize("example", ["table4.py", "resonance_levels.py", "forced_amplitude.py", "rotor_speed.py"])
 def test_the_docs_show_what_the_examples_print(example):
     done = subprocess.run(
         [sys.executable, ROOT / "examples" / example], capture_output=True, text=True, encoding="utf-8", check=True

@@ -41,7 +41,7 @@ def test_json_is_the_python_result(capsys, trum60):
     _, out, _ = run(capsys, "--json", "--start", "rest", "--phase-lead", "-1", "--frequency-difference", "-2.5 kHz")
     printed = json.loads(out)
     point = ts.evaluate(trum60, ts.Drive(start="rest", phase_lead=-1, frequency_difference=-2500.0))
-    assert printed == point.as_dict()
+    assert printed == pytest.approx(point.as_dict())
 
 
 def test_infinite_ratios_are_null_in_json(capsys):
@@ -54,7 +54,7 @@ def test_infinite_ratios_are_null_in_json(capsys):
 def test_table_shows_ours_and_the_papers_values_at_table_3(capsys):
     code, out, _ = run(capsys)
     assert code == 0
-    for text in ("1447.5", "3446.4", "39703", "5.5", "633", "17.3", "Table 4", "not computed"):
+    for text in ("1447.5", "3446.4", "39703", "5.5", "633", "17.3", "Table 4", "stall torque"):
         assert text in out
 
 

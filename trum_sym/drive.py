@@ -15,13 +15,13 @@ __all__ = ["DRIVE_DOMAINS", "STARTS", "Drive", "Start", "choice"]
 Start = Literal["periodic", "steady", "rest"]
 STARTS: tuple[Start, ...] = ("periodic", "steady", "rest")
 
-_PULSES = Domain(low=1, low_open=False, high=100_000, high_open=False, integer=True)
+_PULSES = Domain(low=1, low_open=False, high=10_000, high_open=False, integer=True)
 DRIVE_DOMAINS = {
     "prepressure": (Domain(low=0.0, high=1e6), "N"),
     "frequency_difference": (Domain(low=-1e9, high=1e9), "Hz"),
     "periods": (_PULSES, "1"),
     "on_periods": (_PULSES, "1"),
-    "load_torque": (Domain(), "N*m"),
+    "load_torque": (Domain(low=-1e9, high=1e9), "N*m"),
     "switching_phase": (Domain(low=-1e6, high=1e6), "rad"),
 }
 

@@ -16,9 +16,14 @@ except ImportError as error:  # pragma: no cover - an installed package has them
         "`pip install -e .`, or leave its folder to use the installed package"
     ) from error
 
-__all__ = ["call"]
+__all__ = ["call", "signature"]
 
 _SIGNATURES = {name: (i.split(), o.split()) for name, (i, o) in _kernels.signatures.items()}
+
+
+def signature(kernel: str) -> tuple[list[str], list[str]]:
+    """The names of a kernel's arguments and outputs, in order."""
+    return _SIGNATURES[kernel]
 
 
 def call(kernel: str, values: Mapping[str, ArrayLike]) -> dict[str, ArrayLike]:

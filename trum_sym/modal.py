@@ -9,7 +9,7 @@ from trum_sym.errors import ParameterError
 from trum_sym.kernels import call
 from trum_sym.validate import ArrayLike
 
-__all__ = ["check_steady_state", "cycle_sums", "modal_values", "response"]
+__all__ = ["check_steady_state", "cycle_sums", "modal_values", "response", "scaled"]
 
 _MIN_REPETITION = 1e-9
 PANELS_PER_PERIOD = 4
@@ -56,6 +56,12 @@ def modal_values(
             "more damping, another frequency_difference or periods, or start = steady or rest",
         )
     return {**values, **start}
+
+
+def scaled(values: dict[str, ArrayLike], amplitude: ArrayLike) -> dict[str, ArrayLike]:
+    """The arguments of another amplitude: the phases are linear, so the free motion scales with it."""
+    lengths = {name: np.multiply(values[name], amplitude) for name in ("W", "a_A", "b_A", "a_B", "b_B")}
+    return {**values, **lengths}
 
 
 def response(

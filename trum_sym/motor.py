@@ -16,6 +16,8 @@ from trum_sym.validate import ArrayLike, Domain, broadcast_shape, number
 __all__ = ["SPECS", "Motor", "Parameter", "Published", "Spec", "spec"]
 
 _POSITIVE = Domain(low=0.0)
+_SIZE = Domain(low=0.0, high=10.0)  # m
+_VIBRATION = Domain(low=0.0, high=1e-2)  # m
 _NOT_NEGATIVE = Domain(low=0.0, low_open=False)
 _COUNT = Domain(low=1, low_open=False, integer=True)
 _POISSON = Domain(low=-1.0, high=0.5, high_open=False)
@@ -89,20 +91,20 @@ class Motor:
 
     name: str
     # Stator ring: metal beam with teeth
-    radius: Parameter = _p("m", "R")
+    radius: Parameter = _p("m", "R", _SIZE)
     tooth_count: Parameter = _p("1", "n_s", _COUNT)
-    perimeter: Parameter = _p("m", "l_s")
-    slot_width: Parameter = _p("m", "b_s")
-    beam_width: Parameter = _p("m", "b_e")
-    beam_thickness: Parameter = _p("m", "h_e")
-    tooth_height: Parameter = _p("m", "h_t")
+    perimeter: Parameter = _p("m", "l_s", _SIZE)
+    slot_width: Parameter = _p("m", "b_s", _SIZE)
+    beam_width: Parameter = _p("m", "b_e", _SIZE)
+    beam_thickness: Parameter = _p("m", "h_e", _SIZE)
+    tooth_height: Parameter = _p("m", "h_t", _SIZE)
     beam_density: Parameter = _p("kg/m^3", "rho_e")
     beam_young_modulus: Parameter = _p("Pa", "E_e")
     beam_shear_modulus: Parameter = _p("Pa", "G_e")
     beam_poisson_ratio: Parameter = _p("1", "mu_e", _POISSON)
     # Piezoelectric ring
-    piezo_width: Parameter = _p("m", "b_p")
-    piezo_thickness: Parameter = _p("m", "h_p")
+    piezo_width: Parameter = _p("m", "b_p", _SIZE)
+    piezo_thickness: Parameter = _p("m", "h_p", _SIZE)
     piezo_density: Parameter = _p("kg/m^3", "rho_p")
     piezo_young_modulus: Parameter = _p("Pa", "E_p")
     piezo_shear_modulus: Parameter = _p("Pa", "G_p")
@@ -111,8 +113,8 @@ class Motor:
     piezo_compliance: Parameter = _p("m^2/N", "s_11E")
     voltage: Parameter = _p("V", "U_s")
     # Friction layer
-    layer_width: Parameter = _p("m", "b_m")
-    layer_thickness: Parameter = _p("m", "h_m")
+    layer_width: Parameter = _p("m", "b_m", _SIZE)
+    layer_thickness: Parameter = _p("m", "h_m", _SIZE)
     layer_density: Parameter = _p("kg/m^3", "rho_m")
     layer_young_modulus: Parameter = _p("Pa", "E_m")
     layer_poisson_ratio: Parameter = _p("1", "mu_m", _POISSON)
@@ -120,20 +122,20 @@ class Motor:
     crests: Parameter = _p("1", "n_j", _COUNT)
     shear_correction: Parameter = _p("1", "kappa", Domain(low=0.0, high=1.0, high_open=False))
     damping_ratio: Parameter = _p("1", "xi", Domain(low=0.0, low_open=False, high=1.0))
-    free_amplitude: Parameter = _p("m", "W_max")
+    free_amplitude: Parameter = _p("m", "W_max", _VIBRATION)
     amplitude_factor: Parameter = _p("1", "C_f")
     amplitude_exponent: Parameter = _p("1", "varsigma", _NOT_NEGATIVE)
     fit_prepressure_min: Parameter = _p("N", "F_min")
     fit_prepressure_max: Parameter = _p("N", "F_max")
     # Contact and rotor
     friction_coefficient: Parameter = _p("1", "mu", _NOT_NEGATIVE)
-    contact_radius: Parameter = _p("m", "r_c")
-    curvature_radius: Parameter = _p("m", "r_t")
-    rotor_inertia: Parameter = _p("kg*m^2", "J")
+    contact_radius: Parameter = _p("m", "r_c", _SIZE)
+    curvature_radius: Parameter = _p("m", "r_t", _SIZE)
+    rotor_inertia: Parameter = _p("kg*m^2", "J", Domain(low=1e-15, high=1e6))
     # A measured value replaces the modelled one
     resonance_frequency: Parameter | None = _optional("Hz", "f_n", Domain(low=0.0, high=1e9))
-    amplitude: Parameter | None = _optional("m", "W_maxf")
-    neutral_axis: Parameter | None = _optional("m", "D")
+    amplitude: Parameter | None = _optional("m", "W_maxf", _VIBRATION)
+    neutral_axis: Parameter | None = _optional("m", "D", _SIZE)
     wavenumber: Parameter | None = _optional("1/m", "k_c")
     layer_stiffness: Parameter | None = _optional("N/m^2", "k_N")
     published: tuple[Published, ...] = ()

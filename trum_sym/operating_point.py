@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -10,8 +11,9 @@ import numpy as np
 from trum_sym.drive import Drive, choice
 from trum_sym.errors import ParameterError
 from trum_sym.kernels import call
-from trum_sym.modal import check_steady_state, cycle_sums, modal_values
+from trum_sym.modal import check_steady_state, cycle_sums, modal_values, scaled
 from trum_sym.motor import Motor
+from trum_sym.rotor import Orbit, encoder_deviation, history, orbit_values, solve_orbit
 from trum_sym.stator import (
     AMPLITUDES,
     CONTACTS,
@@ -24,17 +26,18 @@ from trum_sym.stator import (
     Resonance,
     solve_stator,
 )
-from trum_sym.validate import ArrayLike, Domain, broadcast_shape, number
+from trum_sym.validate import Array, ArrayLike, Domain, broadcast_shape, number
 
 __all__ = ["OperatingPoint", "evaluate"]
+
+_ENCODER_SAMPLES = 64  # per drive period, of the path that the encoder differences
 
 
 @dataclass(frozen=True, kw_only=True)
 class OperatingPoint:
     """What the motor does at a drive; SI units, frequencies in Hz, speeds in rad/s.
 
-    Every number is a float, or an array of the inputs' common shape.  What needs the rotor model, which
-    is not part of this version, is None: ``mean_speed`` and all below it.
+    Every number is a float, or an array of the inputs' common shape.
 
     Attributes
     ----------
@@ -52,6 +55,16 @@ class OperatingPoint:
         X and Y, forward over backward, of Q and of its square; infinite when Q never turns back.
     q_average, q_volatility : 1/s
         Q_aver and Q_vib (eqs. 43, 44); the sign is the direction.
+    mean_speed, min_speed, max_speed : rad/s
+        Of the rotor over its periodic orbit; NaN where no speed balances the load.
+    speed_volatility : 1
+        Standard deviation over the mean's magnitude (eq. 40), continuous or as an encoder averages.
+    stall_torque : N m
+        Mean torque on the rotor held still: a larger load drives it back.
+    contact_fraction : 1
+        Mean share of the wave in contact, theta/pi.
+    converged : bool
+        Whether mean and extremes met the tolerance.
     """
 
     motor: str
@@ -69,13 +82,13 @@ class OperatingPoint:
     q_square_ratio: ArrayLike
     q_average: ArrayLike
     q_volatility: ArrayLike
-    mean_speed: ArrayLike | None = None
-    min_speed: ArrayLike | None = None
-    max_speed: ArrayLike | None = None
-    speed_volatility: ArrayLike | None = None
-    stall_torque: ArrayLike | None = None
-    contact_fraction: ArrayLike | None = None
-    converged: bool | np.ndarray[tuple[int, ...], np.dtype[np.bool_]] | None = None
+    mean_speed: ArrayLike
+    min_speed: ArrayLike
+    max_speed: ArrayLike
+    speed_volatility: ArrayLike
+    stall_torque: ArrayLike
+    contact_fraction: ArrayLike
+    converged: bool | np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
 
     def as_dict(self) -> dict[str, object]:
         """The figures by name, in the order of the fields."""
@@ -91,6 +104,7 @@ def evaluate(
     foundation: Foundation = "harmonic",
     amplitude: Amplitude = "measured",
     sampling_period: ArrayLike | None = None,
+    tolerance: float = 1e-3,
 ) -> OperatingPoint:
     """The operating point of a motor under a drive.
 
@@ -110,6 +124,8 @@ def evaluate(
         Eq. 8 on the measured amplitude, or on the derived forced one (eq. 7 put right).
     sampling_period : float or array, s, optional
         Averaging period of the encoder behind ``speed_volatility``; continuous if not given.
+    tolerance : float
+        Of the mean speed and its extremes, relative to the largest speed; from 1e-9 to 1e-2.
 
     Returns
     -------
@@ -138,6 +154,7 @@ def evaluate(
     if sampling_period is not None:
         inputs["sampling_period"] = number("sampling_period", sampling_period, Domain(low=0.0), "s")
     shape = broadcast_shape(inputs)
+    number("tolerance", tolerance, Domain(low=1e-9, low_open=False, high=1e-2, high_open=False), "1")
     check_steady_state(motor.damping_ratio.value, drive)
     stator = solve_stator(motor, drive, Levels(contact, resonance, foundation, amplitude))
     values = modal_values(stator.omega_n, motor.damping_ratio.value, drive)
@@ -154,8 +171,41 @@ def evaluate(
         "wavenumber": stator.k_c,
         **cycle_sums(values),
     }
+    symbols = {**motor.symbols(), **stator.values, "F_c": drive.prepressure, "T_load": drive.load_torque}
+    arguments = orbit_values(scaled(values, stator.W), symbols, contact, tolerance)
+    orbit = solve_orbit(arguments, symbols)
+    deviation = np.sqrt(orbit.variance)
+    if sampling_period is not None:
+        deviation = _encoder(arguments, orbit, timing["T"], sampling_period) / np.asarray(symbols["r_c"])
+    with np.errstate(all="ignore"):
+        volatility = deviation / np.abs(orbit.mean_speed)
+    figures.update(
+        mean_speed=orbit.mean_speed,
+        min_speed=orbit.min_speed,
+        max_speed=orbit.max_speed,
+        speed_volatility=volatility,
+        stall_torque=orbit.stall_torque,
+        contact_fraction=orbit.contact_fraction,
+    )
     shaped: dict[str, Any] = {name: _shaped(value, shape) for name, value in figures.items()}
-    return OperatingPoint(motor=motor.name, start=drive.start, contact=contact, **shaped)
+    converged = np.broadcast_to(orbit.converged, shape) if shape else bool(orbit.converged)
+    return OperatingPoint(motor=motor.name, start=drive.start, contact=contact, converged=converged, **shaped)
+
+
+def _encoder(arguments: Mapping[str, ArrayLike], orbit: Orbit, cycle_time: ArrayLike, period: ArrayLike) -> Array:
+    """Standard deviation of an encoder's readings at every point, m/s at the rim."""
+    names = list(arguments)
+    raw = {name: orbit.raw[name] for name in ("low", "high", "start", "level")}
+    columns = np.broadcast_arrays(*arguments.values(), *raw.values(), cycle_time, period)
+    result = np.full(columns[0].shape, np.nan)
+    for index in np.ndindex(result.shape):
+        at = [float(column[index]) for column in columns]
+        point = dict(zip([*names, *raw], at[:-2], strict=True))
+        if np.isfinite(point["start"]):
+            count = int(_ENCODER_SAMPLES * point["m"])
+            path = history(point, point, count)["distance"]
+            result[index] = encoder_deviation(path, at[-2], at[-1])
+    return result
 
 
 def _shaped(value: ArrayLike, shape: tuple[int, ...]) -> ArrayLike:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
@@ -49,14 +50,14 @@ class Stator:
     W : amplitude of one phase, m
     D : neutral axis from the tooth surface, m
     k_c : wavenumber, 1/m
-    theta : contact half-angle of the full wave, rad; None where no foundation is asked for
+    values : all of it by symbol, with the section and the layer
     """
 
     omega_n: ArrayLike
     W: ArrayLike
     D: ArrayLike
     k_c: ArrayLike
-    theta: ArrayLike | None
+    values: Mapping[str, ArrayLike]
 
 
 def _contact_half_angle(contact: Contact, values: dict[str, ArrayLike]) -> ArrayLike:
@@ -139,7 +140,7 @@ def solve_stator(motor: Motor, drive: Drive, levels: Levels) -> Stator:
         )
     for name, symbol in (("amplitude", "W"), ("neutral_axis", "D"), ("wavenumber", "k_c")):
         _check_size(name, values[symbol])
-    return Stator(values["omega_n"], values["W"], values["D"], values["k_c"], values.get("theta"))
+    return Stator(values["omega_n"], values["W"], values["D"], values["k_c"], values)
 
 
 def _resonance(motor: Motor, values: dict[str, ArrayLike], levels: Levels) -> None:

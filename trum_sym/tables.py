@@ -48,12 +48,12 @@ def as_table(motor: Motor, drive: Drive, point: OperatingPoint, levels: Mapping[
     rows = []
     for name, (label, unit, shown) in OUTPUTS.items():
         value, entry = getattr(point, name), published.get(name)
-        ours = "not computed" if value is None else f"{_convert(value, unit, shown):.6g}"
+        ours = f"{_convert(value, unit, shown):.6g}" if np.isfinite(value) else "-"
         paper = difference = source = ""
         if entry is not None:
             theirs = _convert(entry.value, entry.unit, shown)
             paper, source = f"{theirs:.6g}", entry.source
-            if value is not None and theirs:
+            if np.isfinite(value) and theirs:
                 difference = f"{100 * (_convert(value, unit, shown) / theirs - 1):+.2f} %"
         rows.append((label, ours, "" if shown == "1" else shown, paper, difference, source))
     table = tabulate(
@@ -66,5 +66,15 @@ def as_table(motor: Motor, drive: Drive, point: OperatingPoint, levels: Mapping[
         f"start {point.start}, phase lead {drive.phase_lead:+g}, switching phase {drive.switching_phase:g} rad\n"
         + ", ".join(f"{name} {level}" for name, level in levels.items() if level is not None)
     )
-    note = "not computed: needs the contact, transfer and rotor model, which this version does not have"
-    return "\n".join([title, "", table, *(["", note] if point.mean_speed is None else [])])
+    return "\n".join([title, "", table, *_notes(drive, point)])
+
+
+def _notes(drive: Drive, point: OperatingPoint) -> list[str]:
+    """What the figures alone do not say about the rotor."""
+    if np.isnan(float(point.mean_speed)):
+        return ["", "no speed balances the load: it exceeds what friction can transmit"]
+    notes = [] if point.converged else ["", "the rotor's speed did not settle to its tolerance"]
+    load, speed, stall = (float(x) for x in (drive.load_torque, point.mean_speed, point.stall_torque))
+    if speed * load < 0 and abs(load) > abs(stall):
+        notes += ["", "the load exceeds the stall torque and drives the rotor back"]
+    return notes

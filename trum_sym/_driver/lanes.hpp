@@ -1,5 +1,5 @@
 // A value class over LANES points, on which the generated C runs unmodified.  Every operation acts on each lane
-// alone and in the same order whatever the width, so a result does not depend on the width or on its neighbours.
+// alone and in the same order whatever the width (one register of the instruction set: GCC breaks wider ones up), so a result does not depend on the width or on its neighbours.
 // Include inside a namespace of its own, with LANES defined.
 
 typedef double Vector __attribute__((vector_size(8 * LANES)));
@@ -25,21 +25,32 @@ inline Lane& operator+=(Lane& a, Lane b) { return a = a + b; }
 inline Lane one_where(Bits mask) { return (Vector)(mask & (Bits)Lane(1.0).v); }
 inline Lane operator<(Lane a, Lane b) { return one_where(a.v < b.v); }
 
+inline Bits select_bits(Bits mask, Bits a, Bits b) { return (mask & a) | (~mask & b); }
 inline Lane select(Bits mask, Lane a, Lane b) { return (Vector)((mask & (Bits)a.v) | (~mask & (Bits)b.v)); }
-inline bool any(Bits mask) {
-  long long found = 0;
-  for (int i = 0; i < LANES; ++i) found |= mask[i];
-  return found != 0;
-}
 
 inline Lane fabs(Lane a) { return (Vector)((Bits)a.v & ~(Bits)Lane(-0.0).v); }
 inline Lane fmin(Lane a, Lane b) { return select(a.v < b.v, a, b); }
 inline Lane fmax(Lane a, Lane b) { return select(a.v > b.v, a, b); }
+#if defined(__AVX512F__)
+static_assert(LANES == 8, "one register of lanes");
+inline Lane sqrt(Lane a) { return (Vector)_mm512_sqrt_pd((__m512d)a.v); }
+inline bool any(Bits mask) { return _mm512_test_epi64_mask((__m512i)mask, (__m512i)mask) != 0; }
+#elif defined(__AVX2__)
+static_assert(LANES == 4, "one register of lanes");
+inline Lane sqrt(Lane a) { return (Vector)_mm256_sqrt_pd((__m256d)a.v); }
+inline bool any(Bits mask) { return _mm256_movemask_pd((__m256d)mask) != 0; }
+#else
 inline Lane sqrt(Lane a) {
   Lane root;
   for (int i = 0; i < LANES; ++i) root.v[i] = __builtin_sqrt(a.v[i]);
   return root;
 }
+inline bool any(Bits mask) {
+  long long found = 0;
+  for (int i = 0; i < LANES; ++i) found |= mask[i];
+  return found != 0;
+}
+#endif
 
 template <int n>
 inline Lane polynomial(const double (&c)[n], Lane x) {

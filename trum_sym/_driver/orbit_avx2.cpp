@@ -1,3 +1,3 @@
-#define LANES 8
+#define LANES 4
 #define ORBIT orbit_avx2
 #include "orbit.inc"

@@ -1,3 +1,3 @@
-#define LANES 16
+#define LANES 8
 #define ORBIT orbit_avx512
 #include "orbit.inc"

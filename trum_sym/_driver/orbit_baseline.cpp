@@ -1,3 +1,3 @@
-#define LANES 4
+#define LANES 2
 #define ORBIT orbit_baseline
 #include "orbit.inc"

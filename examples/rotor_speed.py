@@ -1,0 +1,38 @@
+"""The rotor's speed at Table 3's drive, for every start and phase lead, with and without the load.
+
+python examples/rotor_speed.py
+"""
+
+from __future__ import annotations
+
+import math
+
+from tabulate import tabulate
+
+import trum_sym as ts
+
+ARCSEC = math.pi / 648000
+
+
+def main() -> None:
+    """Print the table."""
+    motor = ts.load_motor("trum60")
+    rows = []
+    for start in ("periodic", "steady", "rest"):
+        for lead in (1, -1):
+            for load in (0.0, 0.3):
+                drive = ts.Drive(start=start, phase_lead=lead, load_torque=load)
+                point = ts.evaluate(motor, drive, sampling_period=2e-3, tolerance=1e-6)
+                swing = (point.max_speed - point.min_speed) / ARCSEC
+                speed = point.mean_speed / ARCSEC
+                volatility = 100 * point.speed_volatility
+                rows.append((start, f"{lead:+d}", load, point.stall_torque, speed, swing, volatility))
+    headers = ("start", "lead", "load N m", "stall N m", "v_s arcsec/s", "swing arcsec/s", "sigma_s %")
+    print(
+        "Table 3's drive; Table 4 prints v_s = 633 arcsec/s and sigma_s = 17.3 %; an encoder of 2 ms, as in Sect. 8\n"
+    )
+    print(tabulate(rows, headers, floatfmt=("", "", ".1f", ".4f", ".4g", ".3g", ".3g")))
+
+
+if __name__ == "__main__":
+    main()

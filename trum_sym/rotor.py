@@ -1,0 +1,152 @@
+"""The rotor's periodic orbit: speed, its extremes and fluctuation, stall torque (Sect. 4, eqs. 38 to 41)."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from trum_sym.kernels import call, signature
+from trum_sym.validate import Array, ArrayLike
+
+__all__ = ["Orbit", "encoder_deviation", "history", "orbit_values", "solve_orbit"]
+
+_BLOCK = 256
+_CONVERGED, _FULL_CONTACT, _RUNAWAY = 1, 2, 4
+
+
+@dataclass(frozen=True)
+class Orbit:
+    """Figures of periodic orbits; arrays of one shape.
+
+    Speeds of the rotor in rad/s; ``stall_torque`` in N m is what holds the rotor still on average;
+    ``contact_fraction`` is the mean of theta/pi.  Where no speed balances the load, speeds are NaN.
+    """
+
+    mean_speed: Array
+    min_speed: Array
+    max_speed: Array
+    variance: Array
+    stall_torque: Array
+    contact_fraction: Array
+    converged: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
+    full_contact: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
+    runaway: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
+    raw: Mapping[str, Array]
+
+
+def orbit_values(
+    modal: Mapping[str, ArrayLike], stator: Mapping[str, ArrayLike], contact: str, tolerance: ArrayLike
+) -> dict[str, ArrayLike]:
+    """The driver's arguments: modal state, geometry and what the steps of a point share.
+
+    Parameters
+    ----------
+    modal : mapping
+        From :func:`trum_sym.modal.modal_values`, at the amplitude of the phases.
+    stator : mapping
+        Symbols of the motor and its section, F_c and T_load.
+    contact : str
+        ``"winkler"`` or ``"hertz"``.
+    tolerance : float or array
+        Of mean and extremes, relative to the largest speed.
+    """
+    shared = call("trum_rotor_coefficients", stator)
+    hertz = 1.0 if contact == "hertz" else 0.0
+    return {**modal, "D": stator["D"], "k_c": stator["k_c"], **shared, "hertz": hertz, "tolerance": tolerance}
+
+
+def _batch(values: Mapping[str, ArrayLike]) -> dict[str, Array]:
+    """Call the driver with points of equal pulses side by side, on all cores."""
+    inputs, outputs = signature("rotor_orbit")
+    columns = np.broadcast_arrays(*(np.asarray(values[name], np.float64) for name in inputs))
+    shape = columns[0].shape
+    flat = np.stack([column.ravel() for column in columns])
+    order = np.lexsort((flat[inputs.index("n")], flat[inputs.index("m")]))
+    flat = flat[:, order]
+    results = np.empty((len(outputs), order.size))
+
+    def run(begin: int) -> None:
+        block = flat[:, begin : begin + _BLOCK]
+        found = call("rotor_orbit", dict(zip(inputs, block, strict=True)))
+        results[:, order[begin : begin + _BLOCK]] = [found[name] for name in outputs]
+
+    starts = range(0, order.size, _BLOCK)
+    workers = min(len(starts), os.cpu_count() or 1)
+    if workers > 1:
+        from concurrent.futures import ThreadPoolExecutor  # not needed, nor waited for, by a single point
+
+        with ThreadPoolExecutor(workers) as pool:
+            list(pool.map(run, starts))
+    else:
+        for begin in starts:
+            run(begin)
+    return {name: row.reshape(shape) for name, row in zip(outputs, results, strict=True)}
+
+
+def solve_orbit(values: Mapping[str, ArrayLike], stator: Mapping[str, ArrayLike]) -> Orbit:
+    """The periodic orbit of every point.
+
+    Parameters
+    ----------
+    values : mapping
+        From :func:`orbit_values`.
+    stator : mapping
+        As there; the contact radius turns rim speeds into rotor speeds.
+    """
+    raw = _batch(values)
+    radius = np.asarray(stator["r_c"])
+    flags = raw["flags"].astype(int)
+    stall = np.asarray(call("trum_stall_torque", {**stator, "f": raw["held"]})["torque"])
+    return Orbit(
+        mean_speed=raw["mean"] / radius,
+        min_speed=raw["low"] / radius,
+        max_speed=raw["high"] / radius,
+        variance=raw["variance"] / radius**2,
+        stall_torque=stall,
+        contact_fraction=raw["contact"],
+        converged=(flags & _CONVERGED) > 0,
+        full_contact=(flags & _FULL_CONTACT) > 0,
+        runaway=(flags & _RUNAWAY) > 0,
+        raw=raw,
+    )
+
+
+def history(values: Mapping[str, ArrayLike], raw: Mapping[str, ArrayLike], count: int) -> dict[str, Array]:
+    """One cycle of an orbit at ``count`` equal times after t1, the last at the cycle's end.
+
+    Returns
+    -------
+    dict
+        ``speed`` of the rim (m/s), its ``distance`` since t1 (m) and the net ``friction`` fraction.
+    """
+    point = {name: raw[name] for name in ("low", "high", "start", "level")}
+    found = call("rotor_history", {**values, **point, "times": np.empty(count)})
+    return {name: np.asarray(value) for name, value in found.items()}
+
+
+def encoder_deviation(distance: Array, cycle_time: float, period: float) -> float:
+    """Standard deviation of the speeds that an encoder reads which averages over ``period``, m/s.
+
+    The encoder is not locked to the drive, so its windows begin anywhere in the cycle with equal chance.
+
+    Parameters
+    ----------
+    distance : (n,) array, m
+        Of the rim, at equal times of a cycle, the last at its end.
+    cycle_time : float, s
+        Of the drive.
+    period : float, s
+        Of the encoder.
+    """
+    n = distance.size
+    cycles, rest = divmod(period / cycle_time, 1.0)
+    grid = np.arange(n + 1) / n
+    path = np.concatenate([[0.0], distance])
+    advance = path[-1]
+    ends = grid[:-1] + rest
+    end_path = np.interp(ends % 1.0, grid, path) + np.floor(ends) * advance
+    windows = (end_path - path[:-1] + cycles * advance) / period
+    return float(np.std(windows))
