@@ -12,16 +12,18 @@ import sympy as sp
 from trum_sym.motor import Motor
 from trum_sym.units import Dimension, parse_unit
 
-__all__ = ["NOMENCLATURE", "Entry", "sym"]
+__all__ = ["CLASHES", "NOMENCLATURE", "Entry", "latex", "sym"]
 
 
 @dataclass(frozen=True)
 class Entry:
-    """A symbol with its SI unit and meaning."""
+    """A symbol, or a function of its arguments, with its SI unit, meaning, LaTeX and where the paper defines it."""
 
-    symbol: sp.Symbol
+    symbol: sp.Expr
     unit: str
     meaning: str
+    latex: str
+    where: str
 
     @property
     def dimension(self) -> Dimension:
@@ -29,49 +31,89 @@ class Entry:
         return parse_unit(self.unit).dimension
 
 
-# name, unit, assumptions (+ positive, r real), meaning
-_REST = """
-t           | s        | r | time
-x           | m        | r | position along the unrolled circumference
-tau         | s        | r | time since the start of a region of the drive cycle
-E           | Pa       | + | Young's modulus of the composite section (eq. 2)
-rho         | kg/m^3   | + | mean density of the composite section (eq. 2)
-I_z         | m^4      | + | second moment of area of the composite section (eq. 2)
-G           | Pa       | + | shear modulus of the composite section (eq. 2)
-A           | m^2      | + | area of the composite section
-E_eq        | Pa       | + | Young's modulus of the toothed beam, reduced for its grooves
-k_f         | N/m^2    | + | stiffness per length of the foundation under the beam
-k_dx        | N/m      | + | the paper's foundation stiffness (below eq. 5)
-theta       | rad      | + | contact half-angle k_c x_m
-F_c         | N        | + | prepressure
-N_1         | N        | + | one newton, which makes the base of eq. 8's power a number
-W           | m        | + | amplitude of a phase's standing wave
-omega_n     | rad/s    | + | resonant angular frequency
-omega_q     | rad/s    | + | drive angular frequency
-Delta_omega | rad/s    | r | angular frequency difference, drive less resonance
-beta        | 1/m      | + | rotation per displacement of the Timoshenko mode
-m           | 1        | + | drive pulses per cycle (periods)
-n           | 1        | + | pulses each phase gets per cycle (on_periods)
-psi         | rad      | r | drive phase at which the phases are switched (switching_phase)
-s           | 1        | r | phase lead of B in quarter periods, +1 or -1
-T           | s        | + | duration of a drive cycle
-a           | m        | r | free displacement at the start
-b           | m/s      | r | free velocity at the start
-a_A         | m        | r | free displacement of phase A at the start of the region
-b_A         | m/s      | r | free velocity of phase A at the start of the region
-a_B         | m        | r | free displacement of phase B at the start of the region
-b_B         | m/s      | r | free velocity of phase B at the start of the region
-g_A         | 1        | r | gate of phase A, 1 on and 0 off
-g_B         | 1        | r | gate of phase B, 1 on and 0 off
-q_plus      | 1        | + | integral of the positive part of the determinant, W = D k_c = 1
-q_minus     | 1        | + | integral of the magnitude of its negative part
-p_plus      | 1/s      | + | integral of the square of the positive part
-p_minus     | 1/s      | + | integral of the square of the negative part
+# name, unit, kind (+ positive symbol, r real symbol, f function of the arguments given), LaTeX, where defined, meaning
+_REST = r"""
+t           | s        | r | t | Sect. 2 | time
+x           | m        | r | x | Sect. 2 | position along the unrolled circumference
+tau         | s        | r | \tau | ours | time since the start of a region of the drive cycle
+E           | Pa       | + | E | eq. 2 | Young's modulus of the composite section (eq. 2)
+rho         | kg/m^3   | + | \rho | eq. 2 | mean density of the composite section (eq. 2)
+I_z         | m^4      | + | I_z | eq. 2 | second moment of area of the composite section (eq. 2)
+G           | Pa       | + | G | eq. 2 | shear modulus of the composite section (eq. 2)
+A           | m^2      | + | A | eq. 2 | area of the composite section
+E_eq        | Pa       | + | E_{eq} | eq. 1 | Young's modulus of the toothed beam, reduced for its grooves
+k_f         | N/m^2    | + | k_f | ours | stiffness per length of the foundation under the beam
+k_dx        | N/m      | + | k_{dx} | eq. 5 | the paper's foundation stiffness (below eq. 5)
+theta       | rad      | + | \vartheta | ours | contact half-angle k_c x_m
+F_c         | N        | + | F_c | eq. 8 | prepressure
+N_1         | N        | + | 1\,\mathrm{N} | ours | one newton, which makes the base of eq. 8's power a number
+W           | m        | + | W | ours | amplitude of a phase's standing wave
+omega_n     | rad/s    | + | \omega_n | eq. 6 | resonant angular frequency
+omega_q     | rad/s    | + | \omega_q | eq. 7 | drive angular frequency
+Delta_omega | rad/s    | r | \Delta\omega | eq. 14 | angular frequency difference, drive less resonance
+beta        | 1/m      | + | \beta | ours | rotation per displacement of the Timoshenko mode
+m           | 1        | + | m | Sect. 5.2.1 | drive pulses per cycle (periods)
+n           | 1        | + | n | Sect. 5.2.1 | pulses each phase gets per cycle (on_periods)
+psi         | rad      | r | \psi | ours | drive phase at which the phases are switched (switching_phase)
+s           | 1        | r | s | ours | phase lead of B in quarter periods, +1 or -1
+T           | s        | + | T_{Qall} | eq. 43 | duration of a drive cycle
+a           | m        | r | a | ours | free displacement at the start
+b           | m/s      | r | b | ours | free velocity at the start
+a_A         | m        | r | a_A | ours | free displacement of phase A at the start of the region
+b_A         | m/s      | r | b_A | ours | free velocity of phase A at the start of the region
+a_B         | m        | r | a_B | ours | free displacement of phase B at the start of the region
+b_B         | m/s      | r | b_B | ours | free velocity of phase B at the start of the region
+g_A         | 1        | r | g_A | ours | gate of phase A, 1 on and 0 off
+g_B         | 1        | r | g_B | ours | gate of phase B, 1 on and 0 off
+q_plus      | 1        | + | \sum Q_q^+ | eq. 43 | integral of the positive part of the determinant, W = D k_c = 1
+q_minus     | 1        | + | \sum\vert Q_q^-\vert  | eq. 43 | integral of the magnitude of its negative part
+p_plus      | 1/s      | + | \sum\vert Q_q^+\vert ^2 | eq. 44 | integral of the square of the positive part
+p_minus     | 1/s      | + | \sum\vert Q_q^-\vert ^2 | eq. 44 | integral of the square of the negative part
+"""
+
+# The paper's symbols that only the ledger needs, in the order of the paper.
+_PAPER = r"""
+z           | m        | r | z | Sect. 2.1 | depth below the tooth surface or the neutral axis
+w           | m        | f x t | \omega | eq. 3 | vertical displacement of the beam
+p           | N/m      | f x t | p | eq. 3 | load per length of the beam
+w_A         | m        | f t | w_A | eq. 9 | modal response of phase A
+w_B         | m        | f t | w_B | eq. 10 | modal response of phase B
 """
 
 
 def _symbol(name: str, positive: bool) -> sp.Symbol:
     return sp.Symbol(name, positive=True) if positive else sp.Symbol(name, real=True)
+
+
+# Where the paper uses one letter, or nearly one, for several things: letter -> its meanings, with their places.
+CLASHES: dict[str, tuple[str, ...]] = {
+    r"\omega": ("displacement of the beam (eqs. 3, 4, 5)", "angular frequency (eq. 4 on), in the same equation (4)"),
+    "m": ("drive pulses per cycle (Sect. 5.2.1)", "number of wave crests (k_dx, eqs. 25, 26, 36)"),
+    r"\theta": ("rotation of the section (eq. 3)", "phase difference theta_Q (eqs. 12, 14), Theta_Q in the text"),
+    "A": ("area of the section (eq. 2)", "phase A", "amplitude vectors A_A, A_B, A_Q (eqs. 12, 13)"),
+    "A_p": ("area of the ceramic (eq. 2)", "coefficient of the pressure (eq. 30)"),
+    "D": ("tooth surface to neutral axis (eq. 1)", "lever arm of the ceramic, as D/2 (eq. 7)"),
+    "h_e": ("thickness of the beam with teeth (Sect. 2.1)", "thickness of the teeth (Table 1)", "k_e (Sect. 2.1)"),
+    "R": ("radius (eq. 4)", "diameter (Table 1; lambda below eq. 7)"),
+    "k_{dx}": ("stiffness of the layer, N/m (below eq. 5, eq. 6)", "printed k_ds in eq. 5, where N/m^2 is needed"),
+    r"\kappa": ("shear correction coefficient (eq. 3, Table 1)", "height-width ratio of the section (Table 1)"),
+    r"\xi": ("damping ratio (eq. 7)", "displacements xi_z, xi_x (eqs. A2 to A13), called zeta in eq. 11"),
+    r"\zeta": ("displacements zeta_z, zeta_x (eq. 11)", "damping ratio in the first row of eq. 9 and in eq. 24"),
+    r"\Delta\omega": ("drive less resonance (eq. 14)", "half of that in the second row of eq. 14", "Hz (Table 5)"),
+    "Q": ("particle point (Sect. 3.1)", "direction determinant Q_q (eq. 24), also called Q_redu and Q_qredu"),
+    "M": ("modal mass M_1 (eq. 7)", "M_a, M_b in eqs. 17 to 19", "torque M_n (eq. 38)"),
+    "P": ("load P(x,t), written p in eq. 3", "P_A, P_B, modal responses (eqs. 23, A11)"),
+    "T": ("beat periods T_redu ... (eq. 15)", "regions T_reduT ... (Sect. 3.2)", "torque T_load (eq. 38)"),
+}  # fmt: skip
+
+
+def _table_row(line: str, table: dict[str, Entry]) -> tuple[str, Entry]:
+    name, unit, kind, latex, where, meaning = (part.strip() for part in line.split("|"))
+    if kind.startswith("f"):
+        symbol = sp.Function(name)(*(table[argument].symbol for argument in kind.split()[1:]))
+    else:
+        symbol = _symbol(name, positive=kind == "+")
+    return name, Entry(symbol, unit, meaning, latex, where)
 
 
 def _entries() -> dict[str, Entry]:
@@ -80,18 +122,26 @@ def _entries() -> dict[str, Entry]:
         spec = field.metadata.get("spec")
         if spec is not None:
             symbol = _symbol(spec.symbol, positive=spec.domain.low >= 0)
-            table[spec.symbol] = Entry(symbol, spec.unit, field.name.replace("_", " "))
-    for line in _REST.strip().splitlines():
-        name, unit, kind, meaning = (part.strip() for part in line.split("|"))
+            table[spec.symbol] = Entry(symbol, spec.unit, field.name.replace("_", " "), sp.latex(symbol), "Table 1")
+    for line in (_REST + _PAPER).strip().splitlines():
+        if not line:
+            continue
+        name, entry = _table_row(line, table)
         if name in table:
             raise ValueError(f"symbol {name} is defined twice")
-        table[name] = Entry(_symbol(name, positive=kind == "+"), unit, meaning)
+        table[name] = entry
     return table
 
 
 NOMENCLATURE = _entries()
+_LATEX = {entry.symbol: entry.latex for entry in NOMENCLATURE.values() if isinstance(entry.symbol, sp.Symbol)}
 
 
 def sym(names: str) -> tuple[sp.Symbol, ...]:
-    """The symbols of the nomenclature by their names, separated by spaces."""
+    """The symbols of the nomenclature by their names, separated by spaces; functions with their arguments, w_A(t)."""
     return tuple(NOMENCLATURE[name].symbol for name in names.split())
+
+
+def latex(expr: sp.Basic) -> str:
+    """LaTeX with the nomenclature's names."""
+    return str(sp.latex(expr, symbol_names=_LATEX, fold_short_frac=False, ln_notation=True))
