@@ -27,6 +27,7 @@ __all__ = [
     "friction_force",
     "friction_fraction",
     "half_zone_fraction",
+    "nonsliding_point_of_half_zone",
     "nonsliding_points",
     "pressure_distribution",
     "pressure_share",
@@ -141,6 +142,11 @@ def nonsliding_points(turn: int = 0) -> tuple[sp.Expr, sp.Expr]:
     return phi + _opening() + 2 * sp.pi * turn, phi - _opening() + 2 * sp.pi * turn
 
 
+def nonsliding_point_of_half_zone() -> sp.Expr:
+    """The only nonsliding point in 0 < u < theta, where there is just one (eq. 35), by the speed at the crest."""
+    return _nearest(phi + sp.sign(sp.cos(phi) - c) * _opening())
+
+
 def friction_fraction(share: sp.Expr | None = None) -> sp.Expr:
     """Net friction over mu F_c: f = 2 sum_j [C(phi + acos c + 2 pi j) - C(phi - acos c + 2 pi j)] - 1.
 
@@ -227,19 +233,14 @@ class TransferCase:
         if not self.extremum:
             return sp.Integer(self.crest)
         if self.crest < 0:  # a faster stretch around the peak at phi, or none
-            return 2 * (C.subs(u, _about(phi) + _opening()) - C.subs(u, _about(phi) - _opening())) - 1
-        slow, closing = _about(phi + sp.pi), sp.pi - _opening()  # a slower stretch around the trough, or none
+            return 2 * (C.subs(u, _nearest(phi) + _opening()) - C.subs(u, _nearest(phi) - _opening())) - 1
+        slow, closing = _nearest(phi + sp.pi), sp.pi - _opening()  # a slower stretch around the trough, or none
         return 1 - 2 * (C.subs(u, slow + closing) - C.subs(u, slow - closing))
 
 
 def _nearest(angle: sp.Expr) -> sp.Expr:
-    """The angle by whole turns into (-pi/2, 3 pi/2], the range that the paper states below eq. 34."""
-    return angle - 2 * sp.pi * sp.ceiling((angle - 3 * sp.pi / 2) / (2 * sp.pi))
-
-
-def _about(angle: sp.Expr) -> sp.Expr:
-    """The extremum's angle by whole turns into (-pi/2, 3 pi/2]."""
-    return _nearest(angle)
+    """The angle by whole turns into (-pi, pi]: every point of the half zone 0 < u < theta <= pi is its own."""
+    return sp.atan2(sp.sin(angle), sp.cos(angle))
 
 
 CASES = tuple(
