@@ -92,6 +92,9 @@ def dimension(expr: sp.Basic, known: Mapping[sp.Basic, Dimension] | None = None)
     if isinstance(expr, sp.sign):
         dimension(expr.args[0], known)
         return _NONE
+    if isinstance(expr, (*_SAME_AS_ARGUMENTS, sp.atan2)):
+        common = _same(expr.args, known, type(expr).__name__)
+        return _NONE if isinstance(expr, sp.atan2) else common
     of_arguments = [dimension(argument, known) for argument in expr.args]
     if isinstance(expr, sp.Mul):
         product = _NONE
@@ -105,9 +108,6 @@ def dimension(expr: sp.Basic, known: Mapping[sp.Basic, Dimension] | None = None)
         if base == exponent == _NONE:
             return _NONE
         raise DimensionError(f"power of {expr.base} [{base}] to {expr.exp} [{exponent}]")
-    if isinstance(expr, (*_SAME_AS_ARGUMENTS, sp.atan2)):
-        common = _same(expr.args, known, type(expr).__name__)
-        return _NONE if isinstance(expr, sp.atan2) else common
     for argument, found in zip(expr.args, of_arguments, strict=True):
         if found != _NONE:
             raise DimensionError(f"argument {argument} [{found}] of {type(expr).__name__} is not a number")

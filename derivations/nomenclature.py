@@ -74,8 +74,32 @@ p_minus     | 1/s      | + | \sum\vert Q_q^-\vert ^2 | eq. 44 | integral of the 
 # The paper's symbols that only the ledger needs, in the order of the paper.
 _PAPER = r"""
 z           | m        | r | z | Sect. 2.1 | depth below the tooth surface or the neutral axis
-w           | m        | f x t | \omega | eq. 3 | vertical displacement of the beam
+k_t         | 1        | + | k_t | Sect. 2.1 | tooth height over beam height
+k_s         | 1        | + | k_s | Sect. 2.1 | share of the grooves in the circumference
+k_d         | 1        | + | k_d | Sect. 2.1 | share of the metal left by the grooves
+rho_eq      | kg/m^3   | + | \rho_{eq} | Sect. 2.1 | density of the beam reduced for its grooves
+G_eq        | Pa       | + | G_{eq} | Sect. 2.1 | shear modulus of the beam reduced for its grooves
+A_eq        | m^2      | + | A_{eq} | Sect. 2.1 | area of the metal
+A_p         | m^2      | + | A_p | Sect. 2.1 | area of the ceramic
+I_e         | m^4      | + | I_e | eq. 2 | second moment of the metal about the neutral axis
+I_p         | m^4      | + | I_p | eq. 2 | second moment of the ceramic about the neutral axis
+h           | m        | + | h | eq. 2 | height of metal and ceramic
+w           | m        | f x t | w | eq. 3 | vertical displacement of the beam, printed omega
 p           | N/m      | f x t | p | eq. 3 | load per length of the beam
+omega_n0    | rad/s    | + | \omega_{n0} | eq. 4 | natural frequency without prepressure
+x_m         | m        | + | x_m | eq. 5 | half-length of a contact
+k_ds        | N/m      | + | k_{ds} | eq. 5 | printed stiffness of the foundation
+a_1         | N*m^2    | + | a_1 | eq. 5 | coefficient of the fourth derivative in x
+a_2         | kg*m     | r | a_2 | eq. 5 | coefficient of the mixed derivative
+a_3         | kg/m     | + | a_3 | eq. 5 | coefficient of the second derivative in t
+a_4         | kg*s^2/m | + | a_4 | eq. 5 | coefficient of the fourth derivative in t
+M_1         | kg       | + | M_1 | eq. 7 | modal mass of a wavelength
+A_zm        | N/m      | r | A_{zm} | eq. 7 | modal force per length
+lambda      | m        | + | \lambda | eq. 7 | wavelength
+t_1         | s        | r | t_1 | Sect. 3.2 | phase A is switched off
+t_2         | s        | r | t_2 | Sect. 3.2 | A is switched on, B off
+t_3         | s        | r | t_3 | Sect. 3.2 | B is switched on
+t_4         | s        | r | t_4 | Sect. 3.2 | the cycle ends
 w_A         | m        | f t | w_A | eq. 9 | modal response of phase A
 w_B         | m        | f t | w_B | eq. 10 | modal response of phase B
 """

@@ -13,13 +13,12 @@ from functools import cache
 import mpmath as mp
 import sympy as sp
 
-from derivations.ledger.model import Evidence, Forms, Kind
+from derivations.ledger.model import WORKING_DIGITS, Evidence, Forms, Kind
 from trum_sym.motor import Motor
 
 __all__ = ["DIGITS", "agrees", "difference", "error_size", "evaluate", "identical", "points", "usual", "vanishes"]
 
 DIGITS = 30
-_GUARD = 15
 Point = dict[sp.Symbol, mp.mpf]
 Range = tuple[float, float]
 
@@ -75,7 +74,7 @@ def evaluate(expr: sp.Basic, point: Mapping[sp.Symbol, object]) -> mp.mpf | mp.m
     """The number that an expression has at a point, at 30 digits and some to spare."""
     symbols = sorted(point, key=lambda s: s.name)
     function = sp.lambdify(symbols, sp.sympify(expr), modules=[{"expm1": mp.expm1}, "mpmath"])
-    with mp.workdps(DIGITS + _GUARD):
+    with mp.workdps(WORKING_DIGITS):
         return mp.mpmathify(function(*(mp.mpmathify(point[s]) for s in symbols)))
 
 
@@ -145,7 +144,7 @@ def agrees(
         free = set(expr.free_symbols) | (set(other.free_symbols) if other is not None else set()) | set(symbols)
         for index, point in enumerate(points(free, count, seed=name, ranges=ranges)):
             found = evaluate(expr, point)
-            with mp.workdps(DIGITS + _GUARD):
+            with mp.workdps(WORKING_DIGITS):
                 wanted = mp.mpmathify(reference(name, point)) if callable(reference) else evaluate(other, point)
                 scale = max(abs(wanted), abs(found))
                 error = abs(found - wanted) / scale if scale else mp.mpf(0)

@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
+import mpmath as mp
 import sympy as sp
 
 from derivations.dimensions import DimensionError, dimension
@@ -25,6 +26,7 @@ __all__ = [
 
 Verdict = Literal["verified", "approximation", "erratum", "definition", "reconstructed", "empirical"]
 Kind = Literal["dimension", "numeric", "identity", "continuity", "limit", "domain", "error_size", "data", "derivation"]
+WORKING_DIGITS = 45  # 30 to be trusted and some to spare
 Forms = Mapping[str, sp.Basic]
 """Named expressions, or equations (sympy.Eq) and inequalities under any name, in the order of the paper."""
 
@@ -119,7 +121,8 @@ class Entry:
 
     def rejects(self, forms: Forms) -> Evidence | None:
         """The first evidence that speaks against the forms; None if all speaks for them."""
-        return next((found for found in self.evidence(forms) if not found.ok), None)
+        with mp.workdps(WORKING_DIGITS):
+            return next((found for found in self.evidence(forms) if not found.ok), None)
 
     def subject(self) -> Forms:
         """The forms that stand: the printed ones, or the corrected or reconstructed ones."""
@@ -210,6 +213,12 @@ _REQUIRED: dict[str, set[str]] = {"approximation": {"error_size"}, "empirical": 
 
 
 def confirm(entry: Entry) -> Result:
+    """Hold an entry's stated verdict against its evidence, at 45 digits; see :func:`_confirm` for the rules."""
+    with mp.workdps(WORKING_DIGITS):
+        return _confirm(entry)
+
+
+def _confirm(entry: Entry) -> Result:
     """Run derivation, judge and rules of an entry.
 
     verified, definition : every evidence on the printed forms speaks for them, of two kinds at least
