@@ -55,6 +55,8 @@ T_load    | N*m    | r | eq. 38     | load torque
 S_k       | rad/s  | r | eq. 40     | standard deviation of the speed
 S_s       | rad/s  | r | eq. 41     | printed for S_k
 v_s       | rad/s  | r | eq. 39     | mean speed
+Q_q       | m^2/s  | r | eq. 42     | direction determinant
+I         | 1      | + | eq. 39     | number of samples
 Q_aver    | 1/s    | r | eq. 43     | speed determinant
 X         | 1      | + | eq. A14    | forward over backward, of Q
 Y         | 1      | + | eq. A16    | the same of Q squared
