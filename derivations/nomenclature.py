@@ -100,6 +100,49 @@ t_1         | s        | r | t_1 | Sect. 3.2 | phase A is switched off
 t_2         | s        | r | t_2 | Sect. 3.2 | A is switched on, B off
 t_3         | s        | r | t_3 | Sect. 3.2 | B is switched on
 t_4         | s        | r | t_4 | Sect. 3.2 | the cycle ends
+omega_d     | rad/s    | + | \omega_d | ours | frequency of the damped free motion, omega_n sqrt(1 - xi^2)
+A_Aredu     | m        | + | A_{Aredu} | ours | amplitude of A's free motion at t_1
+varphi_Aredu | rad     | r | \varphi_{Aredu} | eq. 9 | phase of A's free motion at t_1
+R_Aaddredu  | m        | + | R_{Aaddredu} | ours | amplitude of A's free motion at t_2
+A_ABaddredu | m        | r | A_{ABaddredu} | eq. 9 | beating amplitude of phase A after t_2
+Theta_Baddredu | rad   | r | \Theta_{Baddredu} | eq. 9 | phase of A's free motion at t_2
+Psi_Aaddredu | rad     | r | \Psi_{Aaddredu} | eq. 9 | phase of A's forced motion at t_2
+varphi_Baddredu | rad  | r | \varphi_{Baddredu} | eq. 9 | slow part of A's phase after t_2
+A_Baddredu  | m        | + | A_{Baddredu} | ours | amplitude of B's free motion at t_2
+R_Badd      | m        | + | R_{Badd} | ours | amplitude of B's free motion at t_3
+A_Badd      | m        | r | A_{Badd} | eq. 10 | beating amplitude of phase B after t_3
+Theta_Badd  | rad      | r | \Theta_{Badd} | eq. 10 | phase of B's free motion at t_3
+Psi_Badd    | rad      | r | \Psi_{Badd} | eq. 10 | phase of B's forced motion at t_3, less pi
+varphi_Badd | rad      | r | \varphi_{Badd} | eq. 10 | slow part of B's phase after t_3
+zeta_z      | m        | r | \zeta_z | eq. 11 | vertical displacement of a surface point
+zeta_x      | m        | r | \zeta_x | eq. 11 | tangential displacement of a surface point
+A_Q         | m        | + | A_Q | eq. 12 | amplitude of the rotating vectors' sum
+A_A         | m        | r | A_A | eq. 12 | amplitude of phase A at the point
+A_B         | m        | r | A_B | eq. 12 | amplitude of phase B at the point
+t_Q         | s        | r | t_Q | eq. 12 | start of the region
+theta_Q     | rad      | r | \theta_Q | eq. 12 | phase difference of the vectors at t_Q
+Delta_omega_redu | rad/s | r | \Delta\omega_{redu} | eq. 14 | rate of the phase difference in T_redu
+Delta_omega_addredu | rad/s | r | \Delta\omega_{addredu} | eq. 14 | rate of the phase difference in T_addredu
+Delta_omega_add | rad/s | r | \Delta\omega_{add} | eq. 14 | rate of the phase difference in T_add
+T_redu      | s        | + | T_{redu} | eq. 15 | beat period in the first region
+T_addredu   | s        | + | T_{addredu} | eq. 15 | beat period in the second region
+T_add       | s        | + | T_{add} | eq. 15 | beat period in the third region
+v_x         | m/s      | r | v_x | eq. 16 | tangential velocity of a surface point
+A_v         | m/s      | + | A_v | eq. 17 | amplitude of the tangential velocity
+Psi_v       | rad      | r | \Psi_v | eq. 17 | phase angle of the tangential velocity
+M_a         | m/s      | r | M_a | eq. 18 | sine's part of the tangential velocity over D k_c
+M_b         | m/s      | r | M_b | eq. 19 | cosine's part of the tangential velocity over D k_c
+x_max       | m        | r | x_{max} | eq. 20 | position of the crest
+zeta_zmax   | m        | + | \zeta_{zmax} | eq. 21 | displacement of the crest
+v_xmax      | m/s      | r | v_{xmax} | eq. 22 | tangential velocity of the crest
+W_a         | m        | + | W_a | eq. A1 | amplitude of phase A
+W_b         | m        | + | W_b | eq. A1 | amplitude of phase B
+omega_a     | rad/s    | + | \omega_a | eq. A1 | angular frequency of phase A
+omega_b     | rad/s    | + | \omega_b | eq. A1 | angular frequency of phase B
+varphi_a    | rad      | r | \varphi_a | eq. A1 | phase of phase A
+varphi_b    | rad      | r | \varphi_b | eq. A1 | phase of phase B
+Q_q         | m^2/s    | r | Q_q | eq. 24 | direction determinant
+T_q         | s        | + | T_q | eq. A9 | period of the determinant
 w_A         | m        | f t | w_A | eq. 9 | modal response of phase A
 w_B         | m        | f t | w_B | eq. 10 | modal response of phase B
 """
