@@ -2,12 +2,24 @@
 
 from __future__ import annotations
 
-from derivations.ledger import section_3_supplement, section_2_amplitude, section_2_composite, section_2_vibration
+from derivations.ledger import (
+    section_2_amplitude,
+    section_2_composite,
+    section_2_vibration,
+    section_3_phases,
+    section_3_supplement,
+)
 from derivations.ledger.model import Entry
 
 __all__ = ["ENTRIES", "entry"]
 
-ENTRIES: tuple[Entry, ...] = (*section_2_composite.ENTRIES, *section_2_vibration.ENTRIES, *section_2_amplitude.ENTRIES, *section_3_supplement.ENTRIES)
+ENTRIES: tuple[Entry, ...] = (
+    *section_2_composite.ENTRIES,
+    *section_2_vibration.ENTRIES,
+    *section_2_amplitude.ENTRIES,
+    *section_3_supplement.ENTRIES,
+    *section_3_phases.ENTRIES,
+)
 
 
 def entry(name: str) -> Entry:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import random
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cache
 
 import mpmath as mp
 
@@ -22,7 +23,7 @@ _GATES = {"A": (0, 1, 1), "B": (1, 0, 1)}
 _LEAD = {"A": mp.mpf(0), "B": mp.mpf(1)}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)  # hashed by identity, for caches
 class Cycle:
     """A drive of amplitude W; values by symbol name."""
 
@@ -76,12 +77,14 @@ class Cycle:
         return [length * (2 * i + 1) / (2 * count) for i in range(count)]
 
 
-def at_table_3(**changes: mp.mpf) -> Cycle:
+@cache
+def at_table_3() -> Cycle:
     """The operating point, switched at drive phase 0 as the paper does."""
-    return Cycle({**operating_point(), "psi": mp.mpf(0), **changes})
+    return Cycle({**operating_point(), "psi": mp.mpf(0)})
 
 
-def random_cycles(count: int, seed: str, psi: bool = False) -> list[Cycle]:
+@cache
+def random_cycles(count: int, seed: str, psi: bool = False) -> tuple[Cycle, ...]:
     """Drives around the operating point: resonance, difference, damping, pulses and, on request, switching phase."""
     found = []
     for index in range(count):
@@ -90,9 +93,9 @@ def random_cycles(count: int, seed: str, psi: bool = False) -> list[Cycle]:
         omega_q = omega_n + 2 * mp.pi * mp.mpf(draw.uniform(2500, 3500))
         m = draw.randint(16, 30)
         n = draw.randint(m // 2 + 2, m - 3)
-        found.append(at_table_3(
-            omega_n=omega_n, omega_q=omega_q, Delta_omega=omega_q - omega_n, m=mp.mpf(m), n=mp.mpf(n),
-            xi=mp.mpf(draw.uniform(0.004, 0.008)), W=mp.mpf(draw.uniform(4e-6, 8e-6)),
-            psi=mp.mpf(draw.uniform(-3, 3) if psi else 0),
-        ))  # fmt: skip
-    return found
+        found.append(Cycle({
+            **operating_point(), "omega_n": omega_n, "omega_q": omega_q, "Delta_omega": omega_q - omega_n,
+            "m": mp.mpf(m), "n": mp.mpf(n), "xi": mp.mpf(draw.uniform(0.004, 0.008)),
+            "W": mp.mpf(draw.uniform(4e-6, 8e-6)), "psi": mp.mpf(draw.uniform(-3, 3) if psi else 0),
+        }))  # fmt: skip
+    return tuple(found)

@@ -16,7 +16,7 @@ import sympy as sp
 from derivations.ledger.model import WORKING_DIGITS, Evidence, Forms, Kind
 from trum_sym.motor import Motor
 
-__all__ = ["DIGITS", "agrees", "difference", "error_size", "evaluate", "identical", "points", "usual", "vanishes"]
+__all__ = ["DIGITS", "agrees", "compiled", "difference", "error_size", "evaluate", "identical", "points", "usual", "vanishes"]
 
 DIGITS = 30
 Point = dict[sp.Symbol, mp.mpf]
@@ -70,10 +70,17 @@ def points(
     return found
 
 
+@cache
+def compiled(symbols: tuple[sp.Symbol, ...], expr: sp.Basic) -> Callable[..., object]:
+    """An expression as a function of mpmath numbers."""
+    function: Callable[..., object] = sp.lambdify(symbols, expr, modules=[{"expm1": mp.expm1}, "mpmath"])
+    return function
+
+
 def evaluate(expr: sp.Basic, point: Mapping[sp.Symbol, object]) -> mp.mpf | mp.mpc:
     """The number that an expression has at a point, at 30 digits and some to spare."""
-    symbols = sorted(point, key=lambda s: s.name)
-    function = sp.lambdify(symbols, sp.sympify(expr), modules=[{"expm1": mp.expm1}, "mpmath"])
+    symbols = tuple(sorted(point, key=lambda s: s.name))
+    function = compiled(symbols, sp.sympify(expr))
     with mp.workdps(WORKING_DIGITS):
         return mp.mpmathify(function(*(mp.mpmathify(point[s]) for s in symbols)))
 
