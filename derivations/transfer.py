@@ -129,7 +129,7 @@ def whole_wave_share() -> sp.Expr:
 
 
 def _opening() -> sp.Expr:
-    """acos c with c limited to [-1, 1]: how far around phi the surface is faster than the rotor."""
+    """Half-width acos c, c limited to [-1, 1]: how far around phi the surface is faster than the rotor."""
     return sp.acos(sp.Max(-1, sp.Min(1, c)))
 
 

@@ -8,14 +8,14 @@ import mpmath as mp
 import sympy as sp
 
 from derivations import ellipse
-from derivations.ledger.history import history, values
+from derivations.ledger.history import STARTS, history, values
 from derivations.ledger.judge import Point, agrees, evaluate, identical, points
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
 from derivations.ledger.names import KNOWN, figure, name
 from derivations.ledger.section_6 import cycle_totals
 from derivations.nomenclature import sym
 
-__all__ = ["ENTRIES"]
+__all__ = ["ENTRIES", "differs_by_start"]
 
 D, k_c, x, t, T = sym("D k_c x t T")
 q_plus, q_minus, p_plus, p_minus = sym("q_plus q_minus p_plus p_minus")
@@ -96,7 +96,10 @@ def _derive_a11() -> Derivation:
 def _judge_a11(forms: Forms) -> Iterator[Evidence]:
     def by_differences(label: str, q: Point) -> mp.mpf:
         A, B = _phasors(q)
-        wave = lambda at: A * mp.sin(q[k_c] * at) + B * mp.cos(q[k_c] * at)  # noqa: E731
+
+        def wave(at: mp.mpf) -> mp.mpf:
+            return A * mp.sin(q[k_c] * at) + B * mp.cos(q[k_c] * at)
+
         h = mp.mpf("1e-9")
         known = {"P_A": A, "P_B": B, "zeta_z": wave(q[x])}
         slope = (8 * (wave(q[x] + h) - wave(q[x] - h)) - wave(q[x] + 2 * h) + wave(q[x] - 2 * h)) / (12 * h)
@@ -220,7 +223,8 @@ def _effect_a13() -> str:
     return (
         "Drawn as an ellipse it has no area. The path encloses pi D k_c W^2 = "
         f"{figure(area * p['W'] ** 2 * 1e12)} um^2 in the steady wave of Table 3; at the end of T_redu, after a steady "
-        f"start, W_a has fallen to {figure(1e6 * decayed)} um and the phases have drifted by {figure(angle)} rad, so it "
+        f"start, W_a has fallen to {figure(1e6 * decayed)} um and the phases have drifted by {figure(angle)} "
+        f"rad, so it "
         f"encloses {figure(area * p['W'] * decayed * abs(float(sp.cos(angle))) * 1e12)} um^2."
     )
 
@@ -252,19 +256,23 @@ def _judge_a14(forms: Forms) -> Iterator[Evidence]:
 
     yield agrees(whole, direct, symbols=(q_plus, q_minus, T), ranges=_RANGES, against="eq. 43 in the sums")
     ends = [sp.limit(forms["Q_aver"], X, end) for end in (0, sp.oo)]
-    yield evidence("limit", ends == [-1 / T, 1 / T] and forms["Q_aver"].subs(X, 1) == 0, "from -1/T to 1/T, 0 for X = 1")
+    yield evidence(
+        "limit", ends == [-1 / T, 1 / T] and forms["Q_aver"].subs(X, 1) == 0, "from -1/T to 1/T, 0 for X = 1"
+    )
 
 
 def _effect_a14() -> str:
     known = cycle_totals("periodic")
     ratio = known[q_plus] / known[q_minus]
-    return f"X = {figure(ratio)} at Table 3 (periodic start): Q_aver = {figure((ratio - 1) / (ratio + 1) / values()['T'])} 1/s."
+    average = (ratio - 1) / (ratio + 1) / values()["T"]
+    return f"X = {figure(ratio)} at Table 3 (periodic start): Q_aver = {figure(average)} 1/s."
 
 
 def _derive_a15() -> Derivation:
     form = sp.factor(_A14["Q_aver"].diff(X))
     return Derivation(
-        (step("The derivative of (A14); a positive number over a square:", sp.Eq(sp.Derivative(_A14["Q_aver"], X), form),
+        (step("The derivative of (A14); a positive number over a square:",
+              sp.Eq(sp.Derivative(_A14["Q_aver"], X), form),
               zero=form - _A15["dQ_aver/dX"]),),
         {"dQ_aver/dX": form},
     )  # fmt: skip
@@ -273,10 +281,15 @@ def _derive_a15() -> Derivation:
 def _judge_a15(forms: Forms) -> Iterator[Evidence]:
     def differences(_: str, q: Point) -> mp.mpf:
         h = mp.mpf("1e-8")
-        average = lambda ratio: (ratio - 1) / (ratio + 1) / q[T]  # noqa: E731
+
+        def average(ratio: mp.mpf) -> mp.mpf:
+            return (ratio - 1) / (ratio + 1) / q[T]
+
         return (average(q[X] + h) - average(q[X] - h)) / (2 * h)
 
-    yield agrees(forms, differences, symbols=(X, T), ranges=_RANGES, tolerance=1e-12, against="central differences of (A14)")
+    yield agrees(
+        forms, differences, symbols=(X, T), ranges=_RANGES, tolerance=1e-12, against="central differences of (A14)"
+    )
     found = forms["dQ_aver/dX"]
     yield evidence("domain", found.is_positive, "positive for every X > 0, as printed")
     yield identical(forms, {"dQ_aver/dX": _A14["Q_aver"].diff(X)})
@@ -287,7 +300,8 @@ def _effect_a15() -> str:
     ratio = known[q_plus] / known[q_minus]
     slope = 2 / ((ratio + 1) ** 2 * p["T"])
     return (
-        f"{figure(slope)} 1/s for each unit of X at Table 3. T is taken as constant; from 2800 to 3300 Hz it changes by "
+        f"{figure(slope)} 1/s for each unit of X at Table 3. T is taken as constant; from 2800 to 3300 Hz it "
+        f"changes by "
         f"{100 * (_cycle_time(3300) / _cycle_time(2800) - 1):.2f} %, and Q_aver with it."
     )
 
@@ -334,9 +348,20 @@ def _judge_a16(forms: Forms) -> Iterator[Evidence]:
     yield evidence("limit", sp.limit(unit, Y, sp.oo) == 1, "tends to 1/(T^2 Q_aver) when nothing turns back")
 
 
+def differs_by_start() -> str:
+    """X and Y of the three starts at Table 3, as a sentence's part."""
+    parts = []
+    for start in STARTS:
+        known = cycle_totals(start)
+        parts.append(
+            f"{start} X = {figure(known[q_plus] / known[q_minus], 3)}, Y = {figure(known[p_plus] / known[p_minus], 3)}"
+        )
+    return "; ".join(parts)
+
+
 def _effect_a16() -> str:
     parts = []
-    for start in ("periodic", "steady"):
+    for start in STARTS[:2]:
         known = cycle_totals(start)
         ratio = known[p_plus] / known[p_minus]
         root = complex(_f_printed.subs(Y, ratio))
@@ -356,7 +381,8 @@ def _derive_a17() -> Derivation:
                  zero=sp.simplify(branch_above.diff(above) ** 2 - 1 / (above**2 * ((1 + above) ** 2 - 1)))),
             step("Below 1, with Y = 1 - e and so df/dY = -df/de:", sp.Eq(sp.Symbol("f"), branch_below),
                  zero=sp.simplify(branch_below.diff(below) ** 2 - 1 / (below**2 * (1 - (1 - below) ** 2)))),
-            step("Both have the sign of 1 - Y. The printed -2/(Y - 1) is the derivative of (Y + 1)/(Y - 1) short of its "
+            step("Both have the sign of 1 - Y. The printed -2/(Y - 1) is the derivative of (Y + 1)/(Y - 1) "
+                 "short of its "
                  "square, and without the root's:", form,
                  zero=sp.simplify(((Y + 1) / (Y - 1)).diff(Y) + 2 / (Y - 1) ** 2)),
         ),
@@ -367,7 +393,10 @@ def _derive_a17() -> Derivation:
 def _judge_a17(forms: Forms) -> Iterator[Evidence]:
     def differences(_: str, q: Point) -> mp.mpf:
         h = mp.mpf("1e-9")
-        f = lambda y: mp.sqrt((y + 1) / abs(y - 1))  # noqa: E731
+
+        def f(y: mp.mpf) -> mp.mpf:
+            return mp.sqrt((y + 1) / abs(y - 1))
+
         return (8 * (f(q[Y] + h) - f(q[Y] - h)) - f(q[Y] + 2 * h) + f(q[Y] - 2 * h)) / (12 * h)
 
     yield agrees(forms, differences, symbols=(Y,), ranges=_RANGES, count=8, tolerance=1e-6,

@@ -44,7 +44,7 @@ class State:
 
     def extremum_inside(self) -> bool:
         """Whether v_x turns between the crest and the contact's end: its slope changes sign there."""
-        return (np.sin(-self.phi) > 0) != (np.sin(self.theta - self.phi) > 0)
+        return bool((np.sin(-self.phi) > 0) != (np.sin(self.theta - self.phi) > 0))
 
 
 def states(count: int, seed: str, widest: float = 3.1) -> Iterator[State]:

@@ -32,7 +32,7 @@ def numeric(expr: sp.Basic, symbols: tuple[sp.Symbol, ...]) -> Callable[..., Any
     return function
 
 
-def _number(expr: sp.Basic, known: Mapping[str, Any]) -> Any:
+def _number(expr: sp.Basic, known: Mapping[str, Any]) -> Any:  # noqa: ANN401
     expr = sp.sympify(expr)
     symbols = tuple(sorted(expr.free_symbols, key=lambda symbol: symbol.name))
     return numeric(expr, symbols)(*(known[symbol.name] for symbol in symbols))
@@ -88,7 +88,7 @@ def history(start: Start = "periodic", samples: int = 20000, m: float = 20.0, n:
     known: dict[str, Any] = values(m=m, n=n)
     edges = np.concatenate([[0.0], np.cumsum([_number(time, known) for time in phases.region_times()])])
     step = float(edges[-1]) / samples
-    time = (np.arange(samples) + 0.5) * step
+    time: Array = (np.arange(samples, dtype=np.float64) + 0.5) * step
     region = np.clip(np.searchsorted(edges, time, side="right") - 1, 0, 2)
     columns: dict[str, Array] = {}
     for phase in phases.PHASES:

@@ -98,7 +98,8 @@ def _derive_c_e() -> Derivation:
     plane = sp.factor((stress - nu * hold) / E)
     return Derivation(
         (
-            step("A contact long across the page deforms in plane strain. The stress that holds the strain across at 0:",
+            step("A contact long across the page deforms in plane strain. The stress that holds the strain "
+                 "across at 0:",
                  sp.Eq(across, hold)),
             step("leaves along the load:", sp.Eq(strain, plane), zero=plane - stress * (1 - nu**2) / E),
             step("Both surfaces yield, so their compliances add:", sp.Eq(C_E, _C_E["C_E"])),

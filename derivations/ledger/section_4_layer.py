@@ -195,7 +195,10 @@ def _judge_30(forms: Forms) -> Iterator[Evidence]:
     def layer(_: str, q: Point) -> mp.mpf:
         """Elastic energy of a strip of the layer, differentiated by its compression."""
         sunk = max(mp.mpf(0), q[zeta_z] - q[delta_0])
-        energy = lambda s: q[E_m] * (s / q[h_m]) ** 2 / 2 * q[b_m] * q[h_m]  # noqa: E731
+
+        def energy(s: mp.mpf) -> mp.mpf:
+            return q[E_m] * (s / q[h_m]) ** 2 / 2 * q[b_m] * q[h_m]
+
         return (energy(sunk + mp.mpf("1e-9")) - energy(sunk - mp.mpf("1e-9"))) / mp.mpf("2e-9")
 
     yield agrees(forms, layer, symbols=(zeta_z, delta_0, E_m, h_m, b_m), ranges=RANGES, count=8, tolerance=1e-20,
@@ -251,9 +254,10 @@ def _judge_31(forms: Forms) -> Iterator[Evidence]:
             total += mp.quad(press, edges)
         return q[k_N] * q[zeta_zmax] * total
 
-    at_nine = {name: form.subs(n_j, 9) for name, form in forms.items()}
+    at_nine = {key: form.subs(n_j, 9) for key, form in forms.items()}
     yield agrees(at_nine, around, given=given, symbols=(k_c, k_N, zeta_zmax, theta, x_max), ranges=RANGES, count=2,
-                 tolerance=1e-14, against="the layer's pressure summed around the circumference of nine crests")  # fmt: skip
+                 tolerance=1e-14, against="the layer's pressure summed around the circumference of nine "
+                                          "crests")  # fmt: skip
     concrete = {key: form.subs(given).doit() for key, form in forms.items()}
     derived = {key: form.subs(given).doit() for key, form in _derive_31().forms.items()}
     yield identical(concrete, derived)

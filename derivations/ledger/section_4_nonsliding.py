@@ -142,7 +142,9 @@ def _judge_34(forms: Forms) -> Iterator[Evidence]:
     detail = ", ".join(f"{key} misses by {mp.nstr(value, 2)} of A_v" for key, value in worst.items())
     yield evidence("numeric", all(value < 1e-12 for value in worst.values()), f"v_x there is the rotor's: {detail}")
     gaps = [key for key, form in forms.items() if _row_at(form, 0, -1) is sp.nan]
-    yield evidence("domain", not gaps, "a row for every M_a, M_b" + (f", but for M_a = 0 > M_b in {gaps}" if gaps else ""))
+    yield evidence(
+        "domain", not gaps, "a row for every M_a, M_b" + (f", but for M_a = 0 > M_b in {gaps}" if gaps else "")
+    )
 
 
 def _row_at(form: sp.Expr, a: int, b: int) -> sp.Expr:
@@ -231,7 +233,7 @@ def _single_states(count: int) -> list[tuple[State, float]]:
 
 
 def _known_35(s: State) -> dict[sp.Basic, float]:
-    psi, a, b = _paper_angles(s)
+    _, a, b = _paper_angles(s)
     first = math.atan(a / b)
     return {
         x_px: _position_34(s) / K, phi_vm1: first / K, phi_vm2: (first + math.pi) / K, x_max: s.crest / K,
@@ -257,9 +259,11 @@ def _tally_35(form: sp.Expr, count: int = 150) -> Counter[str]:
 def _judge_35(forms: Forms) -> Iterator[Evidence]:
     tally = _tally_35(forms["x_p"])
     total = sum(tally.values())
-    yield evidence("domain", not tally["none"], f"gives a point in {total - tally['none']} of {total} random states with "
+    yield evidence("domain", not tally["none"], f"gives a point in {total - tally['none']} of {total} random "
+                                                f"states with "
                    "one nonsliding point between crest and end")  # fmt: skip
-    yield evidence("numeric", not tally["wrong"], f"right in {tally['right']} of these, by scanning and bisection; wrong "
+    yield evidence("numeric", not tally["wrong"], f"right in {tally['right']} of these, by scanning and "
+                                                  f"bisection; wrong "
                    f"in {tally['wrong']}")  # fmt: skip
 
 
@@ -289,14 +293,16 @@ ENTRIES = (
         id="34", section="4.2.2", title="Position of a nonsliding point", place=_PLACE, printed=_EQ34,
         units={"x_px_redu": "m", "x_px": "m"}, verdict="erratum", judge=_judge_34, derive=_derive_34,
         effect=_effect_34, known=_KNOWN, repair=_repair_34, found_by=("dimension", "numeric", "domain"),
-        reason="Lacks W_maxf in T_redu, where eq. 17 takes it out of M_a and M_b, and a row for M_a = 0 > M_b; gives one "
+        reason="Lacks W_maxf in T_redu, where eq. 17 takes it out of M_a and M_b, and a row for M_a = 0 > M_b; "
+               "gives one "
         "of two solutions.",
     ),
     Entry(
         id="35", section="4.2.2", title="The only nonsliding point", place=_PLACE, printed=_EQ35, units={"x_p": "m"},
         verdict="erratum", judge=_judge_35, derive=_derive_35, effect=_effect_35, known=_KNOWN,
         repair=lambda _: _derive_35().forms, found_by=("dimension", "domain", "numeric"),
-        reason="Adds 2 pi to a length, leaves most states without a row, and uses the undefined phi_vm2. One expression "
+        reason="Adds 2 pi to a length, leaves most states without a row, and uses the undefined phi_vm2. One "
+               "expression "
         "replaces the table. Repeated rows are transcribed once; the text breaks off.",
     ),
 )  # fmt: skip

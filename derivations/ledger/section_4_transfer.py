@@ -122,7 +122,8 @@ def _effect_36() -> str:
     signs = float((np.sign(half) != np.sign(whole)).mean())
     return (
         "Over the periodic cycle at Table 4's mean speed, with a contact half-angle from "
-        f"{figure(float(zone.min()), 3)} to {figure(float(zone.max()), 3)} rad: the doubled half differs from the whole by {figure(rms * rub, 3)} N rms and "
+        f"{figure(float(zone.min()), 3)} to {figure(float(zone.max()), 3)} rad: the doubled half differs from "
+        f"the whole by {figure(rms * rub, 3)} N rms and "
         f"{figure(worst * rub, 3)} N at most of {figure(rub)} N, has the wrong sign {100 * signs:.1f} % of the time, "
         f"and a mean of {figure(float(half.mean()) * rub, 3)} N where it is {figure(float(whole.mean()) * rub, 3)} N."
     )
@@ -216,7 +217,9 @@ def _effect_cases() -> str:
     total = sum(seen.values())
     names = {(s.forward, s.crest, s.edge, s.extremum): s.name for s in transfer.CASES}
     shares = ", ".join(f"{names[key]} {100 * count / total:.0f} %" for key, count in seen.most_common())
-    return f"One formula replaces the table. At Table 4's mean speed a periodic cycle passes {len(seen)} cases: {shares}."
+    return (
+        f"One formula replaces the table. At Table 4's mean speed a periodic cycle passes {len(seen)} cases: {shares}."
+    )
 
 
 # --- (38) ---------------------------------------------------------------------------------------------------
@@ -229,7 +232,8 @@ def _derive_38() -> Derivation:
     energy, power = J * _omega**2 / 2, f_nall * r_c * _omega - T_load * _omega
     return Derivation(
         (
-            step("The rotor's kinetic energy grows by the power of the friction at the contact radius, where its surface "
+            step("The rotor's kinetic energy grows by the power of the friction at the contact radius, where "
+                 "its surface "
                  "runs at r_c omega_p, less that of the load:", sp.Eq(sp.Derivative(energy, t), power)),
             step("Over omega_p that is the balance of torques:", _EQ38["balance"],
                  zero=sp.expand(energy.diff(t) - power - _omega * (J * _omega.diff(t) - f_nall * r_c + T_load))),
@@ -334,7 +338,8 @@ ENTRIES = (
         id="transfer-cases", section="4.2.3", title="The sixteen transfer models of Figs. 7 and 8",
         place="Sect. 4.2.3, a and b", printed={}, units={f"f_{i}": "1" for i in range(1, 17)}, verdict="reconstructed",
         judge=_judge_cases, derive=_derive_cases, effect=_effect_cases, known=_KNOWN,
-        reason="The text names what tells the cases apart but not their forces; each is a corollary of one closed form.",
+        reason="The text names what tells the cases apart but not their forces; each is a corollary of one "
+               "closed form.",
     ),
     Entry(
         id="38", section="4.2.3", title="Torque balance of the rotor", place="Sect. 4.2.3", printed=_EQ38,

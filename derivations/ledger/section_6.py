@@ -22,7 +22,7 @@ __all__ = ["ENTRIES", "cycle_totals"]
 
 D, k_c, x, T = sym("D k_c x T")
 q_plus, q_minus, p_plus, p_minus = sym("q_plus q_minus p_plus p_minus")
-zeta_zmax, v_xmax, S_k, S_s, v_s, Q_aver, Q_q, I = name("zeta_zmax v_xmax S_k S_s v_s Q_aver Q_q I")
+zeta_zmax, v_xmax, S_k, S_s, v_s, Q_aver, Q_q, I_all = name("zeta_zmax v_xmax S_k S_s v_s Q_aver Q_q I")
 i = sp.Symbol("i", integer=True, positive=True)
 v = sp.IndexedBase("v", real=True)
 _KNOWN = {**KNOWN, v[i]: KNOWN[v_s]}
@@ -35,22 +35,23 @@ def _speeds(count: int, seed: str) -> list[float]:
 
 def _of_samples(form: sp.Expr, samples: list[float], **more: float) -> float:
     """A form of the samples v_1 ... v_I, with v_s, S_k given by name."""
-    written = form.subs(I, len(samples)).doit()
+    written = form.subs(I_all, len(samples)).doit()
     known = {v[index + 1]: value for index, value in enumerate(samples)}
     known.update({s: more[s.name] for s in written.free_symbols if s.name in more})
     return float(written.subs(known))
 
 
 # --- (39) ---------------------------------------------------------------------------------------------------
-_EQ39: Forms = {"v_s": sp.Sum(v[i], (i, 1, I)) / I}
+_EQ39: Forms = {"v_s": sp.Sum(v[i], (i, 1, I_all)) / I_all}
 
 
 def _derive_39() -> Derivation:
     residual = sp.Sum(v[i] - v_s, (i, 1, 5)).doit()
     return Derivation(
         (
-            step("The mean is what the samples deviate from by nothing in all:", sp.Eq(sp.Sum(v[i] - v_s, (i, 1, I)), 0),
-                 zero=residual.subs(v_s, _EQ39["v_s"].subs(I, 5).doit())),
+            step("The mean is what the samples deviate from by nothing in all:",
+                 sp.Eq(sp.Sum(v[i] - v_s, (i, 1, I_all)), 0),
+                 zero=residual.subs(v_s, _EQ39["v_s"].subs(I_all, 5).doit())),
         ),
         _EQ39,
     )  # fmt: skip
@@ -75,7 +76,7 @@ def _effect_39() -> str:
 
 # --- (40), (41) ---------------------------------------------------------------------------------------------
 _EQ40: Forms = {"sigma_s": sp.Abs(S_k / v_s)}
-_VARIANCE = sp.Sum((v[i] - v_s) ** 2, (i, 1, I)) / I
+_VARIANCE = sp.Sum((v[i] - v_s) ** 2, (i, 1, I_all)) / I_all
 _EQ41: Forms = {"variance": sp.Eq(S_s**2, _VARIANCE)}
 
 
@@ -113,9 +114,9 @@ def _effect_40() -> str:
 
 
 def _derive_41() -> Derivation:
-    mean_square = sp.Sum(v[i] ** 2, (i, 1, I)) / I
-    four = {I: 4}
-    mean = (sp.Sum(v[i], (i, 1, I)) / I).subs(four).doit()
+    mean_square = sp.Sum(v[i] ** 2, (i, 1, I_all)) / I_all
+    four = {I_all: 4}
+    mean = (sp.Sum(v[i], (i, 1, I_all)) / I_all).subs(four).doit()
     gap = _VARIANCE.subs(four).doit().subs(v_s, mean) - mean_square.subs(four).doit() + mean**2
     return Derivation(
         (
@@ -273,7 +274,9 @@ def _judge_43(forms: Forms) -> Iterator[Evidence]:
         known = {**_totals(Q, dt), T: 4.7e-4}
         found = float(forms["Q_aver"].subs(known))
         worst = max(worst, abs(found - Q.sum() / np.abs(Q).sum() / 4.7e-4) * 4.7e-4)
-    yield evidence("numeric", worst < 1e-9, f"mean of Q over mean of |Q|, per cycle time, for sampled Q: off by {worst:.1e}")
+    yield evidence(
+        "numeric", worst < 1e-9, f"mean of Q over mean of |Q|, per cycle time, for sampled Q: off by {worst:.1e}"
+    )
     ahead = sp.simplify(forms["Q_aver"].subs(q_minus, 0)), sp.simplify(forms["Q_aver"].subs(q_plus, 0))
     yield evidence("limit", ahead == (1 / T, -1 / T), "between -1/T (all backward) and 1/T (all forward)")
 
@@ -327,7 +330,9 @@ def _judge_44(forms: Forms) -> Iterator[Evidence]:
             complex_for.append(figure(totals[p_plus] / totals[p_minus], 2))
     note = f", but for Y = {', '.join(complex_for)}" if complex_for else ""
     yield evidence("domain", not complex_for, f"real for forward and backward cycles{note}")
-    yield evidence("numeric", worst < 1e-9, f"root of summed squares over signed ones, for sampled Q: off by {worst:.1e}")
+    yield evidence(
+        "numeric", worst < 1e-9, f"root of summed squares over signed ones, for sampled Q: off by {worst:.1e}"
+    )
 
 
 def _effect_44() -> str:
@@ -339,7 +344,9 @@ def _effect_44() -> str:
         numbers = {**known, T: p["T"], Q_aver: average}
         found, right = (complex(f.subs(numbers)) for f in (_EQ44["Q_vib"], _derive_44().forms["Q_vib"]))
         text = figure(found.real) if abs(found.imag) < 1e-6 * abs(found) else f"{figure(found.imag)} i"
-        parts.append(f"{start} {text}, put right {figure(right.real)} (Y = {figure(known[p_plus] / known[p_minus], 3)})")
+        parts.append(
+            f"{start} {text}, put right {figure(right.real)} (Y = {figure(known[p_plus] / known[p_minus], 3)})"
+        )
     return (
         f"1/s at Table 3, phase lead +1: {'; '.join(parts)}. It divides by 0 at Y = 1 and at Q_aver = 0, takes the "
         f"direction's sign, and gives a wave that turns one way all the time 1/T = {figure(1 / p['T'])} 1/s, not 0."
@@ -380,7 +387,8 @@ ENTRIES = (
         reason="Share of forward over backward turning, per cycle time; Table 4 prints it without its unit, 1/s.",
     ),
     Entry(
-        id="44", section="6.1", title="Volatility determinant", place="Sect. 6.1", printed=_EQ44, units={"Q_vib": "1/s"},
+        id="44", section="6.1", title="Volatility determinant", place="Sect. 6.1", printed=_EQ44,
+        units={"Q_vib": "1/s"},
         verdict="erratum", judge=_judge_44, derive=_derive_44, effect=_effect_44, known=_KNOWN,
         repair=lambda forms: {"Q_vib": forms["Q_vib"].subs(p_plus - p_minus, sp.Abs(p_plus - p_minus))},
         found_by=("domain", "numeric"),

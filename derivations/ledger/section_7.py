@@ -57,11 +57,15 @@ def _judge_45(forms: Forms) -> Iterator[Evidence]:
     size = np.abs(np.exp(2j * np.pi * _DRIVE_HZ * time / 1000) + np.exp(2j * np.pi * _FREE_HZ * time / 1000))
     minima = time[1:-1][(size[1:-1] < size[:-2]) & (size[1:-1] <= size[2:])]
     seen = float(np.diff(minima).mean())
-    yield evidence("limit", abs(period - seen) < 1e-4, f"the spacing of the nodes of two added vibrations, {seen:.5f} ms")
+    yield evidence(
+        "limit", abs(period - seen) < 1e-4, f"the spacing of the nodes of two added vibrations, {seen:.5f} ms"
+    )
     printed = str(forms["T_redu/ms"].round(3)) if forms["T_redu/ms"].is_Float else str(forms["T_redu/ms"])
     text = f"{float(printed):.3f}"
     yield evidence("numeric", rounds_to(seen, text), f"the value {text} ms is {seen:.5f} ms rounded to its last digit")
-    yield evidence("data", rounds_to(period, _MEASURED_MS), f"agrees with the measured {_MEASURED_MS} ms in its last digit")
+    yield evidence(
+        "data", rounds_to(period, _MEASURED_MS), f"agrees with the measured {_MEASURED_MS} ms in its last digit"
+    )
 
 
 def _effect_45() -> str:
@@ -107,10 +111,12 @@ def _judge_decay(forms: Forms) -> Iterator[Evidence]:
         fall = speed(peaks[0]) / speed(peaks[1])
         found = evaluate(forms["xi"], {ratio: fall, cycles: mp.mpf(5)})
     del displacement
-    yield evidence("numeric", abs(found - mp.mpf("0.006")) < 1e-12, "gives back 0.006 from two velocity peaks, five periods "
+    yield evidence("numeric", abs(found - mp.mpf("0.006")) < 1e-12, "gives back 0.006 from two velocity peaks, "
+                                                                    "five periods "
                    "apart, of the oscillator's free motion")  # fmt: skip
-    small = sp.series(forms["xi"].subs(ratio, sp.exp(sp.Symbol("d", positive=True))), sp.Symbol("d", positive=True), 0, 2)
-    first = sp.Symbol("d", positive=True) / (2 * sp.pi * cycles)
+    d = sp.Symbol("d", positive=True)
+    small = sp.series(forms["xi"].subs(ratio, sp.exp(d)), d, 0, 2)
+    first = d / (2 * sp.pi * cycles)
     yield evidence("limit", sp.simplify(small.removeO() - first) == 0, "tends to log(r_N)/(2 pi N) for little damping")
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from typing import Any
 
 import mpmath as mp
 import numpy as np
@@ -41,7 +42,6 @@ def resonance_with(changed: Mapping[str, float]) -> complex:
     return complex(at_point(beam.resonance()["quartic"], v) / (2 * mp.pi))
 
 
-
 # --- R ------------------------------------------------------------------------------------------------------
 _R: Forms = {"R": sp.Rational(60, 1000) * unit("m")}
 
@@ -53,7 +53,8 @@ def _derive_r() -> Derivation:
     return Derivation(
         (
             step("The perimeter l_s = 188.4 mm of the same table is the circumference, to its rounding:",
-                 sp.Eq(sp.Symbol("l_s"), 2 * sp.pi * sp.Symbol("R")), zero=sp.Integer(0 if gap < sp.Rational(1, 10**4) else 1)),
+                 sp.Eq(sp.Symbol("l_s"), 2 * sp.pi * sp.Symbol("R")),
+                 zero=sp.floor(gap * 10**4)),
             step("so the 60 mm are the diameter, as the motor's name says:", sp.Eq(sp.Symbol("R"), radius * unit("m"))),
         ),
         {"R": radius * unit("m")},
@@ -66,7 +67,8 @@ def _judge_r(forms: Forms) -> Iterator[Evidence]:
     yield evidence("numeric", abs(around - p["l_s"]) < 1.5e-4, f"2 pi R = {1000 * around:.1f} mm, the table's l_s is "
                    f"{1000 * p['l_s']:.1f} mm (pi taken as 3.14)")  # fmt: skip
     turns = p["n_j"] / radius * p["l_s"] / p["n_j"]  # k_c lambda, with nine waves on the perimeter
-    yield evidence("identity", abs(turns - 2 * np.pi) < 0.005, f"k_c = n_j/R times the wavelength is {turns:.4f}, 2 pi is "
+    yield evidence("identity", abs(turns - 2 * np.pi) < 0.005, f"k_c = n_j/R times the wavelength is "
+                                                               f"{turns:.4f}, 2 pi is "
                    "needed")  # fmt: skip
 
 
@@ -75,7 +77,8 @@ def _effect_r() -> str:
     half = {"k_c": p["n_j"] / 0.06}
     return (
         f"With R = 60 mm k_c halves to {figure(half['k_c'])} 1/m and the modelled resonance falls to "
-        f"{figure(resonance_with(half).real / 1000)} kHz; with 30 mm it is {figure(resonance_with({}).real / 1000)} kHz, "
+        f"{figure(resonance_with(half).real / 1000)} kHz; with 30 mm it is "
+        f"{figure(resonance_with({}).real / 1000)} kHz, "
         "39.703 kHz were measured. lambda = pi R/9 below eq. 7 needs the 60 mm, k_c = n_j/R below eq. 4 the 30 mm."
     )
 
@@ -109,7 +112,8 @@ def _effect_heights() -> str:
     swapped = resonance_with({"h_t": 0.0045, "h_e": 0.002})
     text = f"{swapped.imag / 1000:+.1f} i kHz" if abs(swapped.real) < 1 else f"{swapped.real / 1000:.1f} kHz"
     return (
-        f"As described, h_t for the beam and h_e for the teeth, E_eq = {figure((1 - 4.5 / 2) ** 3 * 155, 3)} GPa and the "
+        f"As described, h_t for the beam and h_e for the teeth, E_eq = {figure((1 - 4.5 / 2) ** 3 * 155, 3)} "
+        f"GPa and the "
         f"resonance {text}; the other way round {figure(resonance_with({}).real / 1000)} kHz."
     )
 
@@ -146,19 +150,24 @@ def _judge_shear(forms: Forms) -> Iterator[Evidence]:
         principal = (1 + ratio) / modulus
         off[key] = 1 / (2 * _figure_of(form)) / principal - 1
         ratios[key] = modulus / (2 * _figure_of(form)) - 1
-    yield evidence("numeric", max(abs(o) for o in off.values()) < 0.005, "energy of pure shear is that of its principal "
+    yield evidence("numeric", max(abs(o) for o in off.values()) < 0.005, "energy of pure shear is that of its "
+                                                                         "principal "
                    "stresses: off by " + ", ".join(f"{key} {100 * o:+.1f} %" for key, o in off.items()))  # fmt: skip
-    yield evidence("domain", all(-1 < nu < 0.5 for nu in ratios.values()), "Poisson's ratio E/(2 G) - 1 lies between -1 "
+    yield evidence("domain", all(-1 < nu < 0.5 for nu in ratios.values()), "Poisson's ratio E/(2 G) - 1 lies "
+                                                                           "between -1 "
                    "and 0.5: " + ", ".join(f"{key} {nu:.3f}" for key, nu in ratios.items()))  # fmt: skip
 
 
 def _effect_shear() -> str:
     right = {key: float(_shear(key)) for key in _SHEAR}
     before, after = resonance_with({}).real, resonance_with(right).real
-    listed = ", ".join(f"{key} {_figure_of(_SHEAR[key]) / 1e9:.1f} instead of {right[key] / 1e9:.1f} GPa" for key in right)
+    listed = ", ".join(
+        f"{key} {_figure_of(_SHEAR[key]) / 1e9:.1f} instead of {right[key] / 1e9:.1f} GPa" for key in right
+    )
     return (
         f"{listed}. Which of E, G, mu is wrong the table does not say; with G from E and mu the modelled resonance "
-        f"rises by {after - before:+.0f} Hz ({100 * (after / before - 1):+.2f} %). Poled ceramic is not isotropic; metal is."
+        f"rises by {after - before:+.0f} Hz ({100 * (after / before - 1):+.2f} %). Poled ceramic is not "
+        f"isotropic; metal is."
     )
 
 
@@ -169,13 +178,15 @@ _DENSITY: Forms = {f"rho_{part}": sp.Integer(value) * unit("kg") * unit("m") ** 
 
 def _derive_density() -> Derivation:
     forms = {key: form / unit("m") ** 6 for key, form in _DENSITY.items()}
-    return Derivation((step("A density is mass over volume; the table prints mass times volume:", *forms.values()),), forms)
+    text = "A density is mass over volume; the table prints mass times volume:"
+    return Derivation((step(text, *forms.values()),), forms)
 
 
 def _judge_density(forms: Forms) -> Iterator[Evidence]:
     found = {key: _figure_of(form) for key, form in forms.items()}
     hertz = resonance_with({key: found[key] for key in ("rho_e", "rho_p")}).real
-    yield evidence("numeric", abs(hertz / _MEASURED_HZ - 1) < 0.05, f"with these figures in kg/m^3 the modelled resonance is "
+    yield evidence("numeric", abs(hertz / _MEASURED_HZ - 1) < 0.05, f"with these figures in kg/m^3 the modelled "
+                                                                    f"resonance is "
                    f"{hertz / 1000:.2f} kHz, 39.703 kHz was measured")  # fmt: skip
     yield evidence("data", found == {"rho_e": 8900.0, "rho_p": 7500.0, "rho_m": 2100.0}
                    and all(1000 < value < 2.2e4 for value in found.values()),
@@ -200,7 +211,8 @@ def _judge_j(forms: Forms) -> Iterator[Evidence]:
     radius = p["r_c"]
     layer = p["rho_m"] * p["b_m"] * p["h_m"] * 2 * np.pi * radius * radius**2
     disk = np.pi * p["R"] ** 4 / 2 * p["rho_e"] * (p["h_e"] + p["h_p"])
-    yield evidence("limit", layer < value < disk, f"between the layer's own {layer:.1e} and a solid metal disk's {disk:.1e} "
+    yield evidence("limit", layer < value < disk, f"between the layer's own {layer:.1e} and a solid metal "
+                                                  f"disk's {disk:.1e} "
                    "kg m^2, as thick as the stator")  # fmt: skip
     yield evidence("data", value == p["J"], "the figure that the motor file takes from the table")
 
@@ -209,7 +221,8 @@ def _effect_j() -> str:
     p = usual()
     torque = p["mu"] * operating_point()["F_c"] * p["r_c"]
     return (
-        f"In kg m^2 it is a ring of {1e3 * p['J'] / p['r_c'] ** 2:.1f} g on the contact radius; mu F_c r_c accelerates it "
+        f"In kg m^2 it is a ring of {1e3 * p['J'] / p['r_c'] ** 2:.1f} g on the contact radius; mu F_c r_c "
+        f"accelerates it "
         f"by {float(torque) / p['J']:.3g} rad/s^2. In g cm^2, the other usual unit, it would be lighter than the layer."
     )
 
@@ -219,11 +232,11 @@ _KAPPA: Forms = {"b_over_h": sp.Rational(9, 10)}
 
 
 def _derive_kappa() -> Derivation:
-    form = sp.Rational(50, 80)  # (h_e + h_p)/b_e in tenths of a millimetre
+    p, form = usual(), sp.Rational(50, 80)  # (h_e + h_p)/b_e in tenths of a millimetre
     return Derivation(
         (
             step("Height of the composite beam over its width, from the same table:", form,
-                 zero=sp.nsimplify((usual()["h_e"] + usual()["h_p"]) / usual()["b_e"], rational=True, tolerance=1e-9) - form),
+                 zero=sp.nsimplify((p["h_e"] + p["h_p"]) / p["b_e"], rational=True, tolerance=1e-9) - form),
         ),
         {"b_over_h": form},
     )  # fmt: skip
@@ -234,8 +247,8 @@ def _judge_kappa(forms: Forms) -> Iterator[Evidence]:
     heights = {"with ceramic": p["h_e"] + p["h_p"], "of the metal": p["h_e"], "without teeth": p["h_e"] - p["h_t"]}
     found = {label: height / p["b_e"] for label, height in heights.items()}
     near = min(abs(value - ratio) for ratio in found.values())
-    yield evidence("numeric", near < 0.005, "a height over the width: " + ", ".join(f"{r:.3f} {k}" for k, r in found.items())
-                   + f"; given is {value:.3f}")  # fmt: skip
+    listed = ", ".join(f"{ratio:.3f} {label}" for label, ratio in found.items())
+    yield evidence("numeric", near < 0.005, f"a height over the width: {listed}; given is {value:.3f}")
     yield evidence("limit", 0 < value < max(found.values()) + 0.005, "no more than the highest section's ratio")
 
 
@@ -244,8 +257,10 @@ def _effect_kappa() -> str:
     cowper = 10 * (1 + nu) / (12 + 11 * nu)
     before, after = resonance_with({}).real, resonance_with({"kappa": cowper}).real
     return (
-        "kappa stands in two rows with 0.9: as 'height-width ratio', which enters no equation, and as shear correction. "
-        f"For a solid rectangle Cowper's coefficient would be {cowper:.3f}: the resonance changes by {after - before:+.0f} Hz."
+        "kappa stands in two rows with 0.9: as 'height-width ratio', which enters no equation, and as shear "
+        "correction. "
+        f"For a solid rectangle Cowper's coefficient would be {cowper:.3f}: the resonance changes by "
+        f"{after - before:+.0f} Hz."
     )
 
 
@@ -272,7 +287,8 @@ def _judge_voltage(forms: Forms) -> Iterator[Evidence]:
     amplitude = _figure_of(forms["U_s"])
     wave = amplitude * np.sin(np.linspace(0, 2 * np.pi, 10001))
     swing = float(wave.max() - wave.min())
-    yield evidence("numeric", abs(swing - 400) < 1e-3, f"as the amplitude of eq. 7 it swings by {swing:.0f} V; Sects. 7.1 "
+    yield evidence("numeric", abs(swing - 400) < 1e-3, f"as the amplitude of eq. 7 it swings by {swing:.0f} V; "
+                                                       f"Sects. 7.1 "
                    "and 7.2 drive with 400 V peak to peak")  # fmt: skip
     yield evidence("data", amplitude in (200.0, 400.0), "400 V or half of it")
 
@@ -281,8 +297,8 @@ def _effect_voltage() -> str:
     return "W_max of eq. 7 is proportional to U_s: 400 V instead of 200 V makes it twice as large (+100 %)."
 
 
-def _entry(name: str, **fields: object) -> Entry:
-    return Entry(id=f"table-1-{name}", section="5.1", place="Table 1", known=UNITS, **fields)  # type: ignore[arg-type]
+def _entry(name: str, **fields: Any) -> Entry:  # noqa: ANN401
+    return Entry(id=f"table-1-{name}", section="5.1", place="Table 1", known=UNITS, **fields)
 
 
 ENTRIES = (
@@ -320,7 +336,8 @@ ENTRIES = (
         "kappa", title="Height-width ratio", printed=_KAPPA, units={"b_over_h": "1"}, verdict="erratum",
         judge=_judge_kappa, derive=_derive_kappa, effect=_effect_kappa, repair=lambda _: _derive_kappa().forms,
         found_by=("numeric", "limit"),
-        reason="The row repeats symbol and figure of the shear correction; no height of the section over its width is 0.9.",
+        reason="The row repeats symbol and figure of the shear correction; no height of the section over its "
+               "width is 0.9.",
     ),
     _entry(
         "U_s", title="Voltage", printed=_U_S, units={"U_s": "V"}, verdict="erratum", judge=_judge_voltage,
