@@ -221,20 +221,21 @@ class TransferCase:
         return f"{'forward' if self.forward else 'reverse'} {signs}, {'extremum' if self.extremum else 'monotone'}"
 
     def fraction(self) -> sp.Expr:
-        """What the closed form becomes in this case, with C the half zone's share.
+        """What the closed form becomes in this case for |c| < 1, with C the half zone's share.
 
         Where the sign changes once, one nonsliding point is left; where it is equal at both ends it changes
-        twice or not at all, and twice only around an extremum.
+        twice or not at all, and twice only around an extremum.  A stretch that is slower than a rotor running
+        forward, or faster than one running backward, is longer than half a wave and fits between no two ends.
         """
         C = pressure_share(sp.Integer(0), theta)
-        falls, rises = (_nearest(point) for point in nonsliding_points())
+        falls, rises = (_nearest(phi + sp.acos(c)), _nearest(phi - sp.acos(c)))
         if self.crest != self.edge:
             return self.crest * (2 * C.subs(u, falls if self.crest > 0 else rises) - 1)
-        if not self.extremum:
+        if not self.extremum or (self.crest > 0) == self.forward:
             return sp.Integer(self.crest)
         if self.crest < 0:  # a faster stretch around the peak at phi, or none
-            return 2 * (C.subs(u, _nearest(phi) + _opening()) - C.subs(u, _nearest(phi) - _opening())) - 1
-        slow, closing = _nearest(phi + sp.pi), sp.pi - _opening()  # a slower stretch around the trough, or none
+            return 2 * (C.subs(u, _nearest(phi) + sp.acos(c)) - C.subs(u, _nearest(phi) - sp.acos(c))) - 1
+        slow, closing = _nearest(phi + sp.pi), sp.pi - sp.acos(c)  # a slower stretch around the trough, or none
         return 1 - 2 * (C.subs(u, slow + closing) - C.subs(u, slow - closing))
 
 

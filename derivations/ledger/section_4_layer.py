@@ -60,7 +60,7 @@ def _judge_27(forms: Forms) -> Iterator[Evidence]:
         k = mp.mpf(300)
         low, high = point[x_max], point[x_max] + mp.pi / k
         level = mp.cos(k * point[x_m])
-        for _ in range(120):
+        for _turn in range(120):
             middle = (low + high) / 2
             low, high = (middle, high) if mp.cos(k * (middle - point[x_max])) > level else (low, middle)
         return low

@@ -126,7 +126,7 @@ def _derive_34() -> Derivation:
 
 
 def _judge_34(forms: Forms) -> Iterator[Evidence]:
-    worst = {key: mp.mpf(0) for key in forms}
+    worst, turned = {key: mp.mpf(0) for key in forms}, []
     stiff, height = mp.mpf("2.8e-3"), mp.mpf("5.6e-6")
     for key, form in forms.items():
         redu = key == "x_px_redu"
@@ -138,9 +138,12 @@ def _judge_34(forms: Forms) -> Iterator[Evidence]:
             known = {D: stiff, k_c: mp.mpf(K), W: height, v_xp: ratio * speed, Psi_v: psi,
                      a: size * mp.cos(psi), b: size * mp.sin(psi)}  # fmt: skip
             found = evaluate(form, {s: known[s] for s in form.free_symbols})
+            turned.append(complex(K * found).real)
             worst[key] = max(worst[key], abs(speed * mp.sin(K * found + psi) / speed - ratio))
     detail = ", ".join(f"{key} misses by {mp.nstr(value, 2)} of A_v" for key, value in worst.items())
     yield evidence("numeric", all(value < 1e-12 for value in worst.values()), f"v_x there is the rotor's: {detail}")
+    one_wave = all(-3 * math.pi / 2 <= angle <= math.pi / 2 for angle in turned)
+    yield evidence("limit", one_wave, "all rows give k_c x_px in one wave, from -3 pi/2 to pi/2")
     gaps = [key for key, form in forms.items() if _row_at(form, 0, -1) is sp.nan]
     yield evidence(
         "domain", not gaps, "a row for every M_a, M_b" + (f", but for M_a = 0 > M_b in {gaps}" if gaps else "")
@@ -169,8 +172,8 @@ def _effect_34() -> str:
     return (
         f"In T_redu the arcsine's argument comes out {figure(v['W'], 3)} times too small: for a rotor at half the "
         f"surface's {figure(1000 * speed)} mm/s the point moves by {figure(1000 * shift / v['k_c'], 3)} mm, to where "
-        f"the surface stands still. Of 4000 random states {100 * outside:.0f} % leave the stated range "
-        "(-pi/2, 3 pi/2)/k_c."
+        f"the surface stands still. The rows give points in (-3 pi/2, pi/2)/k_c, not in the "
+        f"stated (-pi/2, 3 pi/2)/k_c: {100 * outside:.0f} % of 4000 random states leave it."
     )
 
 
@@ -211,7 +214,8 @@ _EQ35: Forms = {"x_p": _rows_35()}
 
 
 def _derive_35() -> Derivation:
-    form = x_max + transfer.nonsliding_point_of_half_zone().subs({c: v_xp / R_v}) / k_c
+    inside = transfer.nonsliding_point_of_half_zone().subs(sp.Max(-1, sp.Min(1, c)), c)  # |v| <= R, or there is none
+    form = x_max + inside.subs(c, v_xp / R_v) / k_c
     form = form.subs(sp.sign(sp.cos(phi) - v_xp / R_v), sp.sign(v_xmax - v_xp))
     falls, rises = transfer.nonsliding_points()
     return Derivation(

@@ -150,7 +150,7 @@ def _judge_shear(forms: Forms) -> Iterator[Evidence]:
         principal = (1 + ratio) / modulus
         off[key] = 1 / (2 * _figure_of(form)) / principal - 1
         ratios[key] = modulus / (2 * _figure_of(form)) - 1
-    yield evidence("numeric", max(abs(o) for o in off.values()) < 0.005, "energy of pure shear is that of its "
+    yield evidence("numeric", max(abs(o) for o in off.values()) < 1e-12, "energy of pure shear is that of its "
                                                                          "principal "
                    "stresses: off by " + ", ".join(f"{key} {100 * o:+.1f} %" for key, o in off.items()))  # fmt: skip
     yield evidence("domain", all(-1 < nu < 0.5 for nu in ratios.values()), "Poisson's ratio E/(2 G) - 1 lies "
