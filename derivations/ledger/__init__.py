@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from derivations.ledger import (
+    appendix_a,
     appendix_b_c,
     claims,
     claims_appendix_c,
     section_2_amplitude,
     section_2_composite,
     section_2_vibration,
+    section_3_crest,
     section_3_phases,
     section_3_supplement,
     section_3_velocity,
@@ -32,6 +34,7 @@ ENTRIES: tuple[Entry, ...] = (
     *section_3_supplement.ENTRIES,
     *section_3_phases.ENTRIES,
     *section_3_velocity.ENTRIES,
+    *section_3_crest.ENTRIES,
     *section_4_hertz.ENTRIES,
     *section_4_layer.ENTRIES,
     *section_4_nonsliding.ENTRIES,
@@ -40,6 +43,7 @@ ENTRIES: tuple[Entry, ...] = (
     *section_6.ENTRIES,
     *section_7.ENTRIES,
     *tables_2_to_5.ENTRIES,
+    *appendix_a.ENTRIES,
     *appendix_b_c.ENTRIES,
     *claims.ENTRIES,
     *claims_appendix_c.ENTRIES,

@@ -14,7 +14,7 @@ from derivations.ledger.model import Derivation, Entry, Evidence, Forms, Picture
 from derivations.ledger.regions import by_region, context, row_value, rows, worst
 from derivations.nomenclature import sym
 
-__all__ = ["ENTRIES", "EQ10", "corrected_10"]
+__all__ = ["ENTRIES", "EQ9", "EQ10", "corrected_10", "rotating_vector"]
 
 t, tau, t_1, t_2, t_3, t_4, xi = sym("t tau t_1 t_2 t_3 t_4 xi")
 omega_n, omega_q, omega_d, W_maxf, k_c, x, Delta_omega = sym("omega_n omega_q omega_d W_maxf k_c x Delta_omega")
@@ -267,7 +267,7 @@ def corrected_13() -> Forms:
     }  # fmt: skip
 
 
-def _vector(cycle: Cycle, phase: str, region: str, time: mp.mpf) -> mp.mpc:
+def rotating_vector(cycle: Cycle, phase: str, region: str, time: mp.mpf) -> mp.mpc:
     """The phase as a rotating vector: free motion at omega_d with its decay, forced at omega_q."""
     eigenvalue = cycle["omega_n"] * mp.mpc(-cycle["xi"], mp.sqrt(1 - cycle["xi"] ** 2))
     on = {"A": (0, 1, 1), "B": (1, 0, 1)}[phase][REGIONS.index(region)]
@@ -283,7 +283,7 @@ def _judge_13(forms: Forms) -> Iterator[Evidence]:
         found = mp.mpf(0)
         for phase, shape in (("A", mp.sin), ("B", mp.cos)):
             value = row_value(forms[f"A_{phase}"], names)
-            wanted = abs(_vector(cycle, phase, region, time)) * shape(cycle["k_c"] * place)
+            wanted = abs(rotating_vector(cycle, phase, region, time)) * shape(cycle["k_c"] * place)
             found = max(found, mp.inf if value is None else abs(value - wanted) / cycle["W"])
         return found
 
@@ -372,7 +372,7 @@ def _judge_14(forms: Forms) -> Iterator[Evidence]:
             missing.add(region)
             return mp.mpf(0)
         angle = values[0] * (names["t"] - values[1]) + values[2]
-        a, b = (_vector(cycle, phase, region, time) for phase in "AB")
+        a, b = (rotating_vector(cycle, phase, region, time) for phase in "AB")
         wanted = mp.arg(b / a)
         return min(abs(mp.expj(angle) - mp.expj(sign * wanted)) for sign in (1, -1))
 
@@ -421,7 +421,7 @@ def _effect_14() -> str:
 
 
 def _slow_angle(cycle: Cycle, time: mp.mpf) -> mp.mpf:
-    a, b = (_vector(cycle, phase, "addredu", time) for phase in "AB")
+    a, b = (rotating_vector(cycle, phase, "addredu", time) for phase in "AB")
     return mp.arg(b / a)
 
 
