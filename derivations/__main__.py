@@ -1,4 +1,4 @@
-"""``python -m derivations generate [--check]``: write generated/, or say what is stale."""
+"""``python -m derivations``: ``generate [--check]`` writes generated/, ``verify`` re-proves the ledger."""
 
 from __future__ import annotations
 
@@ -38,8 +38,15 @@ def main(arguments: list[str] | None = None) -> int:
     generate.add_argument(
         "--check", action="store_true", help="change nothing; exit 1 with a diff if anything is stale"
     )
+    proving = commands.add_parser("verify", help="re-prove every equation of the paper, or one")
+    proving.add_argument("--equation", metavar="ID", help="the paper's number, such as 6 or A13: its steps written out")
+    proving.add_argument("--json", action="store_true", help="records instead of a table")
     options = parser.parse_args(arguments)
-    return _generate(options.check)
+    if options.command == "generate":
+        return _generate(options.check)
+    from derivations.ledger.command import verify
+
+    return verify(options.equation, options.json)
 
 
 if __name__ == "__main__":

@@ -12,16 +12,18 @@ import sympy as sp
 from trum_sym.motor import Motor
 from trum_sym.units import Dimension, parse_unit
 
-__all__ = ["CONSTANTS", "NOMENCLATURE", "TINY", "Entry", "sym"]
+__all__ = ["CLASHES", "CONSTANTS", "NOMENCLATURE", "TINY", "Entry", "latex", "sym"]
 
 
 @dataclass(frozen=True)
 class Entry:
-    """A symbol with its SI unit and meaning."""
+    """A symbol, or a function of its arguments, with its SI unit, meaning, LaTeX and where the paper defines it."""
 
-    symbol: sp.Symbol
+    symbol: sp.Expr
     unit: str
     meaning: str
+    latex: str
+    where: str
 
     @property
     def dimension(self) -> Dimension:
@@ -29,74 +31,181 @@ class Entry:
         return parse_unit(self.unit).dimension
 
 
-# name, unit, assumptions (+ positive, r real), meaning
-_REST = """
-t           | s        | r | time
-x           | m        | r | position along the unrolled circumference
-tau         | s        | r | time since the start of a region of the drive cycle
-E           | Pa       | + | Young's modulus of the composite section (eq. 2)
-rho         | kg/m^3   | + | mean density of the composite section (eq. 2)
-I_z         | m^4      | + | second moment of area of the composite section (eq. 2)
-G           | Pa       | + | shear modulus of the composite section (eq. 2)
-A           | m^2      | + | area of the composite section
-E_eq        | Pa       | + | Young's modulus of the toothed beam, reduced for its grooves
-k_f         | N/m^2    | + | stiffness per length of the foundation under the beam
-k_dx        | N/m      | + | the paper's foundation stiffness (below eq. 5)
-theta       | rad      | + | contact half-angle k_c x_m
-F_c         | N        | + | prepressure
-N_1         | N        | + | one newton, which makes the base of eq. 8's power a number
-W           | m        | + | amplitude of a phase's standing wave
-omega_n     | rad/s    | + | resonant angular frequency
-omega_q     | rad/s    | + | drive angular frequency
-Delta_omega | rad/s    | r | angular frequency difference, drive less resonance
-beta        | 1/m      | + | rotation per displacement of the Timoshenko mode
-m           | 1        | + | drive pulses per cycle (periods)
-n           | 1        | + | pulses each phase gets per cycle (on_periods)
-psi         | rad      | r | drive phase at which the phases are switched (switching_phase)
-s           | 1        | r | phase lead of B in quarter periods, +1 or -1
-T           | s        | + | duration of a drive cycle
-a           | m        | r | free displacement at the start
-b           | m/s      | r | free velocity at the start
-a_A         | m        | r | free displacement of phase A at the start of the region
-b_A         | m/s      | r | free velocity of phase A at the start of the region
-a_B         | m        | r | free displacement of phase B at the start of the region
-b_B         | m/s      | r | free velocity of phase B at the start of the region
-g_A         | 1        | r | gate of phase A, 1 on and 0 off
-g_B         | 1        | r | gate of phase B, 1 on and 0 off
-q_plus      | 1        | + | integral of the positive part of the determinant, W = D k_c = 1
-q_minus     | 1        | + | integral of the magnitude of its negative part
-p_plus      | 1/s      | + | integral of the square of the positive part
-p_minus     | 1/s      | + | integral of the square of the negative part
-W_full      | m        | + | wave height below which the Hertz width spans the whole wave
-engagement_per_height | 1/m | + | engagement over wave height
-f_A_re      | m        | r | phasor of phase A's free motion at the start of a step, real part
-f_A_im      | m        | r | its imaginary part
-f_B_re      | m        | r | phasor of phase B's free motion at the start of a step, real part
-f_B_im      | m        | r | its imaginary part
-p_re        | 1        | r | phasor of the drive at the start of a step, real part
-p_im        | 1        | r | its imaginary part
-e_re        | 1        | r | turn and decay of free motion within a step, real part
-e_im        | 1        | r | its imaginary part
-d_re        | 1        | r | turn of the drive within a step, real part
-d_im        | 1        | r | its imaginary part
-W_c         | m        | + | height of the wave at its crest
-engagement  | 1        | + | the layer's force at full wave over the prepressure, 2 n_j k_N W_c / (k_c F_c)
-share       | 1        | r | constant part of the pressure's share per angle
-sin_theta   | 1        | r | sine of the contact half-angle
-fullness    | 1        | + | how full the contact is, 1 when the whole wave touches
-fullness_root | 1      | + | its cube root
-phi         | rad      | r | phase of the surface speed, from the crest
-cos_phi     | 1        | r | its cosine
-sin_phi     | 1        | r | its sine
-R_v         | m/s      | + | amplitude of the surface speed along the wave
-f           | 1        | r | net friction fraction, of mu F_c
-v           | m/s      | r | speed of the rotor's rim, omega r_c
-T_load      | N*m      | r | load torque
+# name, unit, kind (+ positive symbol, r real symbol, f function of the arguments given), LaTeX, where defined, meaning
+_REST = r"""
+t           | s        | r | t | Sect. 2 | time
+x           | m        | r | x | Sect. 2 | position along the unrolled circumference
+tau         | s        | r | \tau | ours | time since the start of a region of the drive cycle
+E           | Pa       | + | E | eq. 2 | Young's modulus of the composite section (eq. 2)
+rho         | kg/m^3   | + | \rho | eq. 2 | mean density of the composite section (eq. 2)
+I_z         | m^4      | + | I_z | eq. 2 | second moment of area of the composite section (eq. 2)
+G           | Pa       | + | G | eq. 2 | shear modulus of the composite section (eq. 2)
+A           | m^2      | + | A | eq. 2 | area of the composite section
+E_eq        | Pa       | + | E_{eq} | eq. 1 | Young's modulus of the toothed beam, reduced for its grooves
+k_f         | N/m^2    | + | k_f | ours | stiffness per length of the foundation under the beam
+k_dx        | N/m      | + | k_{dx} | eq. 5 | the paper's foundation stiffness (below eq. 5)
+theta       | rad      | + | \vartheta | ours | contact half-angle k_c x_m
+F_c         | N        | + | F_c | eq. 8 | prepressure
+N_1         | N        | + | 1\,\mathrm{N} | ours | one newton, which makes the base of eq. 8's power a number
+W           | m        | + | W | ours | amplitude of a phase's standing wave
+omega_n     | rad/s    | + | \omega_n | eq. 6 | resonant angular frequency
+omega_q     | rad/s    | + | \omega_q | eq. 7 | drive angular frequency
+Delta_omega | rad/s    | r | \Delta\omega | eq. 14 | angular frequency difference, drive less resonance
+beta        | 1/m      | + | \beta | ours | rotation per displacement of the Timoshenko mode
+m           | 1        | + | m | Sect. 5.2.1 | drive pulses per cycle (periods)
+n           | 1        | + | n | Sect. 5.2.1 | pulses each phase gets per cycle (on_periods)
+psi         | rad      | r | \psi | ours | drive phase at which the phases are switched (switching_phase)
+s           | 1        | r | s | ours | phase lead of B in quarter periods, +1 or -1
+T           | s        | + | T_{Qall} | eq. 43 | duration of a drive cycle
+a           | m        | r | a | ours | free displacement at the start
+b           | m/s      | r | b | ours | free velocity at the start
+a_A         | m        | r | a_A | ours | free displacement of phase A at the start of the region
+b_A         | m/s      | r | b_A | ours | free velocity of phase A at the start of the region
+a_B         | m        | r | a_B | ours | free displacement of phase B at the start of the region
+b_B         | m/s      | r | b_B | ours | free velocity of phase B at the start of the region
+g_A         | 1        | r | g_A | ours | gate of phase A, 1 on and 0 off
+g_B         | 1        | r | g_B | ours | gate of phase B, 1 on and 0 off
+q_plus      | 1        | + | \sum Q_q^+ | eq. 43 | integral of the positive part of the determinant, W = D k_c = 1
+q_minus     | 1        | + | \sum\vert Q_q^-\vert  | eq. 43 | integral of the magnitude of its negative part
+p_plus      | 1/s      | + | \sum\vert Q_q^+\vert ^2 | eq. 44 | integral of the square of the positive part
+p_minus     | 1/s      | + | \sum\vert Q_q^-\vert ^2 | eq. 44 | integral of the square of the negative part
+W_full      | m        | + | W_{full} | ours | wave height below which the Hertz width spans the whole wave
+engagement_per_height | 1/m      | + | \epsilon' | ours | engagement over wave height
+f_A_re      | m        | r | f_{A,re} | ours | phasor of phase A's free motion at the start of a step, real part
+f_A_im      | m        | r | f_{A,im} | ours | its imaginary part
+f_B_re      | m        | r | f_{B,re} | ours | phasor of phase B's free motion at the start of a step, real part
+f_B_im      | m        | r | f_{B,im} | ours | its imaginary part
+p_re        | 1        | r | p_{re} | ours | phasor of the drive at the start of a step, real part
+p_im        | 1        | r | p_{im} | ours | its imaginary part
+e_re        | 1        | r | e_{re} | ours | turn and decay of free motion within a step, real part
+e_im        | 1        | r | e_{im} | ours | its imaginary part
+d_re        | 1        | r | d_{re} | ours | turn of the drive within a step, real part
+d_im        | 1        | r | d_{im} | ours | its imaginary part
+W_c         | m        | + | W_c | ours | height of the wave at its crest
+engagement  | 1        | + | \epsilon | ours | the layer's force at full wave over the prepressure, 2 n_j k_N W_c / (k_c F_c)
+share       | 1        | r | \sigma_p | ours | constant part of the pressure's share per angle
+sin_theta   | 1        | r | \sin\vartheta | ours | sine of the contact half-angle
+fullness    | 1        | + | \tau_c | ours | how full the contact is, 1 when the whole wave touches
+fullness_root | 1        | + | \tau_c^{1/3} | ours | its cube root
+phi         | rad      | r | \varphi_v | ours | phase of the surface speed, from the crest
+cos_phi     | 1        | r | \cos\varphi_v | ours | its cosine
+sin_phi     | 1        | r | \sin\varphi_v | ours | its sine
+R_v         | m/s      | + | R_v | ours | amplitude of the surface speed along the wave
+f           | 1        | r | f | ours | net friction fraction, of mu F_c
+v           | m/s      | r | v | ours | speed of the rotor's rim, omega r_c
+T_load      | N*m      | r | T_{load} | eq. 38 | load torque
+"""
+
+# The paper's symbols that only the ledger needs, in the order of the paper.
+_PAPER = r"""
+z           | m        | r | z | Sect. 2.1 | depth below the tooth surface or the neutral axis
+k_t         | 1        | + | k_t | Sect. 2.1 | tooth height over beam height
+k_s         | 1        | + | k_s | Sect. 2.1 | share of the grooves in the circumference
+k_d         | 1        | + | k_d | Sect. 2.1 | share of the metal left by the grooves
+rho_eq      | kg/m^3   | + | \rho_{eq} | Sect. 2.1 | density of the beam reduced for its grooves
+G_eq        | Pa       | + | G_{eq} | Sect. 2.1 | shear modulus of the beam reduced for its grooves
+A_eq        | m^2      | + | A_{eq} | Sect. 2.1 | area of the metal
+A_p         | m^2      | + | A_p | Sect. 2.1 | area of the ceramic
+I_e         | m^4      | + | I_e | eq. 2 | second moment of the metal about the neutral axis
+I_p         | m^4      | + | I_p | eq. 2 | second moment of the ceramic about the neutral axis
+h           | m        | + | h | eq. 2 | height of metal and ceramic
+w           | m        | f x t | w | eq. 3 | vertical displacement of the beam, printed omega
+p           | N/m      | f x t | p | eq. 3 | load per length of the beam
+omega_n0    | rad/s    | + | \omega_{n0} | eq. 4 | natural frequency without prepressure
+x_m         | m        | + | x_m | eq. 5 | half-length of a contact
+k_ds        | N/m      | + | k_{ds} | eq. 5 | printed stiffness of the foundation
+a_1         | N*m^2    | + | a_1 | eq. 5 | coefficient of the fourth derivative in x
+a_2         | kg*m     | r | a_2 | eq. 5 | coefficient of the mixed derivative
+a_3         | kg/m     | + | a_3 | eq. 5 | coefficient of the second derivative in t
+a_4         | kg*s^2/m | + | a_4 | eq. 5 | coefficient of the fourth derivative in t
+M_1         | kg       | + | M_1 | eq. 7 | modal mass of a wavelength
+A_zm        | N/m      | r | A_{zm} | eq. 7 | modal force per length
+lambda      | m        | + | \lambda | eq. 7 | wavelength
+t_1         | s        | r | t_1 | Sect. 3.2 | phase A is switched off
+t_2         | s        | r | t_2 | Sect. 3.2 | A is switched on, B off
+t_3         | s        | r | t_3 | Sect. 3.2 | B is switched on
+t_4         | s        | r | t_4 | Sect. 3.2 | the cycle ends
+omega_d     | rad/s    | + | \omega_d | ours | frequency of the damped free motion, omega_n sqrt(1 - xi^2)
+A_Aredu     | m        | + | A_{Aredu} | ours | amplitude of A's free motion at t_1
+varphi_Aredu | rad     | r | \varphi_{Aredu} | eq. 9 | phase of A's free motion at t_1
+R_Aaddredu  | m        | + | R_{Aaddredu} | ours | amplitude of A's free motion at t_2
+A_ABaddredu | m        | r | A_{ABaddredu} | eq. 9 | beating amplitude of phase A after t_2
+Theta_Baddredu | rad   | r | \Theta_{Baddredu} | eq. 9 | phase of A's free motion at t_2
+Psi_Aaddredu | rad     | r | \Psi_{Aaddredu} | eq. 9 | phase of A's forced motion at t_2
+varphi_Baddredu | rad  | r | \varphi_{Baddredu} | eq. 9 | slow part of A's phase after t_2
+A_Baddredu  | m        | + | A_{Baddredu} | ours | amplitude of B's free motion at t_2
+R_Badd      | m        | + | R_{Badd} | ours | amplitude of B's free motion at t_3
+A_Badd      | m        | r | A_{Badd} | eq. 10 | beating amplitude of phase B after t_3
+Theta_Badd  | rad      | r | \Theta_{Badd} | eq. 10 | phase of B's free motion at t_3
+Psi_Badd    | rad      | r | \Psi_{Badd} | eq. 10 | phase of B's forced motion at t_3, less pi
+varphi_Badd | rad      | r | \varphi_{Badd} | eq. 10 | slow part of B's phase after t_3
+zeta_z      | m        | r | \zeta_z | eq. 11 | vertical displacement of a surface point
+zeta_x      | m        | r | \zeta_x | eq. 11 | tangential displacement of a surface point
+A_Q         | m        | + | A_Q | eq. 12 | amplitude of the rotating vectors' sum
+A_A         | m        | r | A_A | eq. 12 | amplitude of phase A at the point
+A_B         | m        | r | A_B | eq. 12 | amplitude of phase B at the point
+t_Q         | s        | r | t_Q | eq. 12 | start of the region
+theta_Q     | rad      | r | \theta_Q | eq. 12 | phase difference of the vectors at t_Q
+Delta_omega_redu | rad/s | r | \Delta\omega_{redu} | eq. 14 | rate of the phase difference in T_redu
+Delta_omega_addredu | rad/s | r | \Delta\omega_{addredu} | eq. 14 | rate of the phase difference in T_addredu
+Delta_omega_add | rad/s | r | \Delta\omega_{add} | eq. 14 | rate of the phase difference in T_add
+T_redu      | s        | + | T_{redu} | eq. 15 | beat period in the first region
+T_addredu   | s        | + | T_{addredu} | eq. 15 | beat period in the second region
+T_add       | s        | + | T_{add} | eq. 15 | beat period in the third region
+v_x         | m/s      | r | v_x | eq. 16 | tangential velocity of a surface point
+A_v         | m/s      | + | A_v | eq. 17 | amplitude of the tangential velocity
+Psi_v       | rad      | r | \Psi_v | eq. 17 | phase angle of the tangential velocity
+M_a         | m/s      | r | M_a | eq. 18 | sine's part of the tangential velocity over D k_c
+M_b         | m/s      | r | M_b | eq. 19 | cosine's part of the tangential velocity over D k_c
+x_max       | m        | r | x_{max} | eq. 20 | position of the crest
+zeta_zmax   | m        | + | \zeta_{zmax} | eq. 21 | displacement of the crest
+v_xmax      | m/s      | r | v_{xmax} | eq. 22 | tangential velocity of the crest
+W_a         | m        | + | W_a | eq. A1 | amplitude of phase A
+W_b         | m        | + | W_b | eq. A1 | amplitude of phase B
+omega_a     | rad/s    | + | \omega_a | eq. A1 | angular frequency of phase A
+omega_b     | rad/s    | + | \omega_b | eq. A1 | angular frequency of phase B
+varphi_a    | rad      | r | \varphi_a | eq. A1 | phase of phase A
+varphi_b    | rad      | r | \varphi_b | eq. A1 | phase of phase B
+Q_q         | m^2/s    | r | Q_q | eq. 24 | direction determinant
+T_q         | s        | + | T_q | eq. A9 | period of the determinant
+w_A         | m        | f t | w_A | eq. 9 | modal response of phase A
+w_B         | m        | f t | w_B | eq. 10 | modal response of phase B
 """
 
 
 def _symbol(name: str, positive: bool) -> sp.Symbol:
     return sp.Symbol(name, positive=True) if positive else sp.Symbol(name, real=True)
+
+
+# Where the paper uses one letter, or nearly one, for several things: letter -> its meanings, with their places.
+CLASHES: dict[str, tuple[str, ...]] = {
+    r"\omega": ("displacement of the beam (eqs. 3, 4, 5)", "angular frequency (eq. 4 on), in the same equation (4)"),
+    "m": ("drive pulses per cycle (Sect. 5.2.1)", "number of wave crests (k_dx, eqs. 25, 26, 36)"),
+    r"\theta": ("rotation of the section (eq. 3)", "phase difference theta_Q (eqs. 12, 14), Theta_Q in the text"),
+    "A": ("area of the section (eq. 2)", "phase A", "amplitude vectors A_A, A_B, A_Q (eqs. 12, 13)"),
+    "A_p": ("area of the ceramic (eq. 2)", "coefficient of the pressure (eq. 30)"),
+    "D": ("tooth surface to neutral axis (eq. 1)", "lever arm of the ceramic, as D/2 (eq. 7)"),
+    "h_e": ("thickness of the beam with teeth (Sect. 2.1)", "thickness of the teeth (Table 1)", "k_e (Sect. 2.1)"),
+    "R": ("radius (eq. 4)", "diameter (Table 1; lambda below eq. 7)"),
+    "k_{dx}": ("stiffness of the layer, N/m (below eq. 5, eq. 6)", "printed k_ds in eq. 5, where N/m^2 is needed"),
+    r"\kappa": ("shear correction coefficient (eq. 3, Table 1)", "height-width ratio of the section (Table 1)"),
+    r"\xi": ("damping ratio (eq. 7)", "displacements xi_z, xi_x (eqs. A2 to A13), called zeta in eq. 11"),
+    r"\zeta": ("displacements zeta_z, zeta_x (eq. 11)", "damping ratio in the first row of eq. 9 and in eq. 24"),
+    r"\Delta\omega": ("drive less resonance (eq. 14)", "half of that in the second row of eq. 14", "Hz (Table 5)"),
+    "Q": ("particle point (Sect. 3.1)", "direction determinant Q_q (eq. 24), also called Q_redu and Q_qredu"),
+    "M": ("modal mass M_1 (eq. 7)", "M_a, M_b in eqs. 17 to 19", "torque M_n (eq. 38)"),
+    "P": ("load P(x,t), written p in eq. 3", "P_A, P_B, modal responses (eqs. 23, A11)"),
+    "T": ("beat periods T_redu ... (eq. 15)", "regions T_reduT ... (Sect. 3.2)", "torque T_load (eq. 38)"),
+}  # fmt: skip
+
+
+def _table_row(line: str, table: dict[str, Entry]) -> tuple[str, Entry]:
+    name, unit, kind, latex, where, meaning = (part.strip() for part in line.split("|"))
+    if kind.startswith("f"):
+        symbol = sp.Function(name)(*(table[argument].symbol for argument in kind.split()[1:]))
+    else:
+        symbol = _symbol(name, positive=kind == "+")
+    return name, Entry(symbol, unit, meaning, latex, where)
 
 
 def _entries() -> dict[str, Entry]:
@@ -105,17 +214,19 @@ def _entries() -> dict[str, Entry]:
         spec = field.metadata.get("spec")
         if spec is not None:
             symbol = _symbol(spec.symbol, positive=spec.domain.low >= 0)
-            table[spec.symbol] = Entry(symbol, spec.unit, field.name.replace("_", " "))
-    for line in _REST.strip().splitlines():
-        name, unit, kind, meaning = (part.strip() for part in line.split("|"))
+            table[spec.symbol] = Entry(symbol, spec.unit, field.name.replace("_", " "), sp.latex(symbol), "Table 1")
+    for line in (_REST + _PAPER).strip().splitlines():
+        if not line:
+            continue
+        name, entry = _table_row(line, table)
         if name in table:
             raise ValueError(f"symbol {name} is defined twice")
-        table[name] = Entry(_symbol(name, positive=kind == "+"), unit, meaning)
+        table[name] = entry
     return table
 
 
 NOMENCLATURE = _entries()
-
+_LATEX = {entry.symbol: entry.latex for entry in NOMENCLATURE.values() if isinstance(entry.symbol, sp.Symbol)}
 
 # Keeps a quotient finite where both sides vanish; has whatever dimension it is added to.
 TINY = sp.Symbol("tiny", positive=True)
@@ -124,5 +235,10 @@ CONSTANTS = {NOMENCLATURE["N_1"].symbol: 1.0, TINY: 1e-300}
 
 
 def sym(names: str) -> tuple[sp.Symbol, ...]:
-    """The symbols of the nomenclature by their names, separated by spaces."""
+    """The symbols of the nomenclature by their names, separated by spaces; functions with their arguments, w_A(t)."""
     return tuple(NOMENCLATURE[name].symbol for name in names.split())
+
+
+def latex(expr: sp.Basic) -> str:
+    """LaTeX with the nomenclature's names."""
+    return str(sp.latex(expr, symbol_names=_LATEX, fold_short_frac=False, ln_notation=True))

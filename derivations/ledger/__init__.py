@@ -1,0 +1,58 @@
+"""The ledger: every equation of the paper as printed, as derived, with a verdict and the evidence for it."""
+
+from __future__ import annotations
+
+from derivations.ledger import (
+    appendix_a,
+    appendix_b_c,
+    claims,
+    claims_appendix_c,
+    section_2_amplitude,
+    section_2_composite,
+    section_2_vibration,
+    section_3_crest,
+    section_3_phases,
+    section_3_supplement,
+    section_3_velocity,
+    section_4_hertz,
+    section_4_layer,
+    section_4_nonsliding,
+    section_4_transfer,
+    section_6,
+    section_7,
+    table_1,
+    tables_2_to_5,
+)
+from derivations.ledger.model import Entry
+
+__all__ = ["ENTRIES", "entry"]
+
+ENTRIES: tuple[Entry, ...] = (
+    *section_2_composite.ENTRIES,
+    *section_2_vibration.ENTRIES,
+    *section_2_amplitude.ENTRIES,
+    *section_3_supplement.ENTRIES,
+    *section_3_phases.ENTRIES,
+    *section_3_velocity.ENTRIES,
+    *section_3_crest.ENTRIES,
+    *section_4_hertz.ENTRIES,
+    *section_4_layer.ENTRIES,
+    *section_4_nonsliding.ENTRIES,
+    *section_4_transfer.ENTRIES,
+    *table_1.ENTRIES,
+    *section_6.ENTRIES,
+    *section_7.ENTRIES,
+    *tables_2_to_5.ENTRIES,
+    *appendix_a.ENTRIES,
+    *appendix_b_c.ENTRIES,
+    *claims.ENTRIES,
+    *claims_appendix_c.ENTRIES,
+)
+
+
+def entry(name: str) -> Entry:
+    """The entry of an id; a LookupError that lists the ids for an unknown one."""
+    for candidate in ENTRIES:
+        if candidate.id == name:
+            return candidate
+    raise LookupError(f"no equation {name}; there are {', '.join(e.id for e in ENTRIES)}")

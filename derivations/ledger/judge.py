@@ -1,0 +1,170 @@
+"""Helpers that turn forms into evidence: identity, 30-digit numbers, size of an error.
+
+Forms are judged against something independent: a printed form against the derivation, a derived form
+against the premises (the equation of motion it solves, an integral taken numerically, a limit).
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Iterable, Mapping
+from functools import cache
+
+import mpmath as mp
+import sympy as sp
+
+from derivations.ledger.model import WORKING_DIGITS, Evidence, Forms, Kind
+from trum_sym.motor import Motor
+
+__all__ = ["DIGITS", "agrees", "compiled", "difference", "error_size", "evaluate", "identical", "points", "usual", "vanishes"]
+
+DIGITS = 30
+Point = dict[sp.Symbol, mp.mpf]
+Range = tuple[float, float]
+
+# Ranges of what is not a motor parameter, around TRUM-60 at Table 3.
+_RANGES: dict[str, Range] = {
+    "t": (1e-5, 4e-4), "x": (-0.01, 0.01), "tau": (1e-6, 2e-4),
+    "E": (6e10, 9e10), "rho": (7e3, 9e3), "I_z": (6e-11, 1e-10), "G": (3e10, 5e10), "A": (3e-5, 5e-5),
+    "E_eq": (2e10, 4e10), "D": (2.4e-3, 3.2e-3), "k_c": (250.0, 350.0), "k_f": (1e8, 5e8), "k_dx": (1e8, 5e8),
+    "k_N": (2e10, 4e10), "theta": (0.2, 0.6), "F_c": (100.0, 220.0), "N_1": (1.0, 1.0), "W": (3e-6, 9e-6),
+    "omega_n": (2.3e5, 2.6e5), "Delta_omega": (1.6e4, 2.2e4), "omega_q": (2.4e5, 2.8e5), "beta": (200.0, 320.0),
+    "psi": (-3.0, 3.0), "a": (-5e-6, 5e-6), "b": (-1.0, 1.0), "a_A": (-5e-6, 5e-6), "b_A": (-1.0, 1.0),
+    "a_B": (-5e-6, 5e-6), "b_B": (-1.0, 1.0), "T": (4e-4, 6e-4),
+}  # fmt: skip
+
+
+@cache
+def usual() -> dict[str, float]:
+    """TRUM-60's parameters in SI, by symbol."""
+    from trum_sym.motor_file import load_motor
+
+    motor: Motor = load_motor("trum60")
+    return {name: float(value) for name, value in motor.symbols().items()}
+
+
+def _range(symbol: sp.Symbol, ranges: Mapping[str, Range]) -> Range:
+    if symbol.name in ranges:
+        return ranges[symbol.name]
+    if symbol.name in usual():
+        value = usual()[symbol.name]
+        low, high = sorted((0.8 * value, 1.2 * value))
+        return low, high
+    if symbol.name in _RANGES:
+        return _RANGES[symbol.name]
+    raise LookupError(f"give a range for {symbol.name}")
+
+
+def points(
+    symbols: Iterable[sp.Symbol], count: int = 5, seed: str = "ledger", ranges: Mapping[str, Range] | None = None
+) -> list[Point]:
+    """Random points of the physical domain: motor parameters 20 % to either side, the rest by range."""
+    ordered = sorted(symbols, key=lambda s: s.name)
+    found = []
+    for index in range(count):
+        point = {}
+        for symbol in ordered:
+            low, high = _range(symbol, ranges or {})
+            point[symbol] = mp.mpf(random.Random(f"{seed} {index} {symbol.name}").uniform(low, high))
+        found.append(point)
+    return found
+
+
+@cache
+def compiled(symbols: tuple[sp.Symbol, ...], expr: sp.Basic) -> Callable[..., object]:
+    """An expression as a function of mpmath numbers."""
+    function: Callable[..., object] = sp.lambdify(symbols, expr, modules=[{"expm1": mp.expm1}, "mpmath"])
+    return function
+
+
+def evaluate(expr: sp.Basic, point: Mapping[sp.Symbol, object]) -> mp.mpf | mp.mpc:
+    """The number that an expression has at a point, at 30 digits and some to spare."""
+    symbols = tuple(sorted(point, key=lambda s: s.name))
+    function = compiled(symbols, sp.sympify(expr))
+    with mp.workdps(WORKING_DIGITS):
+        return mp.mpmathify(function(*(mp.mpmathify(point[s]) for s in symbols)))
+
+
+@cache
+def vanishes(expr: sp.Basic) -> bool:
+    """Whether an expression is identically 0, by ever stronger simplification."""
+    if isinstance(expr, sp.Equality):
+        expr = expr.lhs - expr.rhs
+    for reduce in (sp.sympify, sp.expand, lambda e: sp.expand(sp.expand_trig(e)), sp.together, sp.simplify):
+        expr = reduce(expr)
+        if expr == 0:
+            return True
+    return False
+
+
+def difference(form: sp.Basic, other: sp.Basic) -> sp.Basic:
+    """What must vanish for two expressions, or two equations, to be the same (equations: side by side)."""
+    if isinstance(form, sp.Equality) and isinstance(other, sp.Equality):
+        return (form.lhs - form.rhs) - (other.lhs - other.rhs)
+    return form - other
+
+
+def identical(forms: Forms, derived: Forms, kind: Kind = "identity") -> Evidence:
+    """Form by form, printed less derived is identically 0."""
+    for name, form in forms.items():
+        if not vanishes(difference(form, derived[name])):
+            return Evidence(kind, False, f"{name} is not the derived one")
+    return Evidence(kind, True, f"identical with the derivation: {', '.join(forms)}")
+
+
+def agrees(
+    forms: Forms,
+    reference: Forms | Callable[[str, Point], object],
+    *,
+    given: Mapping[sp.Basic, sp.Basic] | None = None,
+    ranges: Mapping[str, Range] | None = None,
+    symbols: Iterable[sp.Symbol] = (),
+    count: int = 5,
+    tolerance: float = 1e-25,
+    kind: Kind = "numeric",
+    against: str = "the derivation",
+) -> Evidence:
+    """Form by form, the same number as the reference at random points of the physical domain.
+
+    Parameters
+    ----------
+    forms : mapping
+        Expressions without undefined functions once ``given`` is put in.
+    reference : mapping or callable
+        Other expressions under the same names, or (name, point) -> number.
+    given : mapping, optional
+        Substitutions made first in both, derivatives and integrals done afterwards.
+    ranges, symbols : optional
+        Ranges that differ from the usual ones; symbols that only the callable needs.
+    count, tolerance, kind, against : optional
+        Number of points, relative error allowed, kind of the evidence, what the reference is called.
+    """
+
+    def put_in(expr: sp.Basic) -> sp.Basic:
+        expr = expr.lhs - expr.rhs if isinstance(expr, sp.Equality) else expr
+        return expr.subs(given).doit() if given else expr
+
+    worst = mp.mpf(0)
+    for name, form in forms.items():
+        expr = put_in(form)
+        other = None if callable(reference) else put_in(reference[name])
+        free = set(expr.free_symbols) | (set(other.free_symbols) if other is not None else set()) | set(symbols)
+        for index, point in enumerate(points(free, count, seed=name, ranges=ranges)):
+            found = evaluate(expr, point)
+            with mp.workdps(WORKING_DIGITS):
+                wanted = mp.mpmathify(reference(name, point)) if callable(reference) else evaluate(other, point)
+                scale = max(abs(wanted), abs(found))
+                error = abs(found - wanted) / scale if scale else mp.mpf(0)
+            if not error <= tolerance:  # also when it is not a number
+                text = f"{name} is {mp.nstr(found, 8)}, by {against} {mp.nstr(wanted, 8)}, at random point {index + 1}"
+                return Evidence(kind, False, text)
+            worst = max(worst, error)
+    digits = "all digits" if worst == 0 else f"{mp.nstr(worst, 2)} relative at most"
+    return Evidence(kind, True, f"equals {against} at {count} random points, {digits}: {', '.join(forms)}")
+
+
+def error_size(name: str, relative: Callable[[], tuple[float, float]], limit: float) -> Evidence:
+    """The relative error of an approximation, at the operating point and at most over the domain."""
+    there, most = relative()
+    detail = f"{name} is off by {100 * there:+.3g} % at the operating point, {100 * most:.3g} % at most over the domain"
+    return Evidence("error_size", abs(there) <= limit and abs(most) <= limit, f"{detail}; allowed {100 * limit:g} %")

@@ -1,0 +1,263 @@
+"""Section 2.1, the composite section: eqs. (1), (2) and the equivalent beam between them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import mpmath as mp
+import sympy as sp
+
+from derivations import section
+from derivations.ledger.judge import agrees, error_size, identical, points
+from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
+from derivations.ledger.operating import at_point, operating_point
+from derivations.nomenclature import sym
+
+__all__ = ["ENTRIES", "resolved"]
+
+E_eq, h_e, b_e, E_p, h_p, b_p, D, z = sym("E_eq h_e b_e E_p h_p b_p D z")
+E_e, G_e, rho_e, h_t, n_s, b_s, l_s = sym("E_e G_e rho_e h_t n_s b_s l_s")
+k_t, k_s, k_d, rho_eq, G_eq, A_eq, A_p, A = sym("k_t k_s k_d rho_eq G_eq A_eq A_p A")
+I_e, I_p, I_z, h, E, rho, G, rho_p, G_p = sym("I_e I_p I_z h E rho G rho_p G_p")
+
+# --- (1) ----------------------------------------------------------------------------------------------------
+_EQ1: Forms = {
+    "D": (E_eq * h_e**2 * b_e + 2 * E_p * h_p * h_e * b_p + E_p * h_p**2 * b_p)
+    / (2 * (E_eq * h_e * b_e + E_p * h_p * b_p))
+}
+
+
+def _axis() -> sp.Expr:
+    return section.neutral_axis().subs(section.equivalent_beam()["E_eq"], E_eq)
+
+
+def _derive_1() -> Derivation:
+    strain = sp.Integral(E_eq * b_e * (z - D), (z, 0, h_e)) + sp.Integral(E_p * b_p * (z - D), (z, h_e, h_e + h_p))
+    axis = _axis()
+    return Derivation(
+        (
+            step("Plane sections stay plane: the bending stress at depth z below the tooth surface grows as "
+                 "the modulus times z - D. Bending alone carries no axial force:", sp.Eq(strain, 0)),
+            step("The integrals are elementary, and linear in D:", sp.Eq(strain.doit(), 0)),
+            step("Solved for D; put back, the axial force vanishes:", sp.Eq(D, axis), zero=strain.doit().subs(D, axis)),
+        ),
+        {"D": axis},
+    )  # fmt: skip
+
+
+def _judge_1(forms: Forms) -> Iterator[Evidence]:
+    def moment(_: str, point: dict[sp.Symbol, mp.mpf]) -> mp.mpf:
+        """First moment over zeroth, by quadrature."""
+        E, be, he, Ep, bp, hp = (point[s] for s in (E_eq, b_e, h_e, E_p, b_p, h_p))
+        layers = ((E * be, [0, he]), (Ep * bp, [he, he + hp]))
+        return sum(k * mp.quad(lambda u: u, span) for k, span in layers) / sum(
+            k * mp.quad(lambda _: 1, span) for k, span in layers
+        )
+
+    symbols = (E_eq, b_e, h_e, E_p, b_p, h_p)
+    yield agrees(forms, moment, symbols=symbols, against="the centroid by quadrature")
+    yield evidence("limit", sp.limit(forms["D"], h_p, 0) == h_e / 2, "without ceramic D is half the beam's height")
+    yield identical(forms, {"D": _axis()})
+
+
+def _effect_1() -> str:
+    p = operating_point()
+    return f"D = {mp.nstr(1000 * at_point(_EQ1['D'], p), 5)} mm; printed and derived agree."
+
+
+# --- definitions between (1) and (2) ------------------------------------------------------------------------
+_BEAM: Forms = {
+    "rho_eq": k_d * rho_e,
+    "E_eq": (1 - k_t) ** 3 * E_e,
+    "G_eq": k_d * G_e,
+    "k_d": 1 - k_t * k_s,
+    "k_t": h_t / h_e,
+    "k_s": n_s * b_s / l_s,
+    "A_eq": h_e * b_e,
+    "A_p": h_p * b_p,
+    "A": A_eq + A_p,
+}
+
+
+def resolved(forms: Forms) -> dict[str, sp.Expr]:
+    """The named expressions with each other put in, until only basic symbols are left."""
+    values = {sym(name)[0]: sp.sympify(form) for name, form in forms.items()}
+    result = dict(forms)
+    for _ in range(len(forms)):
+        result = {name: form.subs({s: v for s, v in values.items() if s.name != name}) for name, form in result.items()}
+    return result
+
+
+def _derive_beam() -> Derivation:
+    beam = section.equivalent_beam()
+    bent = sp.Integral(z**2, (z, -(h_e - h_t) / 2, (h_e - h_t) / 2))
+    full = sp.Integral(z**2, (z, -h_e / 2, h_e / 2))
+    grooves = n_s * b_s * h_t / (l_s * h_e)
+    ratio = bent.doit() / full.doit()
+    return Derivation(
+        (
+            step("The grooves take n_s b_s of the circumference l_s to the depth h_t: their share of the metal's "
+                 "volume, "
+                 "which mass and shear area lose, is", grooves, zero=beam["rho_eq"] / rho_e - (1 - grooves)),
+            step("Teeth carry no bending stress, so only h_e - h_t bends; about its own middle it has, against the "
+                 "whole "
+                 "height, the fraction", sp.Eq(bent / full, sp.factor(ratio)), zero=ratio - beam["E_eq"] / E_e),
+            step("This scales the modulus so that the full height h_e may be used. It is exact for the metal alone. "
+                 "In the "
+                 "composite the stress lies about another axis, so the bending stiffness is an approximation."),
+        ),
+        {**beam, "k_t": h_t / h_e, "k_s": n_s * b_s / l_s, "k_d": 1 - grooves, "A_eq": b_e * h_e, "A_p": b_p * h_p,
+         "A": b_e * h_e + b_p * h_p},
+    )  # fmt: skip
+
+
+def _layered(values: dict[str, mp.mpf]) -> mp.mpf:
+    """Bending stiffness of metal below the teeth and ceramic, each with its own modulus, by quadrature."""
+    v = values
+    layers = (
+        (v["E_e"] * v["b_e"], v["h_t"], v["h_e"]),
+        (v["E_p"] * v["b_p"], v["h_e"], v["h_e"] + v["h_p"]),
+    )
+    zeroth = sum(k * mp.quad(lambda _: 1, [low, high]) for k, low, high in layers)
+    axis = sum(k * mp.quad(lambda u: u, [low, high]) for k, low, high in layers) / zeroth
+    return sum(k * mp.quad(lambda u: (u - axis) ** 2, [low, high]) for k, low, high in layers)
+
+
+def _stiffness_error(forms: Forms, values: dict[str, mp.mpf]) -> mp.mpf:
+    """Relative error of E I_z when the equivalent beam of the forms is used."""
+    modulus = section.section()["E_eq"]
+    whole = (section.section()["E"] * section.section()["I_z"]).subs(D, section.neutral_axis())
+    return at_point(whole.subs(modulus, resolved(forms)["E_eq"]), values) / _layered(values) - 1
+
+
+def _judge_beam(forms: Forms) -> Iterator[Evidence]:
+    derived = _derive_beam().forms
+    found = resolved(forms)
+    yield agrees(found, derived)
+    yield identical(found, derived)
+    plain = {name: form.subs(h_t, 0) for name, form in found.items()}
+    same = plain["E_eq"] == E_e and plain["G_eq"] == G_e and plain["rho_eq"] == rho_e
+    yield evidence("limit", same, "without teeth the equivalent beam is the metal's")
+
+    def sizes() -> tuple[float, float]:
+        around = [
+            {s.name: v for s, v in point.items()}
+            for point in points(sym("E_e E_p h_e h_t h_p b_e b_p n_s b_s l_s"), 8, seed="beam")
+        ]
+        there = _stiffness_error(forms, dict(operating_point()))
+        return float(there), float(max(abs(_stiffness_error(forms, p)) for p in around))
+
+    yield error_size("the bending stiffness E I_z", sizes, 0.6)
+
+
+def _effect_beam() -> str:
+    p = dict(operating_point())
+    error = _stiffness_error(_BEAM, p)
+    exact = _layered(p)
+    return (
+        f"E I_z = {mp.nstr(exact * (1 + error), 5)} N m^2 by the equivalent beam, {mp.nstr(exact, 5)} N m^2 by layers "
+        f"({mp.nstr(100 * error, 3)} %), which moves the resonance by about {mp.nstr(50 * error, 3)} %."
+    )
+
+
+# --- (2) ----------------------------------------------------------------------------------------------------
+_EQ2: Forms = {
+    "E": (E_eq * I_e + E_p * I_p) / I_z,
+    "rho": (rho_eq * A_eq + rho_p * A_p) / A,
+    "I_z": I_e + I_p,
+    "G": (G_eq * A_eq + G_p * A_p) / A,
+    "I_e": b_e * (D**3 + (h_e - D) ** 3) / 3,
+    "I_p": b_p * ((h - D) ** 3 - (h_e - D) ** 3) / 3,
+    "h": h_e + h_p,
+    "A_eq": h_e * b_e,
+    "A_p": h_p * b_p,
+    "A": A_eq + A_p,
+}
+
+
+def _derive_2() -> Derivation:
+    beam, whole = section.equivalent_beam(), section.section()
+    back = {beam["E_eq"]: E_eq, beam["rho_eq"]: rho_eq, beam["G_eq"]: G_eq}
+    of_metal = sp.Integral(z**2, (z, -D, h_e - D)) * b_e
+    of_ceramic = sp.Integral(z**2, (z, h_e - D, h_e + h_p - D)) * b_p
+    forms = {name: whole[name].subs(back) for name in ("E", "rho", "I_z", "G")}
+    forms |= {"I_e": of_metal.doit(), "I_p": of_ceramic.doit(), "h": h_e + h_p}
+    forms |= {"A_eq": b_e * h_e, "A_p": b_p * h_p, "A": whole["A"]}
+    total = E_eq * of_metal + E_p * of_ceramic
+    return Derivation(
+        (
+            step("From the neutral axis z, the second moments of metal and ceramic are integrals over their heights:",
+                 sp.Eq(I_e, of_metal), sp.Eq(I_p, of_ceramic)),
+            step("A curvature strains both alike, so bending stiffnesses add; E is what multiplies I_z = I_e + I_p "
+                 "to give "
+                 "their sum:", sp.Eq(E * I_z, total), zero=forms["E"] * forms["I_z"] - total.doit()),
+            step("Masses add:", sp.Eq(rho * A, rho_eq * A_eq + rho_p * A_p),
+                 zero=forms["rho"] * forms["A"] - rho_eq * forms["A_eq"] - rho_p * forms["A_p"]),
+            step("Shear stiffnesses add if both layers shear by the same angle, which kappa then corrects:",
+                 sp.Eq(G * A, G_eq * A_eq + G_p * A_p),
+                 zero=forms["G"] * forms["A"] - G_eq * forms["A_eq"] - G_p * forms["A_p"]),
+        ),
+        forms,
+    )  # fmt: skip
+
+
+def _judge_2(forms: Forms) -> Iterator[Evidence]:
+    found = resolved(forms)
+    names = "E_eq E_p rho_eq rho_p G_eq G_p b_e b_p h_e h_p D"
+
+    def by_quadrature(name: str, point: dict[sp.Symbol, mp.mpf]) -> mp.mpf:
+        v = {s.name: number for s, number in point.items()}
+        low, middle = -v["D"], v["h_e"] - v["D"]
+        high = middle + v["h_p"]
+        metal = v["b_e"] * mp.quad(lambda u: u**2, [low, middle])
+        ceramic = v["b_p"] * mp.quad(lambda u: u**2, [middle, high])
+        areas = v["b_e"] * (middle - low), v["b_p"] * (high - middle)
+        mean = lambda a, b: (a * areas[0] + b * areas[1]) / sum(areas)  # noqa: E731
+        return {
+            "E": (v["E_eq"] * metal + v["E_p"] * ceramic) / (metal + ceramic), "I_z": metal + ceramic,
+            "rho": mean(v["rho_eq"], v["rho_p"]), "G": mean(v["G_eq"], v["G_p"]), "I_e": metal, "I_p": ceramic,
+            "h": high - low, "A_eq": areas[0], "A_p": areas[1], "A": sum(areas),
+        }[name]  # fmt: skip
+
+    ranges = {"rho_eq": (7e3, 9e3), "G_eq": (3e10, 5e10)}
+    yield agrees(found, by_quadrature, symbols=sym(names), ranges=ranges, against="the section by quadrature")
+    one = found["E"].subs({E_p: E_eq})
+    yield evidence("limit", sp.simplify(one - E_eq) == 0, "a section of one material has its modulus")
+    yield identical(found, _derive_2().forms)
+
+
+def _effect_2() -> str:
+    p = operating_point()
+    figures = ", ".join(f"{name} = {mp.nstr(p[name], 5)} {unit}" for name, unit in _UNITS_2.items() if name in p)
+    return f"{figures}; printed and derived agree."
+
+
+_UNITS_2 = {"E": "Pa", "rho": "kg/m^3", "I_z": "m^4", "G": "Pa", "I_e": "m^4", "I_p": "m^4", "h": "m", "A_eq": "m^2",
+            "A_p": "m^2", "A": "m^2"}  # fmt: skip
+
+
+ENTRIES = (
+    Entry(
+        id="1", section="2.1", title="Distance from the tooth surface to the neutral layer", place="Sect. 2.1",
+        printed=_EQ1, units={"D": "m"}, verdict="verified",
+        reason="Follows from zero axial force; z counts from the tooth surface.",
+        judge=_judge_1, derive=_derive_1, effect=_effect_1,
+    ),
+    Entry(
+        id="equivalent-beam", section="2.1", title="Equivalent beam for the toothed ring", place="below eq. (1)",
+        printed=_BEAM,
+        units={"rho_eq": "kg/m^3", "E_eq": "Pa", "G_eq": "Pa", "k_d": "1", "k_t": "1", "k_s": "1", "A_eq": "m^2",
+               "A_p": "m^2", "A": "m^2"},
+        verdict="approximation",
+        reason="Density and shear area lose the grooves' volume. The modulus is scaled by the cube of the height that "
+        "bends, which is exact for the metal alone but not about the composite's neutral axis. The text calls the "
+        "beam's thickness k_e once, and Young's and the shear modulus both E_e: h_e and G_e are meant.",
+        judge=_judge_beam, derive=_derive_beam, effect=_effect_beam,
+    ),
+    Entry(
+        id="2", section="2.1", title="Modulus, density, second moment and shear modulus of the section", place="Sect. 2.1",
+        printed=_EQ2, units=_UNITS_2, verdict="verified",
+        reason="Bending and shear stiffnesses and masses add; G takes equal shear in both layers.",
+        judge=_judge_2, derive=_derive_2, effect=_effect_2,
+    ),
+)  # fmt: skip

@@ -1,0 +1,358 @@
+"""Section 4.2.3, the transfer: eqs. (36) to (38), the sixteen cases of Figs. 7 and 8."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterator
+
+import numpy as np
+import sympy as sp
+
+from derivations import transfer
+from derivations.ledger.friction_states import (
+    K,
+    State,
+    brute_fraction,
+    half_zone_signs,
+    integrals_done,
+    states,
+)
+from derivations.ledger.history import Array, history, numeric, values
+from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
+from derivations.ledger.names import KNOWN, figure, name
+from derivations.nomenclature import sym
+
+__all__ = ["ENTRIES", "surface_motion"]
+
+D, k_c, W, F_c, n_j, mu, theta, x, p = sym("D k_c W F_c n_j mu theta x p")
+M_a, M_b, N_a, N_b, Psi_v, v_xp, v_xx = name("M_a M_b N_a N_b Psi_v v_xp v_xx")
+phi_vm1, phi_vm2, x_px, x_max, x_xm, v_xm, v_xmax = name("phi_vm1 phi_vm2 x_px x_max x_xm v_xm v_xmax")
+f_t, f_b, f_nall, M_n, T_load = name("f_t f_b f_nall M_n T_load")
+r_c, J, t = sym("r_c J t")
+phi, c, u, R_v = transfer.phi, transfer.c, transfer.u, transfer.R_v
+_KNOWN = {**KNOWN, **transfer.DIMENSIONS}
+
+
+def surface_motion() -> tuple[Array, Array, Array]:
+    """phi, R and the contact's half-angle over the periodic cycle at Table 3.
+
+    The half-angle follows the crest's height (eq. 31): bisection of sin theta - theta cos theta, up to pi.
+    """
+    h, v = history(), values()
+    angle = numeric(transfer.speed_angle(), (transfer.W_c, transfer.W_c_rate, transfer.q))(h.W_c, h.W_c_rate, h.q)
+    load = v["F_c"] * v["k_c"] / (2 * v["n_j"] * v["k_N"] * h.W_c)
+    low, high = np.zeros_like(load), np.full_like(load, np.pi)
+    for _ in range(50):
+        middle = (low + high) / 2
+        short = np.sin(middle) - middle * np.cos(middle) < load
+        low, high = np.where(short, middle, low), np.where(short, high, middle)
+    return angle, v["D"] * v["k_c"] * np.hypot(h.v_A, h.v_B), (low + high) / 2
+
+
+# --- (36) ---------------------------------------------------------------------------------------------------
+_EQ36: Forms = {"f_n": 2 * n_j * mu * sp.Integral(p * sp.sign(v_xx - v_xp), (x, x_max, x_xm))}
+
+
+def _whole_zone(form: sp.Expr) -> sp.Expr:
+    return form.subs(x_max, 2 * x_max - x_xm) / 2
+
+
+def _derive_36() -> Derivation:
+    form = _whole_zone(_EQ36["f_n"])
+    steady = transfer.steady_wave_fraction()
+    a = next(s for s in steady.free_symbols if s.name == "a")
+    share = [transfer.pressure_share().subs(u, at).subs({sp.Max(-theta, sp.Min(theta, at)): at}) for at in (a, -a)]
+    return Derivation(
+        (
+            step("The surface moves under the rotor with v_x(u) = R cos(u - phi), u from the crest:",
+                 transfer.surface_speed(), transfer.speed_amplitude(), sp.Eq(phi, transfer.speed_angle()),
+                 zero=sp.expand_trig(R_v * sp.cos(u - phi))
+                 - R_v * (sp.cos(u) * sp.cos(phi) + sp.sin(u) * sp.sin(phi))),
+            step("Coulomb's friction on every element of all n_j contacts points along v_x - v:",
+                 sp.Eq(sp.Symbol("f_n"), form)),
+            step("Between phi - acos(v/R) and phi + acos(v/R) the surface is faster. With C(u) the share of the load "
+                 "left of u, the net fraction of mu F_c is", transfer.friction_fraction(sp.Function("C")(u))),
+            step("Twice the right half is the whole only if v_x is even about the crest, phi = 0 or pi: if the crest's "
+                 "height does not change. Then, with nonsliding points at +-a:", sp.Eq(transfer.f_net, steady),
+                 zero=2 * (share[0] - share[1]) - 1 - steady),
+        ),
+        {"f_n": form},
+    )  # fmt: skip
+
+
+def _concrete(s: State) -> dict[sp.Basic, sp.Basic]:
+    """Eq. 36's functions and symbols for a state, with a prepressure of 180 N on nine crests."""
+    turn = k_c * (x - x_max)
+    load = transfer.pressure_distribution().replace(sp.Max, lambda *terms: next(t for t in terms if t != 0))
+    numbers = {F_c: sp.Integer(180), n_j: sp.Integer(9), k_c: sp.Integer(300), mu: sp.Rational(1, 4),
+               theta: sp.Float(s.theta, 20), x_max: sp.Float(s.crest / K, 20),
+               x_xm: sp.Float((s.crest + s.theta) / K, 20), v_xp: sp.Float(s.c, 20)}  # fmt: skip
+    return {
+        p: load.subs(u, turn).subs(numbers),
+        v_xx: sp.cos(turn - sp.Float(s.phi, 20)).subs(numbers),
+        **numbers,
+    }
+
+
+def _judge_36(forms: Forms) -> Iterator[Evidence]:
+    form = forms["f_n"]
+    scale = 45.0
+    closed = numeric(transfer.friction_fraction(), (phi, c, theta))
+    chosen = list(states(6, "36"))
+    found = [float(integrals_done(form, _concrete(s))) / scale for s in chosen]
+    brute = max(abs(f - brute_fraction(s, whole=True)) for f, s in zip(found, chosen, strict=True))
+    yield evidence("numeric", brute < 1e-3, f"the friction of all elements summed by brute force: off by {brute:.1e} "
+                   "of mu F_c at most")  # fmt: skip
+    exact = max(abs(f - float(closed(s.phi, s.c, s.theta))) for f, s in zip(found, chosen, strict=True))
+    yield evidence("derivation", exact < 1e-10, f"the closed form of the friction fraction: off by {exact:.1e}")
+    outrun = State(0.3, 1.5, 0.5, 0.2)
+    ahead = float(integrals_done(form, _concrete(outrun))) / scale
+    yield evidence("limit", abs(ahead + 1) < 1e-12, "a rotor that outruns the surface is braked by mu F_c")
+
+
+def _effect_36() -> str:
+    v = values()
+    speed = 633 * math.pi / 648000 * v["r_c"]
+    angle, R, zone = surface_motion()
+    whole = numeric(transfer.friction_fraction(), (phi, c, theta))(angle, speed / R, zone)
+    half = numeric(transfer.half_zone_fraction(), (phi, c, theta))(angle, speed / R, zone)
+    rub = v["mu"] * v["F_c"]
+    rms, worst = float(np.sqrt(np.mean((half - whole) ** 2))), float(np.abs(half - whole).max())
+    signs = float((np.sign(half) != np.sign(whole)).mean())
+    return (
+        "Over the periodic cycle at Table 4's mean speed, with a contact half-angle from "
+        f"{figure(float(zone.min()), 3)} to {figure(float(zone.max()), 3)} rad: the doubled half differs from "
+        f"the whole by {figure(rms * rub, 3)} N rms and "
+        f"{figure(worst * rub, 3)} N at most of {figure(rub)} N, has the wrong sign {100 * signs:.1f} % of the time, "
+        f"and a mean of {figure(float(half.mean()) * rub, 3)} N where it is {figure(float(whole.mean()) * rub, 3)} N."
+    )
+
+
+# --- (37) ---------------------------------------------------------------------------------------------------
+def _rows_37() -> sp.Expr:
+    ahead, behind = v_xx - v_xp > 0, v_xx - v_xp < 0
+    plus = sp.Or(sp.And(ahead, v_xp > 0), sp.And(ahead, v_xp < 0))
+    minus = sp.Or(sp.And(behind, v_xp > 0), sp.And(behind, v_xp < 0))
+    return sp.Piecewise((sp.Integer(1), plus), (sp.Integer(-1), minus), evaluate=False)
+
+
+_EQ37: Forms = {"sign": _rows_37()}
+
+
+def _derive_37() -> Derivation:
+    form = sp.sign(v_xx - v_xp)
+    return Derivation(
+        (
+            step("Friction on the rotor points where the surface moves relative to it, whichever way the rotor runs:",
+                 form, zero=[form.subs({v_xx: a, v_xp: b}) - (1 if a > b else -1)
+                             for a, b in ((2, 1), (1, 2), (1, -1), (-2, -1), (1, 0), (-1, 0))]),
+        ),
+        {"sign": form},
+    )  # fmt: skip
+
+
+def _judge_37(forms: Forms) -> Iterator[Evidence]:
+    form = forms["sign"]
+    rotor = [(a, b) for a in (-1.5, -0.2, 0.4, 2.0) for b in (-1.0, 0.3, 1.1)]
+    wrong = [(a, b) for a, b in rotor if form.subs({v_xx: a, v_xp: b}) != (1 if a > b else -1)]
+    yield evidence("numeric", not wrong, "along v_xx - v_xp for a moving rotor")
+    still = [a for a in (-1, 1) if form.subs({v_xx: a, v_xp: 0}) != a]
+    yield evidence("domain", not still, "along v_xx for a rotor at rest")
+
+
+def _effect_37() -> str:
+    v = values()
+    angle, R, zone = surface_motion()
+    start = numeric(transfer.friction_fraction(), (phi, c, theta))(angle, 0 * R, zone)
+    torque = float(start.mean()) * v["mu"] * v["F_c"] * v["r_c"]
+    return (
+        "Either row holds for v_xp > 0 or v_xp < 0, so these conditions say nothing but exclude v_xp = 0: a rotor at "
+        f"rest would feel no friction and never start. It feels {figure(torque, 3)} N m, averaged over the periodic "
+        "cycle. Where v_xx = v_xp on a stretch, friction takes any value up to mu p; the sign leaves that open."
+    )
+
+
+# --- Figs. 7 and 8 ------------------------------------------------------------------------------------------
+def _derive_cases() -> Derivation:
+    steps = [
+        step("Eq. 36's closed form on the half zone 0 < u < theta, C its share of the load:",
+             transfer.friction_fraction(sp.Function("C")(u))),
+        step("The text tells cases apart by the rotor's direction, the sign of v_x - v at the crest and at the end of "
+             "the contact, and (eq. 35) by whether v_x has an extremum between them: 2 x 2 x 2 x 2 cases."),
+    ]  # fmt: skip
+    forms = {}
+    for number, case in enumerate(transfer.CASES, 1):
+        forms[f"f_{number}"] = case.fraction()
+        steps.append(step(f"{number}. {case.name}", sp.Symbol(f"f_{number}")))
+    return Derivation(tuple(steps), forms)
+
+
+def _judge_cases(forms: Forms) -> Iterator[Evidence]:
+    numbers = {(s.forward, s.crest, s.edge, s.extremum): f"f_{i}" for i, s in enumerate(transfer.CASES, 1)}
+    functions = {key: sp.lambdify((phi, c, theta), form, "mpmath") for key, form in forms.items()}
+    closed = sp.lambdify((phi, c, theta), transfer.half_zone_fraction(), "mpmath")
+    seen: Counter[str] = Counter()
+    brute = exact = 0.0
+    for s in states(400, "cases"):
+        key = numbers[half_zone_signs(s)]
+        if seen[key] >= 6:
+            continue
+        seen[key] += 1
+        found = float(functions[key](s.phi, s.c, s.theta))
+        brute = max(brute, abs(found - brute_fraction(s, whole=False)))
+        exact = max(exact, abs(found - float(closed(s.phi, s.c, s.theta))))
+    empty = [key for key in forms if not seen[key]]
+    yield evidence("domain", not empty, f"each case occurs among random states, {min(seen.values())} times at least; "
+                   f"every state is in one{f'; none in {empty}' if empty else ''}")  # fmt: skip
+    yield evidence("numeric", brute < 1e-3, f"sign(v_x - v) p summed over the half zone: off by {brute:.1e} at most")
+    yield evidence("derivation", exact < 1e-12, f"the closed form, which needs no cases: off by {exact:.1e} at most")
+
+
+def _effect_cases() -> str:
+    v = values()
+    speed = 633 * math.pi / 648000 * v["r_c"]
+    moments = zip(*(column[::40] for column in surface_motion()), strict=True)
+    seen = Counter(half_zone_signs(State(float(a), float(speed / R), float(zone), 0.0)) for a, R, zone in moments)
+    total = sum(seen.values())
+    names = {(s.forward, s.crest, s.edge, s.extremum): s.name for s in transfer.CASES}
+    shares = ", ".join(f"{names[key]} {100 * count / total:.0f} %" for key, count in seen.most_common())
+    return (
+        f"One formula replaces the table. At Table 4's mean speed a periodic cycle passes {len(seen)} cases: {shares}."
+    )
+
+
+# --- (38) ---------------------------------------------------------------------------------------------------
+_omega = sp.Function("omega_p")(t)
+_FORCES: Forms = {"f_nall": f_t - f_b, "M_n": f_nall * r_c, "omega_p": v_xp / r_c}
+_EQ38: Forms = {"balance": sp.Eq(J * _omega.diff(t), M_n - T_load), **_FORCES}
+
+
+def _derive_38() -> Derivation:
+    energy, power = J * _omega**2 / 2, f_nall * r_c * _omega - T_load * _omega
+    return Derivation(
+        (
+            step("The rotor's kinetic energy grows by the power of the friction at the contact radius, where "
+                 "its surface "
+                 "runs at r_c omega_p, less that of the load:", sp.Eq(sp.Derivative(energy, t), power)),
+            step("Over omega_p that is the balance of torques:", _EQ38["balance"],
+                 zero=sp.expand(energy.diff(t) - power - _omega * (J * _omega.diff(t) - f_nall * r_c + T_load))),
+            step("The same with the closed form of the friction:", sp.Eq(_omega.diff(t), transfer.torque_balance()),
+                 zero=J * transfer.torque_balance() - r_c * mu * F_c * transfer.f_net + T_load),
+        ),
+        {"balance": _EQ38["balance"], **_FORCES},
+    )  # fmt: skip
+
+
+def _judge_38(forms: Forms) -> Iterator[Evidence]:
+    worst = 0.0
+    for i, s in enumerate(states(6, "38")):
+        radius, inertia, load = 0.02 + 0.001 * i, 4e-6 + 1e-6 * i, 0.1 * i - 0.2
+        share = (1 + brute_fraction(s, whole=True)) / 2  # of the load that drives forward
+        wheel = {r_c: radius, J: inertia, T_load: load, f_t: 45 * share, f_b: 45 * (1 - share)}
+        # eight equal point masses on the contact radius, each pushed by its part of the friction
+        mass = inertia / radius**2 / 8
+        rate = (45 * brute_fraction(s, whole=True) / 8 - load / radius / 8) / mass / radius
+        residual = (forms["balance"].lhs - forms["balance"].rhs).subs(M_n, forms["M_n"])
+        residual = residual.subs(f_nall, forms["f_nall"]).subs(_omega.diff(t), rate).subs(wheel)
+        worst = max(worst, abs(float(residual)))
+        arc = 0.3 + 0.1 * i  # surface speed of a rotor that turns by arc/radius in a second
+        worst = max(worst, abs(float(forms["omega_p"].subs({v_xp: arc, r_c: radius})) - arc / radius))
+    yield evidence("numeric", worst < 1e-9, f"eight point masses pushed along the rim: off by {worst:.1e}")
+    energy, power = J * _omega**2 / 2, f_nall * r_c * _omega - T_load * _omega
+    residual = (forms["balance"].lhs - forms["balance"].rhs).subs(M_n, forms["M_n"])
+    yield evidence("identity", sp.expand(energy.diff(t) - power - _omega * residual) == 0, "balances power")
+
+
+def _effect_38() -> str:
+    v = values()
+    stall = v["mu"] * v["F_c"] * v["r_c"]
+    angle, R, zone = surface_motion()
+    mean = stall * float(numeric(transfer.friction_fraction(), (phi, c, theta))(angle, 0 * R, zone).mean())
+    return (
+        f"At most mu F_c r_c = {figure(stall, 3)} N m; averaged over the periodic cycle a rotor at rest gets "
+        f"{figure(mean, 3)} N m, against the {0.3:g} N m of Table 1 (with the assumed mu and r_c). The text's "
+        "T_load is a weight on a string, which pulls one way whichever way the rotor turns."
+    )
+
+
+# --- the sign of the reverse model --------------------------------------------------------------------------
+_REVERSE: Forms = {"f_nall": f_t - f_b}
+
+
+def _derive_reverse() -> Derivation:
+    form = sp.sign(v_xp) * (f_t - f_b)
+    return Derivation(
+        (
+            step("Forward, the driving zone (plus, v_x > v) pushes along +x, and f_t - f_b is the force along +x."),
+            step("Reverse, Fig. 8 calls driving (plus) where v_x < v; it pushes along -x, so the force along +x is",
+                 form, zero=form.subs(v_xp, -1) - (f_b - f_t)),
+        ),
+        {"f_nall": form},
+    )  # fmt: skip
+
+
+def _judge_reverse(forms: Forms) -> Iterator[Evidence]:
+    worst = {"forward": 0.0, "reverse": 0.0}
+    for s in states(40, "reverse"):
+        width = (np.arange(20001) + 0.5) / 20001 * 2 * s.theta - s.theta
+        press = np.cos(width) - np.cos(s.theta)
+        ahead = np.cos(width - s.phi) > s.c
+        driving = ahead if s.c > 0 else ~ahead
+        total = float(press.sum())
+        known = {f_t: float(press[driving].sum()) / total, f_b: float(press[~driving].sum()) / total, v_xp: s.c}
+        found = float(forms["f_nall"].subs(known))
+        way = "forward" if s.c > 0 else "reverse"
+        worst[way] = max(worst[way], abs(found - brute_fraction(s, whole=True, steps=20001)))
+    yield evidence("numeric", max(worst.values()) < 1e-9, "the signed sum of eq. 36, off by "
+                   + ", ".join(f"{error:.2g} {way}" for way, error in worst.items()) + " of mu F_c")  # fmt: skip
+    backward = forms["f_nall"].subs({f_t: 1, f_b: 0, v_xp: -1})
+    yield evidence("limit", backward == -1, "a reverse rotor driven on its whole contact is pushed along -x")
+
+
+def _effect_reverse() -> str:
+    v = values()
+    return (
+        "With the zones of Fig. 8, f_t - f_b in eq. 38 pushes a reverse rotor forward: the force is off by up to "
+        f"2 mu F_c = {figure(2 * v['mu'] * v['F_c'])} N. Eq. 36 with eq. 37 has the right sign for both directions."
+    )
+
+
+ENTRIES = (
+    Entry(
+        id="36", section="4.2.3", title="Friction on the rotor", place="Sect. 4.2.3", printed=_EQ36, units={"f_n": "N"},
+        verdict="erratum", judge=_judge_36, derive=_derive_36, effect=_effect_36, known=_KNOWN,
+        repair=lambda forms: {key: _whole_zone(form) for key, form in forms.items()},
+        found_by=("numeric", "derivation"),
+        reason="Twice the right half of the contact is the whole only where v_x is even about the crest; in a beat the "
+        "crest's height changes and it is not.",
+    ),
+    Entry(
+        id="37", section="4.2.3", title="Sign of the friction", place="Sect. 4.2.3", printed=_EQ37, units={"sign": "1"},
+        verdict="erratum", judge=_judge_37, derive=_derive_37, effect=_effect_37, known=_KNOWN,
+        repair=lambda _: {"sign": sp.Piecewise((1, v_xx - v_xp > 0), (-1, v_xx - v_xp < 0), (0, True))},
+        found_by=("domain",),
+        reason="The conditions on v_xp are empty but exclude the rotor at rest, so nothing could start.",
+    ),
+    Entry(
+        id="transfer-cases", section="4.2.3", title="The sixteen transfer models of Figs. 7 and 8",
+        place="Sect. 4.2.3, a and b", printed={}, units={f"f_{i}": "1" for i in range(1, 17)}, verdict="reconstructed",
+        judge=_judge_cases, derive=_derive_cases, effect=_effect_cases, known=_KNOWN,
+        reason="The text names what tells the cases apart but not their forces; each is a corollary of one "
+               "closed form.",
+    ),
+    Entry(
+        id="38", section="4.2.3", title="Torque balance of the rotor", place="Sect. 4.2.3", printed=_EQ38,
+        units={"f_nall": "N", "M_n": "N*m", "omega_p": "rad/s"}, verdict="verified", judge=_judge_38,
+        derive=_derive_38, effect=_effect_38,
+        known={**_KNOWN, _omega: KNOWN[name("S_k")[0]]},
+        reason="Angular momentum of the rotor, for forward motion; the reverse model needs the sign judged apart.",
+    ),
+    Entry(
+        id="reverse-model", section="4.2.3", title="Driving and braking zone of the reverse model",
+        place="Sect. 4.2.3, b, and below eq. 38", printed=_REVERSE, units={"f_nall": "N"}, verdict="erratum",
+        judge=_judge_reverse, derive=_derive_reverse, effect=_effect_reverse, known=_KNOWN,
+        repair=lambda forms: {"f_nall": sp.sign(v_xp) * forms["f_nall"]}, found_by=("numeric", "limit"),
+        reason="Where the rotor runs backward, the driving zone pushes along -x, and f_t - f_b changes its sign.",
+    ),
+)  # fmt: skip
