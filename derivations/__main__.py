@@ -41,12 +41,17 @@ def main(arguments: list[str] | None = None) -> int:
     proving = commands.add_parser("verify", help="re-prove every equation of the paper, or one")
     proving.add_argument("--equation", metavar="ID", help="the paper's number, such as 6 or A13: its steps written out")
     proving.add_argument("--json", action="store_true", help="records instead of a table")
+    proving.add_argument("--mutants", action="store_true", help="see whether the evidence notices every small slip")
+    proving.add_argument("--write", action="store_true", help="write generated/ledger.json and ledger.html")
+    proving.add_argument("--check", action="store_true", help="change nothing; exit 1 if those two are stale")
     options = parser.parse_args(arguments)
     if options.command == "generate":
         return _generate(options.check)
     from derivations.ledger.command import verify
 
-    return verify(options.equation, options.json)
+    return verify(
+        options.equation, json_=options.json, mutants=options.mutants, write=options.write, check=options.check
+    )
 
 
 if __name__ == "__main__":

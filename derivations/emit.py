@@ -224,7 +224,8 @@ def render() -> dict[str, str]:
 
 
 def _present(folder: Path) -> dict[str, str]:
-    paths = sorted(path for path in folder.glob("*") if path.is_file()) if folder.is_dir() else []
+    found = folder.glob("*") if folder.is_dir() else ()
+    paths = sorted(path for path in found if path.is_file() and not path.name.startswith("ledger."))  # `verify`'s own
     return {path.name: path.read_text("utf-8") for path in paths}
 
 

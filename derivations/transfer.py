@@ -44,7 +44,7 @@ t, x, k_c, D, theta, F_c, n_j = sym("t x k_c D theta F_c n_j")
 mu, r_c, J = sym("mu r_c J")
 u, phi, c, v = sp.symbols("u phi c v", real=True)
 W_c, R_v, epsilon = sp.symbols("W_c R_v epsilon", positive=True)
-W_c_rate, q = sp.symbols("W_c_rate q", real=True)
+W_c_rate, q = sp.symbols(r"\dot{W}_c q", real=True)
 w_A, w_B, v_A, v_B = sp.symbols("w_A w_B v_A v_B", real=True)
 omega_p, T_load, f_net = sp.symbols("omega_p T_load f_net", real=True)
 

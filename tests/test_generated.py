@@ -69,7 +69,8 @@ def test_generation_does_not_depend_on_the_process_or_its_hash_seed(tree, seed):
     done = generate(tree, seed=seed)
     assert done.returncode == 0, done.stderr
     written = {path.name: path.read_bytes() for path in (tree / "generated").iterdir()}
-    assert written == {path.name: path.read_bytes() for path in GENERATED.iterdir()}
+    ours = (path for path in GENERATED.iterdir() if not path.name.startswith("ledger."))
+    assert written == {path.name: path.read_bytes() for path in ours}
 
 
 def test_check_is_silent_and_0_when_nothing_is_stale(tree):

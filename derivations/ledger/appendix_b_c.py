@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import mpmath as mp
+import numpy as np
 import sympy as sp
 
 from derivations import ellipse
 from derivations.ledger.history import STARTS, history, values
 from derivations.ledger.judge import Point, agrees, evaluate, identical, points
-from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
+from derivations.ledger.model import Derivation, Entry, Evidence, Forms, Picture, evidence, step
 from derivations.ledger.names import KNOWN, figure, name
 from derivations.ledger.section_6 import cycle_totals
 from derivations.nomenclature import sym
@@ -229,6 +230,23 @@ def _effect_a13() -> str:
     )
 
 
+def _picture_a13() -> Picture:
+    """The printed conic and the path at one instant of T_redu, W_b = W and W_a = 0.8 W, a third of a beat apart."""
+    p = values()
+    W, Dk, apart, place, now = p["W"] * 1e6, p["D"] * p["k_c"], 2.1, 0.5, 0.9
+    turn = np.linspace(0, 2 * np.pi, 241)
+    A, B = 0.8 * W * np.cos(turn), W * np.cos(turn + apart)
+    path = Dk * (A * np.cos(place) - B * np.sin(place)), A * np.sin(place) + B * np.cos(place)
+    at_a, at_b = 0.8 * W * np.cos(now), W * np.cos(now + apart)
+    along = np.linspace(-1.2 * W, 1.2 * W, 2)
+    level = (at_a**2 + at_b**2) * np.cos(place)
+    curves = {"derived: the path": (path[0].tolist(), path[1].tolist())}
+    for label, side in (("printed, one line", 1), ("printed, the other", -1)):
+        up = (side * level - at_a / Dk * along) / at_b
+        curves[label] = along.tolist(), up.tolist()
+    return Picture("Path of a point and the printed conic at one instant", "zeta_x in um", "zeta_z in um", curves)
+
+
 # --- (A14), (A15) -------------------------------------------------------------------------------------------
 _A14: Forms = {"Q_aver": (X - 1) / ((X + 1) * T), "X": q_plus / q_minus}
 _A15: Forms = {"dQ_aver/dX": 2 / ((X + 1) ** 2 * T)}
@@ -370,6 +388,14 @@ def _effect_a16() -> str:
     return f"At Table 3, phase lead +1: {'; '.join(parts)}."
 
 
+def _picture_a17() -> Picture:
+    """The printed and the right derivative of f, for Y above 1."""
+    axis = np.linspace(1.5, 8, 131)
+    printed, right = (sp.lambdify(Y, form["df/dY"], "numpy")(axis) for form in (_A17, _derive_a17().forms))
+    curves = {"printed": (axis.tolist(), printed.tolist()), "derived": (axis.tolist(), right.tolist())}
+    return Picture("Derivative of f", "Y", "df/dY", curves)
+
+
 def _derive_a17() -> Derivation:
     form = -1 / ((Y - 1) * sp.sqrt(sp.Abs(Y**2 - 1)))
     above, below = sp.Symbol("g", positive=True), sp.Symbol("e", positive=True)
@@ -435,7 +461,7 @@ ENTRIES = (
     Entry(
         id="A13", section="B", title="General equation of the ellipse", place=_B, printed=_A13, units={},
         verdict="erratum", judge=_judge_a13, derive=_derive_a13, effect=_effect_a13, known={**KNOWN, delta: KNOWN[X]},
-        repair=lambda _: _derive_a13().forms, found_by=("domain",),
+        repair=lambda _: _derive_a13().forms, found_by=("domain",), picture=_picture_a13,
         reason="An identity, but no ellipse: a perfect square whose coefficients turn with the vibration. The path's "
         "conic has the amplitudes and the slow phase difference for coefficients.",
     ),
@@ -460,7 +486,7 @@ ENTRIES = (
         id="A17", section="C.2", title="Derivative of f", place=_C2, printed=_A17, units={"df/dY": "1"},
         verdict="erratum", judge=_judge_a17, derive=_derive_a17, effect=_effect_a17, known=KNOWN,
         repair=lambda forms: {"df/dY": forms["df/dY"] / (2 * sp.sqrt(sp.Abs(Y**2 - 1)))},
-        found_by=("numeric", "identity"),
+        found_by=("numeric", "identity"), picture=_picture_a17,
         reason="Not the derivative of f: short of a square, and of the root's inner derivative. The sign is right.",
     ),
 )  # fmt: skip

@@ -7,11 +7,18 @@ import sys
 import time
 from typing import Any
 
+from derivations.emit import GENERATED
 from derivations.ledger import ENTRIES, entry
 from derivations.ledger.model import Entry, confirm
-from derivations.ledger.report import record, table, written_out
+from derivations.ledger.mutate import MUTATED, try_mutants
+from derivations.ledger.report import record
+from trum_sym.ledger import table, written_out
 
-__all__ = ["prove", "verify"]
+__all__ = ["as_json", "check_mutants", "prove", "verify"]
+
+
+def _progress(text: str) -> None:
+    print(text, file=sys.stderr, flush=True)
 
 
 def prove(entries: tuple[Entry, ...]) -> list[dict[str, Any]]:
@@ -23,24 +30,72 @@ def prove(entries: tuple[Entry, ...]) -> list[dict[str, Any]]:
         records.append(record(result))
         state = "confirmed" if result.confirmed else "NOT CONFIRMED: " + "; ".join(result.problems)
         line = f"[{number}/{len(entries)}] ({candidate.id}) {candidate.verdict}: {state}"
-        print(f"{line}, {time.perf_counter() - start:.1f} s", file=sys.stderr, flush=True)
+        _progress(f"{line}, {time.perf_counter() - start:.1f} s")
     return records
 
 
-def verify(equation: str | None, as_json: bool) -> int:
+def as_json(records: list[dict[str, Any]]) -> str:
+    """The text of ledger.json."""
+    return json.dumps(records, indent=1, ensure_ascii=False) + "\n"
+
+
+def check_mutants(entries: tuple[Entry, ...]) -> int:
+    """Try all mutants; prints the counts and every survivor, returns 1 if one is neither rejected nor equivalent."""
+    total = rejected = equivalent = 0
+    by_kind: dict[str, int] = {}
+    survivors = []
+    for candidate in (e for e in entries if e.verdict in MUTATED):
+        start = time.perf_counter()
+        outcomes = try_mutants(candidate)
+        for outcome in outcomes:
+            if outcome.rejected_by is not None:
+                rejected += 1
+                by_kind[outcome.rejected_by.kind] = by_kind.get(outcome.rejected_by.kind, 0) + 1
+            elif outcome.equivalent:
+                equivalent += 1
+            else:
+                survivors.append(f"({candidate.id}) {outcome.mutant.name}: {outcome.mutant.slip}")
+        total += len(outcomes)
+        _progress(f"({candidate.id}) {len(outcomes)} mutants, {time.perf_counter() - start:.1f} s")
+    kinds = ", ".join(f"{count} by {kind}" for kind, count in sorted(by_kind.items(), key=lambda item: -item[1]))
+    print(f"{total} mutants: {rejected} rejected ({kinds}), {equivalent} proved equivalent, {len(survivors)} surviving")
+    print("".join(f"surviving {line}\n" for line in survivors), end="")
+    return 1 if survivors else 0
+
+
+def _write(records: list[dict[str, Any]], check: bool) -> int:
+    """Write ledger.json and ledger.html, or say whether they are stale."""
+    from derivations.ledger.html import page
+
+    files = {"ledger.json": as_json(records), "ledger.html": page(records, ENTRIES)}
+    paths = {GENERATED / name: text for name, text in files.items()}
+    if not check:
+        for path, text in paths.items():
+            path.write_text(text, "utf-8")
+        return 0
+    stale = [path.name for path, text in paths.items() if not path.is_file() or path.read_text("utf-8") != text]
+    for name in stale:
+        _progress(f"{name} is stale: run `python -m derivations verify --write`, read the diff, commit it")
+    return 1 if stale else 0
+
+
+def verify(equation: str | None, *, json_: bool, mutants: bool, write: bool, check: bool) -> int:
     """Run the command; 0 when all is confirmed, 1 when something is not, 2 for an unknown equation."""
     try:
-        entries = ENTRIES if equation is None else (entry(equation.strip("()")),)
+        entries = ENTRIES if equation is None else (entry(equation.strip().strip("()")),)
     except LookupError as error:
         print(f"derivations: {error.args[0]}", file=sys.stderr)
         return 2
+    if mutants:
+        return check_mutants(entries)
     records = prove(entries)
-    if as_json:
-        print(json.dumps(records, indent=1, ensure_ascii=False))
+    if json_:
+        print(as_json(records), end="")
     elif equation is not None:
         print(written_out(records[0]))
     else:
         failed = sum(not r["confirmed"] for r in records)
         print(table(records))
         print(f"\n{len(records)} entries, {len(records) - failed} confirmed, {failed} not confirmed")
-    return 0 if all(r["confirmed"] for r in records) else 1
+    outputs = _write(records, check) if equation is None and (write or check) else 0
+    return 0 if outputs == 0 and all(r["confirmed"] for r in records) else 1

@@ -1,4 +1,4 @@
-"""The ledger as data and as text: records for JSON, the table, one entry written out."""
+"""The ledger as data: records for JSON."""
 
 from __future__ import annotations
 
@@ -6,12 +6,11 @@ from collections.abc import Iterable
 from typing import Any
 
 import sympy as sp
-from tabulate import tabulate
 
 from derivations.ledger.model import Evidence, Forms, Result
 from derivations.nomenclature import NOMENCLATURE, latex
 
-__all__ = ["forms_latex", "record", "table", "written_out"]
+__all__ = ["forms_latex", "record"]
 
 
 def _form_latex(name: str, form: sp.Basic) -> str:
@@ -55,29 +54,3 @@ def record(result: Result) -> dict[str, Any]:
         ],
     }
 
-
-def table(records: list[dict[str, Any]]) -> str:
-    """One line per entry."""
-    rows = []
-    for r in records:
-        printed = [e for e in r["evidence"] if e["ok"]]
-        kinds = ", ".join(dict.fromkeys(e["kind"] for e in printed))
-        rows.append((r["id"], r["title"], r["verdict"], "confirmed" if r["confirmed"] else "NOT CONFIRMED", kinds))
-    return str(tabulate(rows, headers=("id", "title", "verdict", "", "evidence"), disable_numparse=True))
-
-
-def written_out(r: dict[str, Any]) -> str:
-    """One entry: printed, derivation step by step, derived, evidence, effect."""
-    lines = [f"({r['id']}) {r['title']}  [{r['place']}]", f"verdict: {r['verdict']}. {r['reason']}", "", "printed"]
-    lines += [f"    {formula}" for formula in r["printed_latex"] or ["nothing: missing from the paper"]]
-    lines += ["", "derivation"]
-    marks = {None: "premise", True: "checked", False: "DOES NOT HOLD"}
-    for number, s in enumerate(r["steps"], 1):
-        lines.append(f"{number:3}. {s['text']} [{marks[s['holds']]}]")
-        lines += [f"        {formula}" for formula in s["latex"]]
-    lines += ["", "derived"] + [f"    {formula}" for formula in r["derived_latex"] or []] + ["", "evidence"]
-    for e in r["evidence"]:
-        lines.append(f"    {'for    ' if e['ok'] else 'against'} {e['about']:<9} {e['kind']}: {e['detail']}")
-    lines += ["", f"effect: {r['effect']}"]
-    lines += [f"NOT CONFIRMED: {problem}" for problem in r["problems"]]
-    return "\n".join(lines)

@@ -82,9 +82,13 @@ _BEAM: Forms = {
 def resolved(forms: Forms) -> dict[str, sp.Expr]:
     """The named expressions with each other put in, until only basic symbols are left."""
     values = {sym(name)[0]: sp.sympify(form) for name, form in forms.items()}
-    result = dict(forms)
-    for _ in range(len(forms)):
-        result = {name: form.subs({s: v for s, v in values.items() if s.name != name}) for name, form in result.items()}
+    result = {name: sp.sympify(form) for name, form in forms.items()}
+    for _ in forms:
+        known = {name: form.free_symbols & values.keys() for name, form in result.items()}
+        if not any(known.values()):
+            break
+        put = {n: {s: values[s] for s in known[n] if s.name != n} for n in result}
+        result = {name: form.subs(put[name]) if put[name] else form for name, form in result.items()}
     return result
 
 

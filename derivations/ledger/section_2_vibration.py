@@ -114,6 +114,7 @@ def _judge_4(forms: Forms) -> Iterator[Evidence]:
     nine = {n_j: 9}
     shifted = {"w": closed.subs(nine).subs(x, x + 2 * sp.pi * R)}
     yield agrees(shifted, {"w": closed.subs(nine)}, ranges=ranges, against="itself once around the ring of nine waves")
+    yield agrees({"waves": forms["k_c"] * R}, {"waves": n_j}, against="n_j waves on the circumference", kind="domain")
     waves = vanishes(form.diff(t, 2) + omega_n0**2 * form) and vanishes(form.diff(x, 2) + k_c**2 * form)
     yield evidence(
         "identity", waves, "w_tt = -omega_n0^2 w and w_xx = -k_c^2 w, so (5) reduces to the dispersion relation"

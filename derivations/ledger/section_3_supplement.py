@@ -72,6 +72,13 @@ def _judge(region: str) -> Callable[[Forms], Iterator[Evidence]]:
             names = {**cycle.values, "tau": time}
             return function(*(names[s.name] for s in symbols))
 
+        for cycle in random_cycles(2, "damped"):
+            roots = mp.polyroots([1, 2 * cycle["xi"], 1])
+            rate = value_at(sp.sympify(forms["omega_d"]), cycle, mp.mpf(0))
+            off = abs(rate / cycle["omega_n"] / max(mp.im(root) for root in roots) - 1)
+            if off > mp.mpf(10) ** -25:
+                yield evidence("domain", False, "omega_d is not the frequency of the oscillator's free motion")
+                return
         worst = worst_start = worst_ode = mp.mpf(0)
         for cycle in random_cycles(4, f"supplement {region}", psi=True):
             size = cycle["W"]

@@ -9,9 +9,9 @@ import sympy as sp
 
 from derivations import line_contact
 from derivations.ledger.judge import Point, agrees, error_size, identical
-from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
+from derivations.ledger.model import Derivation, Entry, Evidence, Forms, Picture, evidence, step
 from derivations.ledger.names import KNOWN, figure, name
-from derivations.ledger.operating import at_point, operating_point
+from derivations.ledger.operating import at_point, operating_point, stator
 from derivations.nomenclature import sym
 
 __all__ = ["ENTRIES", "RANGES"]
@@ -196,6 +196,21 @@ def _effect_26() -> str:
     )
 
 
+def _picture_26() -> Picture:
+    """Contact half-angle over the prepressure: Hertz's half-planes against the thin layer."""
+    forces = list(range(100, 221, 10))
+    hertz, layer = [], []
+    for force in forces:
+        q = dict(stator(force))
+        q["C_E"] = at_point(_C_E["C_E"], q)
+        q["rho_k"] = at_point(_EQ25["rho_k"].subs(zeta_zmax, sp.Symbol("W")), q)
+        hertz.append(float(q["k_c"] * at_point(_EQ26["2x_m"], q) / 2))
+        layer.append(float(q["theta"]))
+    axis = [float(force) for force in forces]
+    curves = {"printed: Hertz's half-planes": (axis, hertz), "the layer as thin as it is": (axis, layer)}
+    return Picture("Half-angle of the contact", "prepressure in N", "k_c x_m in rad", curves)
+
+
 _PLACE = "Sect. 4.1"
 ENTRIES = (
     Entry(
@@ -212,6 +227,7 @@ ENTRIES = (
     Entry(
         id="26", section="4.1", title="Length of the contact", place=_PLACE, printed=_EQ26, units={"2x_m": "m"},
         verdict="approximation", judge=_judge_26, derive=_derive_26, effect=_effect_26, known=KNOWN,
+        picture=_picture_26,
         reason="Hertz's line contact with sqrt(8/pi) rounded to 1.6; its premise, bodies far thicker than the "
         "contact is long, does not hold for the layer.",
     ),

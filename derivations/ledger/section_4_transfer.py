@@ -19,7 +19,7 @@ from derivations.ledger.friction_states import (
     states,
 )
 from derivations.ledger.history import Array, history, numeric, values
-from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
+from derivations.ledger.model import Derivation, Entry, Evidence, Forms, Picture, evidence, step
 from derivations.ledger.names import KNOWN, figure, name
 from derivations.nomenclature import sym
 
@@ -58,27 +58,71 @@ def _whole_zone(form: sp.Expr) -> sp.Expr:
     return form.subs(x_max, 2 * x_max - x_xm) / 2
 
 
+def _share_inside(at: sp.Expr) -> sp.Expr:
+    """C at a point inside the contact, where nothing is clipped."""
+    return transfer.pressure_share().subs(u, at).subs(sp.Max(-theta, sp.Min(theta, at)), at)
+
+
 def _derive_36() -> Derivation:
+    """From the surface's motion to one closed form, and what doubling a half does to it."""
     form = _whole_zone(_EQ36["f_n"])
+    speed, largest, angle = transfer.surface_speed(), transfer.speed_amplitude(), transfer.speed_angle()
+    a = sp.Symbol("a", positive=True)
+    C, f, states_at = sp.Function("C"), sp.Symbol("f"), transfer.wave_states()
+    share = _share_inside(u)
+    press = sp.cos(u) - sp.cos(theta)
+    load = sp.integrate(press, (u, -theta, theta))
+    falls, rises = _share_inside(phi + a), _share_inside(phi - a)
+    whole = 2 * (falls - rises) - 1
+    doubled = 4 * (falls - _share_inside(sp.Integer(0))) - 1
     steady = transfer.steady_wave_fraction()
-    a = next(s for s in steady.free_symbols if s.name == "a")
-    share = [transfer.pressure_share().subs(u, at).subs({sp.Max(-theta, sp.Min(theta, at)): at}) for at in (a, -a)]
     return Derivation(
         (
-            step("The surface moves under the rotor with v_x(u) = R cos(u - phi), u from the crest:",
-                 transfer.surface_speed(), transfer.speed_amplitude(), sp.Eq(phi, transfer.speed_angle()),
-                 zero=sp.expand_trig(R_v * sp.cos(u - phi))
-                 - R_v * (sp.cos(u) * sp.cos(phi) + sp.sin(u) * sp.sin(phi))),
-            step("Coulomb's friction on every element of all n_j contacts points along v_x - v:",
+            step("Let u = k_c (x - x_max) count from the crest, v_A and v_B be the rates of w_A and w_B. The crest's "
+                 "height, its rate, and the determinant over D k_c are",
+                 *(sp.Eq(symbol, value) for symbol, value in states_at.items())),
+            step("The tangential velocity D d2(zeta_z)/dx dt of eq. 11 becomes, about the crest,",
+                 sp.Eq(sp.Symbol("v_xx"), speed),
+                 zero=_about_the_crest() - sp.expand(speed.subs(states_at))),
+            step("Both terms together are one cosine, R cos(u - phi): the surface is fastest at phi from the crest.",
+                 sp.Eq(R_v, largest), sp.Eq(phi, angle),
+                 zero=sp.simplify(largest * (sp.cos(u) * sp.cos(angle) + sp.sin(u) * sp.sin(angle)) - speed)),
+            step("phi is 0 or pi only while the crest's height does not change. In a beat it does."),
+            step("Friction on an element b_m dx of the contact is mu p dx along v_xx - v_xp, and the contact "
+                 "reaches from x_max - x_m = 2 x_max - x_xm to x_xm, at n_j crests:",
                  sp.Eq(sp.Symbol("f_n"), form)),
-            step("Between phi - acos(v/R) and phi + acos(v/R) the surface is faster. With C(u) the share of the load "
-                 "left of u, the net fraction of mu F_c is", transfer.friction_fraction(sp.Function("C")(u))),
-            step("Twice the right half is the whole only if v_x is even about the crest, phi = 0 or pi: if the crest's "
-                 "height does not change. Then, with nonsliding points at +-a:", sp.Eq(transfer.f_net, steady),
-                 zero=2 * (share[0] - share[1]) - 1 - steady),
+            step("The pressure is p ~ cos u - cos theta, theta = k_c x_m (eqs. 28, 30). The share of the load left "
+                 "of u is", sp.Eq(C(u), share),
+                 zero=(sp.simplify(share.diff(u) - press / load), sp.simplify(share.subs(u, -theta)),
+                       sp.simplify(share.subs(u, theta) - 1))),
+            step("The surface is faster than the rotor where cos(u - phi) > v_xp/R: from phi - a to phi + a with",
+                 sp.Eq(a, sp.acos(v_xp / R_v)), zero=sp.cos(phi + sp.acos(c) - phi) - c),
+            step("This stretch drives with its share of the load and all the rest brakes, so of mu F_c there remains",
+                 sp.Eq(f, 2 * (C(phi + a) - C(phi - a)) - 1),
+                 zero=sp.expand((falls - rises) - (1 - (falls - rises)) - whole)),
+            step("with C cut off at the ends of the contact, and the same stretch one turn to either side: the closed "
+                 "form of all transfer cases."),
+            step("Eq. 36 instead doubles the right half. For phi - a < 0 < phi + a < theta that gives",
+                 sp.Eq(sp.Symbol("f_printed"), 4 * (C(phi + a) - C(0)) - 1),
+                 zero=sp.expand(doubled - 2 * (2 * (falls - sp.Rational(1, 2)) - sp.Rational(1, 2)))),
+            step("The two differ by 2 [C(phi + a) + C(phi - a) - 1], which is 0 for phi = 0 and grows with phi, "
+                 "as C does:",
+                 zero=(sp.simplify(doubled - whole - 2 * (falls + rises - 1)),
+                       sp.simplify((falls + rises - 1).subs(phi, 0)))),
+            step("So eq. 36 is right for a steady wave alone, where f becomes", sp.Eq(f, steady),
+                 zero=sp.simplify(whole.subs(phi, 0) - steady)),
         ),
         {"f_n": form},
     )  # fmt: skip
+
+
+def _about_the_crest() -> sp.Expr:
+    """D d2(zeta_z)/dx dt at k_c x = u + k_c x_max, with sine and cosine of k_c x_max = atan2(w_A, w_B) put in."""
+    A, B, v_A, v_B = transfer.w_A, transfer.w_B, transfer.v_A, transfer.v_B
+    height = sp.sqrt(A**2 + B**2)
+    sine = (sp.sin(u) * B + sp.cos(u) * A) / height
+    cosine = (sp.cos(u) * B - sp.sin(u) * A) / height
+    return sp.expand(D * k_c * (v_A * cosine - v_B * sine))
 
 
 def _concrete(s: State) -> dict[sp.Basic, sp.Basic]:
@@ -127,6 +171,23 @@ def _effect_36() -> str:
         f"{figure(worst * rub, 3)} N at most of {figure(rub)} N, has the wrong sign {100 * signs:.1f} % of the time, "
         f"and a mean of {figure(float(half.mean()) * rub, 3)} N where it is {figure(float(whole.mean()) * rub, 3)} N."
     )
+
+
+def _picture_36() -> Picture:
+    """Friction of the doubled half and of the whole zone over a periodic cycle, with Table 4's rotor."""
+    v = values()
+    angle, R, zone = (column[::40] for column in surface_motion())
+    speed = 633 * math.pi / 648000 * v["r_c"]
+    time = [1e3 * float(t) for t in history().time[::40]]
+    rub = v["mu"] * v["F_c"]
+    curves = {
+        label: (time, [rub * float(f) for f in numeric(form, (phi, c, theta))(angle, speed / R, zone)])
+        for label, form in (
+            ("printed: right half, doubled", transfer.half_zone_fraction()),
+            ("derived: whole contact", transfer.friction_fraction()),
+        )
+    }
+    return Picture("Friction over a drive cycle", "t - t_1 in ms", "friction in N", curves)
 
 
 # --- (37) ---------------------------------------------------------------------------------------------------
@@ -321,7 +382,7 @@ def _effect_reverse() -> str:
 ENTRIES = (
     Entry(
         id="36", section="4.2.3", title="Friction on the rotor", place="Sect. 4.2.3", printed=_EQ36, units={"f_n": "N"},
-        verdict="erratum", judge=_judge_36, derive=_derive_36, effect=_effect_36, known=_KNOWN,
+        verdict="erratum", judge=_judge_36, derive=_derive_36, effect=_effect_36, known=_KNOWN, picture=_picture_36,
         repair=lambda forms: {key: _whole_zone(form) for key, form in forms.items()},
         found_by=("numeric", "derivation"),
         reason="Twice the right half of the contact is the whole only where v_x is even about the crest; in a beat the "

@@ -1,0 +1,176 @@
+"""The ledger as one page that needs no network: MathML, a filter, a search, an anchor per entry, pictures."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from html import escape
+from typing import Any
+
+from latex2mathml.converter import convert
+
+from derivations.ledger.model import Entry
+from derivations.ledger.names import NAMES
+from derivations.ledger.pictures import svg
+from derivations.nomenclature import CLASHES, NOMENCLATURE
+from derivations.nomenclature import latex as typeset
+
+__all__ = ["page"]
+
+VERDICTS = ("verified", "approximation", "erratum", "definition", "reconstructed", "empirical")
+
+_STYLE = """
+:root { color-scheme: light; --ink: #1b1f24; --soft: #57606a; --line: #d0d7de; --wash: #f6f8fa; }
+body { font: 16px/1.5 system-ui, sans-serif; color: var(--ink); margin: 0 auto; max-width: 62rem; padding: 1rem; }
+header p { max-width: 48rem; } h1 { margin-bottom: .2rem; } h2 { margin: 0; font-size: 1.15rem; }
+.bar { position: sticky; top: 0; background: #fff; border-bottom: 1px solid var(--line); padding: .5rem 0; z-index: 1; }
+.bar button, .bar input { font: inherit; padding: .15rem .6rem; border: 1px solid var(--line); border-radius: 1rem;
+  background: #fff; margin: .1rem; } .bar button[aria-pressed=true] { background: var(--ink); color: #fff; }
+article { border: 1px solid var(--line); border-radius: .5rem; margin: 1rem 0; padding: 1rem; scroll-margin-top: 6rem; }
+article[hidden] { display: none; } .place { color: var(--soft); font-size: .9rem; }
+.tag { border-radius: 1rem; padding: 0 .6rem; font-size: .85rem; color: #fff; background: #57606a; margin-left: .5rem; }
+.verified { background: #1a7f37; } .erratum { background: #b42318; } .approximation { background: #9a6700; }
+.reconstructed { background: #0969da; } .empirical { background: #6639ba; }
+.pair { display: grid; grid-template-columns: 1fr; gap: .5rem; margin: .6rem 0; }
+.box { background: var(--wash); border-radius: .4rem; padding: .4rem .8rem; overflow-x: auto; }
+.box h3 { margin: 0 0 .3rem; font-size: .85rem; color: var(--soft); font-weight: 600; }
+.formula { margin: .35rem 0; overflow-x: auto; overflow-y: hidden; padding: .15rem 0; } math { font-size: 1.05rem; }
+details { margin: .4rem 0; } summary { cursor: pointer; color: #0969da; } ol > li { margin: .5rem 0; }
+li.against { color: #b42318; } table { border-collapse: collapse; } td, th { border: 1px solid var(--line);
+  padding: .15rem .5rem; text-align: left; vertical-align: top; } svg { max-width: 100%; height: auto; }
+.index a { display: inline-block; min-width: 2.2rem; text-align: center; border-radius: .3rem; color: #fff; margin: .1rem;
+  text-decoration: none; padding: 0 .3rem; background: #57606a; font-size: .85rem; }
+"""
+
+_SCRIPT = """
+const entries = [...document.querySelectorAll('article')], box = document.querySelector('#search');
+const buttons = [...document.querySelectorAll('.bar button')], shown = document.querySelector('#shown');
+let verdict = 'all';
+function refresh() {
+  const words = box.value.toLowerCase().split(/\\s+/).filter(Boolean);
+  let count = 0;
+  for (const e of entries) {
+    const text = e.dataset.words;
+    e.hidden = !((verdict === 'all' || e.dataset.verdict === verdict) && words.every(w => text.includes(w)));
+    count += !e.hidden;
+  }
+  shown.textContent = count + ' of ' + entries.length;
+}
+for (const b of buttons) b.addEventListener('click', () => {
+  verdict = b.dataset.verdict;
+  for (const other of buttons) other.setAttribute('aria-pressed', other === b);
+  refresh();
+});
+box.addEventListener('input', refresh);
+function reveal() {
+  const id = decodeURIComponent(location.hash.slice(1));
+  const target = id && document.getElementById(id);
+  if (target && target.hidden) { box.value = ''; buttons[0].click(); target.scrollIntoView(); }
+}
+window.addEventListener('hashchange', reveal);
+refresh(); reveal();
+"""
+
+
+def _math(formula: str) -> str:
+    """A formula as MathML."""
+    source = formula.replace(r"\fold", "").replace(r"\vartheta", r"\vartheta ")
+    return f'<div class="formula">{convert(source, display="block")}</div>'
+
+
+def _formulas(title: str, formulas: Iterable[str] | None) -> str:
+    body = "".join(_math(f) for f in formulas or ()) or "<p>missing from the paper</p>"
+    return f'<div class="box"><h3>{escape(title)}</h3>{body}</div>'
+
+
+def _steps(steps: list[dict[str, Any]]) -> str:
+    marks = {None: "", True: " ✓", False: " ✗"}
+    items = [
+        f"<li>{escape(s['text'])}{marks[s['holds']]}{''.join(_math(f) for f in s['latex'])}</li>" for s in steps
+    ]
+    return f"<ol>{''.join(items)}</ol>"
+
+
+def _evidence(found: list[dict[str, Any]]) -> str:
+    rows = [
+        f'<li class="{"for" if e["ok"] else "against"}">{"✓" if e["ok"] else "✗"} {escape(e["about"])}, '
+        f"<b>{escape(e['kind'].replace('_', ' '))}</b>: {escape(e['detail'])}</li>"
+        for e in found
+    ]
+    return f"<ul>{''.join(rows)}</ul>"
+
+
+def anchor(name: str) -> str:
+    """The id of an entry's article: eq-6, eq-A13, or the word itself."""
+    return f"eq-{name}" if name.removeprefix("A").isdigit() else name
+
+
+def _label(name: str) -> str:
+    return f"({name})" if name.removeprefix("A").isdigit() else name
+
+
+def _article(r: dict[str, Any], picture: str) -> str:
+    words = " ".join([r["id"], _label(r["id"]), r["title"], r["reason"], r["effect"], r["place"], r["verdict"]]).lower()
+    corrected = {"erratum": "put right", "reconstructed": "reconstructed"}.get(r["verdict"], "derived")
+    found_by = f"<p>Found by: {escape(', '.join(r['found_by']).replace('_', ' '))}.</p>" if r["found_by"] else ""
+    figure = f"<figure>{picture}</figure>" if picture else ""
+    return (
+        f'<article id="{escape(anchor(r["id"]))}" data-verdict="{r["verdict"]}" data-words="{escape(words)}">'
+        f'<h2><a href="#{escape(anchor(r["id"]))}">{escape(_label(r["id"]))}</a> {escape(r["title"])}'
+        f'<span class="tag {r["verdict"]}">{r["verdict"]}</span></h2>'
+        f'<p class="place">{escape(r["place"])}</p><p>{escape(r["reason"])}</p>{found_by}'
+        f'<div class="pair">{_formulas("printed", r["printed_latex"])}'
+        f"{_formulas(corrected, r['derived_latex'])}</div>"
+        f"<p><b>Effect.</b> {escape(r['effect'])}</p>{figure}"
+        f"<details open><summary>Derivation</summary>{_steps(r['steps'])}</details>"
+        f"<details><summary>Evidence</summary>{_evidence(r['evidence'])}</details></article>"
+    )
+
+
+def _nomenclature() -> str:
+    rows = [
+        f"<tr><td>{convert(e.latex)}</td><td>{escape(e.unit)}</td><td>{escape(e.where)}</td>"
+        f"<td>{escape(e.meaning)}</td></tr>"
+        for e in NOMENCLATURE.values()
+    ]
+    rows += [
+        f"<tr><td>{convert(typeset(n.symbol))}</td><td>{escape(n.unit)}</td><td>{escape(n.where)}</td>"
+        f"<td>{escape(n.meaning)}</td></tr>"
+        for n in NAMES.values()
+        if n.symbol.name not in NOMENCLATURE
+    ]
+    clashes = [
+        f"<tr><td>{convert(letter)}</td><td>{escape('; '.join(meanings))}</td></tr>"
+        for letter, meanings in CLASHES.items()
+    ]
+    head = "<tr><th>symbol</th><th>unit</th><th>defined</th><th>meaning</th></tr>"
+    return (
+        f'<section id="nomenclature"><h2>Symbols</h2><details><summary>{len(rows)} symbols</summary><table>{head}'
+        f"{''.join(rows)}</table></details><h2>One letter, several meanings</h2><details><summary>{len(clashes)} letters"
+        f"</summary><table>{''.join(clashes)}</table></details></section>"
+    )
+
+
+def page(records: list[dict[str, Any]], entries: Iterable[Entry]) -> str:
+    """The page of a whole ledger."""
+    pictures = {e.id: svg(e.picture(), anchor(e.id)) for e in entries if e.picture is not None}
+    counts = {v: sum(r["verdict"] == v for r in records) for v in VERDICTS}
+    buttons = f'<button data-verdict="all" aria-pressed="true">all {len(records)}</button>' + "".join(
+        f'<button data-verdict="{v}" aria-pressed="false">{v} {counts[v]}</button>' for v in VERDICTS
+    )
+    index = "".join(
+        f'<a class="{r["verdict"]}" href="#{escape(anchor(r["id"]))}">{escape(r["id"])}</a>' for r in records
+    )
+    articles = "\n".join(_article(r, pictures.get(r["id"], "")) for r in records)
+    return (
+        '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><meta name="viewport" '
+        'content="width=device-width"><link rel="icon" href="data:,"><title>The ledger: every equation judged</title>'
+        f"<style>{_STYLE}</style></head><body><header><h1>The ledger</h1>"
+        "<p>Every numbered equation of <i>Research on Low-Speed Driving Model of Ultrasonic Motor Based on Beat Traveling "
+        "Wave Theory</i> (Actuators 2021, 10(11), 304), the definitions between them, its tables and statements: what is "
+        "printed, what follows from first principles, the verdict, the evidence, and what the difference does to "
+        "TRUM-60 at the operating point of Table 3 (180 N, 3000 Hz, 14 of 20 pulses). A tick marks a step or finding "
+        "that is checked by machine each time this page is made.</p></header>"
+        f'<div class="bar">{buttons}<input id="search" type="search" placeholder="search" aria-label="search">'
+        f'<span id="shown"></span></div><nav class="index">{index}</nav>\n{articles}\n{_nomenclature()}'
+        f"<script>{_SCRIPT}</script></body></html>\n"
+    )
