@@ -27,7 +27,19 @@ from derivations.ledger.model import Entry
 
 __all__ = ["ENTRIES", "entry"]
 
-ENTRIES: tuple[Entry, ...] = (
+
+def _in_order(entries: tuple[Entry, ...]) -> tuple[Entry, ...]:
+    """By the paper's numbers, the appendices last; what has no number stays behind what it stands behind."""
+    place, keyed = (False, 0), []
+    for index, candidate in enumerate(entries):
+        digits = candidate.id.removeprefix("A")
+        if digits.isdigit():
+            place = (digits != candidate.id, int(digits))
+        keyed.append((place, index, candidate))
+    return tuple(candidate for _, _, candidate in sorted(keyed, key=lambda item: item[:2]))
+
+
+_ALL: tuple[Entry, ...] = (
     *section_2_composite.ENTRIES,
     *section_2_vibration.ENTRIES,
     *section_2_amplitude.ENTRIES,
@@ -48,6 +60,7 @@ ENTRIES: tuple[Entry, ...] = (
     *claims.ENTRIES,
     *claims_appendix_c.ENTRIES,
 )
+ENTRIES = _in_order(_ALL)
 
 
 def entry(name: str) -> Entry:

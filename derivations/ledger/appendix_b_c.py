@@ -12,7 +12,7 @@ from derivations import ellipse
 from derivations.ledger.history import STARTS, history, values
 from derivations.ledger.judge import Point, agrees, evaluate, identical, points
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, Picture, evidence, step
-from derivations.ledger.names import KNOWN, figure, name
+from derivations.ledger.names import KNOWN, figure, name, worse
 from derivations.ledger.section_6 import cycle_totals
 from derivations.nomenclature import sym
 
@@ -137,7 +137,7 @@ def _residual_numbers(forms: Forms) -> mp.mpf:
         symbols = set().union(*(side.free_symbols for side in sides)) | {P_A, P_B}
         for q in points(symbols, 4, "A12", _RANGES):
             left, right = (evaluate(side, {s: q[s] for s in side.free_symbols}) for side in sides)
-            worst = max(worst, abs(left - right) / (abs(left) + abs(right)))
+            worst = worse(worst, abs(left - right) / (abs(left) + abs(right)))
     return worst
 
 
@@ -204,7 +204,7 @@ def _judge_a13(forms: Forms) -> Iterator[Evidence]:
     sides = [s.subs(_ON_MOTION).subs(delta, apart).subs(on_motion) for s in (form.lhs, form.rhs)]
     for q in points((*_MOTION, D), 4, "A13", _RANGES):
         left, right = (evaluate(side, {s: q[s] for s in side.free_symbols}) for side in sides)
-        worst = max(worst, abs(left - right) / (abs(left) + abs(right)))
+        worst = worse(worst, abs(left - right) / (abs(left) + abs(right)))
     yield evidence("numeric", worst < 1e-25, f"holds on the motion, two sides to {mp.nstr(worst, 2)}")
     fast = sorted(s.name for s in form.free_symbols & {P_A, P_B})
     bend = ellipse.discriminant(form.lhs - form.rhs, zeta_x, zeta_z)

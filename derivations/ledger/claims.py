@@ -16,7 +16,7 @@ import sympy as sp
 from derivations import transfer
 from derivations.ledger.history import STARTS, history, values
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
-from derivations.ledger.names import KNOWN, figure, name
+from derivations.ledger.names import KNOWN, figure, name, worse
 from derivations.ledger.operating import stator
 from derivations.nomenclature import sym
 
@@ -138,7 +138,7 @@ def _judge_crest(forms: Forms) -> Iterator[Evidence]:
         h = 1e-9
         height = [max(math.hypot(A + side * h * vA, B + side * h * vB), 0) for side in (-1, 1)]
         found = complex(form.subs(dict(zip(_RATE, (A, B, vA, vB), strict=True))))
-        worst = max(worst, abs(found - (height[1] - height[0]) / (2 * h)))
+        worst = worse(worst, abs(found - (height[1] - height[0]) / (2 * h)))
     yield evidence("numeric", worst < 1e-6, f"the crest's height by differences in time: off by {worst:.2g} m/s")
     steady = form.subs({transfer.v_A: transfer.w_B, transfer.v_B: -transfer.w_A})
     yield evidence("limit", sp.simplify(steady) == 0, "0 in a steady wave")

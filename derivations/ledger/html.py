@@ -38,7 +38,7 @@ details { margin: .4rem 0; } summary { cursor: pointer; color: #0969da; } ol > l
 li.against { color: #b42318; } table { border-collapse: collapse; } td, th { border: 1px solid var(--line);
   padding: .15rem .5rem; text-align: left; vertical-align: top; } svg { max-width: 100%; height: auto; }
 .index a { display: inline-block; min-width: 2.2rem; text-align: center; border-radius: .3rem; color: #fff; margin: .1rem;
-  text-decoration: none; padding: 0 .3rem; background: #57606a; font-size: .85rem; }
+  text-decoration: none; padding: 0 .3rem; font-size: .85rem; } .definition { background: #57606a; }
 """
 
 _SCRIPT = """
@@ -73,8 +73,7 @@ refresh(); reveal();
 
 def _math(formula: str) -> str:
     """A formula as MathML."""
-    source = formula.replace(r"\fold", "").replace(r"\vartheta", r"\vartheta ")
-    return f'<div class="formula">{convert(source, display="block")}</div>'
+    return f'<div class="formula">{convert(formula, display="block")}</div>'
 
 
 def _formulas(title: str, formulas: Iterable[str] | None) -> str:

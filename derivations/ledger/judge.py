@@ -81,7 +81,7 @@ def evaluate(expr: sp.Basic, point: Mapping[sp.Symbol, object]) -> mp.mpf | mp.m
     """The number that an expression has at a point, at 30 digits and some to spare."""
     symbols = tuple(sorted(point, key=lambda s: s.name))
     function = compiled(symbols, sp.sympify(expr))
-    with mp.workdps(WORKING_DIGITS):
+    with mp.workdps(max(WORKING_DIGITS, mp.mp.dps)):  # numerical derivatives ask for more
         return mp.mpmathify(function(*(mp.mpmathify(point[s]) for s in symbols)))
 
 

@@ -115,9 +115,12 @@ class Entry:
     picture: Callable[[], Picture] | None = None
 
     def evidence(self, forms: Forms) -> Iterator[Evidence]:
-        """Evidence on any forms: dimensions first, then the judge's."""
+        """Evidence on any forms: dimensions first, then the judge's; forms it cannot evaluate speak against themselves."""
         yield _dimensions(forms, self.units, self.known)
-        yield from self.judge(forms)
+        try:
+            yield from self.judge(forms)
+        except (ArithmeticError, ValueError, TypeError, AttributeError, LookupError, NotImplementedError) as error:
+            yield Evidence("domain", False, f"cannot be evaluated: {type(error).__name__}: {error}")
 
     def rejects(self, forms: Forms) -> Evidence | None:
         """The first evidence that speaks against the forms; None if all speaks for them."""

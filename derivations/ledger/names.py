@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import SupportsFloat
+from typing import Any, SupportsFloat
 
 import sympy as sp
 
 from trum_sym.units import Dimension, parse_unit
 
-__all__ = ["KNOWN", "NAMES", "Name", "figure", "name"]
+__all__ = ["KNOWN", "NAMES", "Name", "figure", "name", "worse"]
 
 
 @dataclass(frozen=True)
@@ -92,3 +92,8 @@ def name(labels: str) -> tuple[sp.Symbol, ...]:
 def figure(value: SupportsFloat, digits: int = 4) -> str:
     """A number for a sentence, such as 12.6, 9 or 3e+10."""
     return f"{float(value):.{digits}g}"
+
+
+def worse(worst: Any, error: Any) -> Any:  # noqa: ANN401
+    """The larger of two errors; what is not a number stays, where ``max`` would drop it."""
+    return worst if worst != worst or error <= worst else error

@@ -10,8 +10,7 @@ import sympy as sp
 
 from derivations.ledger.exact import REGIONS, Cycle, random_cycles
 from derivations.ledger.judge import evaluate
-from derivations.ledger.section_2_composite import resolved
-from derivations.ledger.section_3_supplement import supplement_forms, value_at
+from derivations.ledger.section_3_supplement import supplement_forms, values
 from derivations.nomenclature import NOMENCLATURE, sym
 
 __all__ = ["by_region", "context", "row_value", "rows", "within", "worst"]
@@ -36,11 +35,6 @@ def rows(form: sp.Basic) -> list[sp.Expr]:
 
 
 @cache
-def _supplement(region: str) -> dict[str, sp.Expr]:
-    return resolved(supplement_forms(region))
-
-
-@cache
 def context(cycle: Cycle, region: str, tau: mp.mpf) -> dict[str, mp.mpf]:
     """Values by symbol name at a time of the cycle, those of the reconstructed supplement among them."""
     first, second, third = cycle.durations()
@@ -49,8 +43,7 @@ def context(cycle: Cycle, region: str, tau: mp.mpf) -> dict[str, mp.mpf]:
     time = edges[index] + tau
     names = {**cycle.values, "t": time, "W_maxf": cycle["W"], **{f"t_{i + 1}": edge for i, edge in enumerate(edges)}}
     for known in range(index + 1):
-        for name, form in _supplement(REGIONS[known]).items():
-            names[name] = value_at(form, cycle, time - edges[known])
+        names.update(values(supplement_forms(REGIONS[known]), cycle, time - edges[known]))
     return names
 
 

@@ -298,7 +298,7 @@ def _repair_6(forms: Forms) -> Forms:
 
 def _derive_6() -> Derivation:
     a, b, c = beam.dispersion()
-    root = beam.resonance()["eq6"]
+    root = sp.sqrt(sp.expand(c) / sp.expand(b))
     quartic = a * _omega**4 - b * _omega**2 + c
     wave = sp.cos(k_c * x) * sp.sin(_omega * t)
     left = beam_equation().lhs.subs(w, wave).doit()
@@ -312,7 +312,7 @@ def _derive_6() -> Derivation:
             step("Each term of the denominator carries the inertia it comes from. The printed one, rho (1/(kappa G) "
                  "+ 1/E) "
                  "k_c^2, lost a_2's factor E I_z, so that kg/m and s^2/m^4 would be added:",
-                 sp.Eq(omega_n, root), zero=root**2 * b - c),
+                 sp.Eq(omega_n, root), zero=[root**2 * b - c, root**2 - beam.resonance()["eq6"] ** 2]),
             step("The full quadratic in omega^2 has two roots; the lower one is the bending mode:",
                  sp.Eq(omega_n, beam.resonance()["quartic"])),
         ),

@@ -388,7 +388,7 @@ def corrected_24() -> Forms:
     branches = []
     for ((A, alpha), (B, beta)), span in zip(_as_cosines(), ((1, 2), (2, 3), (3, 4)), strict=True):
         rate = (sp.diff(alpha, t) + sp.diff(beta, t)) / 2
-        branches.append((D * k_c * A * B * rate * sp.sin(sp.expand(beta - alpha)), *span))
+        branches.append((D * k_c * A * B * rate * sp.sin(beta - alpha), *span))
     return {"Q_q": by_region(*branches)}
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from functools import cache
 
 import mpmath as mp
 import sympy as sp
@@ -11,10 +12,9 @@ from derivations import phases, supplement
 from derivations.ledger.exact import Cycle, at_table_3, random_cycles
 from derivations.ledger.judge import evaluate
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, Picture, evidence, step
-from derivations.ledger.section_2_composite import resolved
 from derivations.nomenclature import sym
 
-__all__ = ["ENTRIES", "supplement_forms", "value_at"]
+__all__ = ["ENTRIES", "displacement", "supplement_forms", "values"]
 
 tau, omega_n, omega_q, omega_d, xi, W, a, b = sym("tau omega_n omega_q omega_d xi W a b")
 # region -> (phase, amplitude of the free motion, Theta, Psi, A, varphi)
@@ -25,6 +25,7 @@ _NAMES = {
 }
 
 
+@cache
 def supplement_forms(region: str) -> dict[str, sp.Expr]:
     """Initial conditions, free motion, and product form of the phase that the region needs them for."""
     phase, radius, theta, psi, amplitude, slow = _NAMES[region]
@@ -42,39 +43,37 @@ def supplement_forms(region: str) -> dict[str, sp.Expr]:
     return forms
 
 
-def value_at(expr: sp.Expr, cycle: Cycle, time: mp.mpf) -> mp.mpf:
-    """The number of an expression in a cycle, tau after the start of its region."""
+def values(forms: Forms, cycle: Cycle, time: mp.mpf) -> dict[str, mp.mpf]:
+    """The forms' values, each from those before it, tau after the start of their region."""
     names = {**cycle.values, "tau": time}
-    return evaluate(expr, {symbol: names[symbol.name] for symbol in expr.free_symbols})
+    for name, form in forms.items():
+        expr = sp.sympify(form)
+        names[name] = evaluate(expr, {symbol: names[symbol.name] for symbol in expr.free_symbols})
+    return {name: names[name] for name in forms}
 
 
-def displacement(region: str, forms: Forms) -> sp.Expr:
-    """w of the region's phase from the forms, in tau."""
+def displacement(region: str, forms: Forms, cycle: Cycle, time: mp.mpf) -> mp.mpf:
+    """w of the region's phase from the forms."""
     phase, radius, theta, psi, amplitude, slow = _NAMES[region]
-    found = resolved(forms)
-    rate = found["omega_d"]
+    v = values(forms, cycle, time)
     if not psi:
-        return found[radius] * sp.exp(-xi * omega_n * tau) * sp.sin(rate * tau + found[theta])
-    offset = sp.pi if phase == "B" else 0
-    mean = (rate + omega_q) * tau / 2 + (found[theta] + found[psi] + offset) / 2
-    return found[amplitude] * sp.sin(mean + found[slow])
+        decay = mp.exp(-cycle["xi"] * cycle["omega_n"] * time)
+        return v[radius] * decay * mp.sin(v["omega_d"] * time + v[theta])
+    offset = mp.pi if phase == "B" else 0
+    mean = ((v["omega_d"] + cycle["omega_q"]) * time + v[theta] + v[psi] + offset) / 2
+    return v[amplitude] * mp.sin(mean + v[slow])
 
 
 def _judge(region: str) -> Callable[[Forms], Iterator[Evidence]]:
     phase = _NAMES[region][0]
 
     def judge(forms: Forms) -> Iterator[Evidence]:
-        w = displacement(region, forms)
-        symbols = sorted(w.free_symbols, key=lambda s: s.name)
-        function = sp.lambdify(symbols, w, "mpmath")
-
         def at(cycle: Cycle, time: mp.mpf) -> mp.mpf:
-            names = {**cycle.values, "tau": time}
-            return function(*(names[s.name] for s in symbols))
+            return displacement(region, forms, cycle, time)
 
         for cycle in random_cycles(2, "damped"):
             roots = mp.polyroots([1, 2 * cycle["xi"], 1])
-            rate = value_at(sp.sympify(forms["omega_d"]), cycle, mp.mpf(0))
+            rate = values({"omega_d": forms["omega_d"]}, cycle, mp.mpf(0))["omega_d"]
             off = abs(rate / cycle["omega_n"] / max(mp.im(root) for root in roots) - 1)
             if off > mp.mpf(10) ** -25:
                 yield evidence("domain", False, "omega_d is not the frequency of the oscillator's free motion")
@@ -177,19 +176,14 @@ def _polar_zero(P: sp.Symbol, R: sp.Symbol, half: sp.Symbol) -> sp.Expr:
 def _effect(region: str) -> Callable[[], str]:
     def effect() -> str:
         cycle = at_table_3()
-        found = resolved(supplement_forms(region))
         phase, radius, theta, psi, amplitude, slow = _NAMES[region]
         length = cycle.durations()[("redu", "addredu", "add").index(region)]
-        text = (
-            f"Free motion: {mp.nstr(10**6 * value_at(found[radius], cycle, mp.mpf(0)), 5)} um at phase "
-            f"{mp.nstr(value_at(found[theta], cycle, mp.mpf(0)), 5)} rad"
-        )
+        first, last = (values(supplement_forms(region), cycle, u) for u in (mp.mpf(0), length))
+        text = f"Free motion: {mp.nstr(10**6 * first[radius], 5)} um at phase {mp.nstr(first[theta], 5)} rad"
         if psi:
-            ends = [10**6 * value_at(found[amplitude], cycle, u) for u in (mp.mpf(0), length)]
-            turns = [value_at(found[slow], cycle, u) for u in (mp.mpf(0), length)]
             text += (
-                f"; the amplitude runs from {mp.nstr(ends[0], 5)} to {mp.nstr(ends[1], 5)} um over the region, its slow phase "
-                f"from {mp.nstr(turns[0], 4)} to {mp.nstr(turns[1], 4)} rad"
+                f"; the amplitude runs from {mp.nstr(10**6 * first[amplitude], 5)} to {mp.nstr(10**6 * last[amplitude], 5)} um "
+                f"over the region, its slow phase from {mp.nstr(first[slow], 4)} to {mp.nstr(last[slow], 4)} rad"
             )
         return text + "."
 
@@ -198,15 +192,14 @@ def _effect(region: str) -> Callable[[], str]:
 
 def _picture() -> Picture:
     cycle = at_table_3()
-    found = {r: resolved(supplement_forms(r)) for r in ("addredu", "add")}
     curves: dict[str, tuple[list[float], list[float]]] = {}
     shift = cycle.durations()[0]
     for region, label in (("addredu", "A_ABaddredu"), ("add", "A_Badd")):
         start = shift if region == "addredu" else 2 * shift
         length = cycle.durations()[1 if region == "addredu" else 2] * (1 if region == "add" else 3)
         times = [length * i / 160 for i in range(161)]
-        values = [float(10**6 * value_at(found[region][label], cycle, u)) for u in times]
-        curves[label] = ([float(1000 * (start + u)) for u in times], values)
+        heights = [float(10**6 * values(supplement_forms(region), cycle, u)[label]) for u in times]
+        curves[label] = ([float(1000 * (start + u)) for u in times], heights)
     return Picture("Beating amplitudes of the missing supplement", "t - t_1, ms", "um", curves)
 
 

@@ -19,7 +19,7 @@ from derivations.ledger.friction_states import (
 from derivations.ledger.history import history, values
 from derivations.ledger.judge import evaluate
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
-from derivations.ledger.names import KNOWN, figure, name
+from derivations.ledger.names import KNOWN, figure, name, worse
 from derivations.nomenclature import sym
 
 __all__ = ["ENTRIES"]
@@ -76,7 +76,7 @@ def _judge_33(forms: Forms) -> Iterator[Evidence]:
         wanted = _extrema(a, b)
         for form, at in zip(forms.values(), wanted, strict=True):
             found = complex(evaluate(form.rhs, {M_a: a, M_b: b, k_c: K}))
-            worst = max(worst, abs(K * found - at))
+            worst = worse(worst, abs(K * found - at))
     yield evidence("numeric", worst < 1e-6, "the extrema in (-pi/2, 3 pi/2)/k_c, in order, by scanning v_x for all "
                    f"signs of M_a, M_b: off by {worst:.1e} rad at most")  # fmt: skip
     slopes = [(M_a * sp.cos(k_c * f.rhs) - M_b * sp.sin(k_c * f.rhs)) for f in forms.values()]
@@ -139,7 +139,7 @@ def _judge_34(forms: Forms) -> Iterator[Evidence]:
                      a: size * mp.cos(psi), b: size * mp.sin(psi)}  # fmt: skip
             found = evaluate(form, {s: known[s] for s in form.free_symbols})
             turned.append(complex(K * found).real)
-            worst[key] = max(worst[key], abs(speed * mp.sin(K * found + psi) / speed - ratio))
+            worst[key] = worse(worst[key], abs(speed * mp.sin(K * found + psi) / speed - ratio))
     detail = ", ".join(f"{key} misses by {mp.nstr(value, 2)} of A_v" for key, value in worst.items())
     yield evidence("numeric", all(value < 1e-12 for value in worst.values()), f"v_x there is the rotor's: {detail}")
     one_wave = all(-3 * math.pi / 2 <= angle <= math.pi / 2 for angle in turned)

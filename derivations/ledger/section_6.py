@@ -15,7 +15,7 @@ from derivations import determinant, transfer
 from derivations.ledger.history import STARTS, Array, Start, history, values
 from derivations.ledger.judge import Point, agrees, identical
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
-from derivations.ledger.names import KNOWN, figure, name
+from derivations.ledger.names import KNOWN, figure, name, worse
 from derivations.nomenclature import sym
 
 __all__ = ["ENTRIES", "cycle_totals"]
@@ -61,7 +61,7 @@ def _judge_39(forms: Forms) -> Iterator[Evidence]:
     worst = 0.0
     for count in (1, 2, 7, 12):
         samples = _speeds(count, f"39 {count}")
-        worst = max(worst, abs(_of_samples(forms["v_s"], samples) - statistics.fmean(samples)))
+        worst = worse(worst, abs(_of_samples(forms["v_s"], samples) - statistics.fmean(samples)))
     yield evidence("numeric", worst < 1e-12, f"the mean of random samples: off by {worst:.1e} at most")
     yield evidence("limit", abs(_of_samples(forms["v_s"], [1.7] * 5) - 1.7) < 1e-12, "a constant speed is its own mean")
 
@@ -99,7 +99,7 @@ def _judge_40(forms: Forms) -> Iterator[Evidence]:
             samples = [sign * s for s in _speeds(count, f"40 {count}")]
             mean, spread = statistics.fmean(samples), statistics.pstdev(samples)
             found = float(forms["sigma_s"].subs({S_k: spread, v_s: mean}))
-            worst = max(worst, abs(found - spread / abs(mean)))
+            worst = worse(worst, abs(found - spread / abs(mean)))
     yield evidence("numeric", worst < 1e-12, f"spread over mean of random samples: off by {worst:.1e} at most")
     yield evidence("limit", forms["sigma_s"].subs(S_k, 0) == 0, "a constant speed has no volatility")
 
@@ -135,9 +135,9 @@ def _judge_41(forms: Forms) -> Iterator[Evidence]:
     for count in (1, 2, 7):
         samples = _speeds(count, f"41 {count}")
         found = _of_samples(form.rhs, samples, v_s=statistics.fmean(samples))
-        worst = max(worst, abs(found - statistics.pvariance(samples)))
+        worst = worse(worst, abs(found - statistics.pvariance(samples)))
         spread = float(form.lhs.subs({S_k: statistics.pstdev(samples), S_s: statistics.pstdev(samples)}))
-        worst = max(worst, abs(spread - statistics.pvariance(samples)))
+        worst = worse(worst, abs(spread - statistics.pvariance(samples)))
     yield evidence("numeric", worst < 1e-12, f"the variance of random samples: off by {worst:.1e} at most")
     yield evidence("limit", abs(_of_samples(form.rhs, [1.7] * 5, v_s=1.7)) < 1e-12, "a constant speed has none")
 
@@ -274,7 +274,7 @@ def _judge_43(forms: Forms) -> Iterator[Evidence]:
         known = {**_totals(Q, dt), T: 4.7e-4}
         found = sp.sympify(forms["Q_aver"].subs(known))
         off = abs(float(found) - Q.sum() / np.abs(Q).sum() / 4.7e-4) * 4.7e-4 if found.is_extended_real else math.inf
-        worst = max(worst, off)
+        worst = worse(worst, off)
     yield evidence(
         "numeric", worst < 1e-9, f"mean of Q over mean of |Q|, per cycle time, for sampled Q: off by {worst:.1e}"
     )
@@ -326,7 +326,7 @@ def _judge_44(forms: Forms) -> Iterator[Evidence]:
         found = complex(forms["Q_vib"].subs({**totals, T: 4.7e-4, Q_aver: average}))
         signed = (Q * np.abs(Q)).sum()  # squares, each with the direction's sign
         wanted = math.sqrt((Q**2).sum() / abs(signed)) / (4.7e-4**2 * average)
-        worst = max(worst, abs(found - wanted) / abs(wanted))
+        worst = worse(worst, abs(found - wanted) / abs(wanted))
         if abs(found.imag) > 1e-9 * abs(found):
             complex_for.append(figure(totals[p_plus] / totals[p_minus], 2))
     note = f", but for Y = {', '.join(complex_for)}" if complex_for else ""
