@@ -6,14 +6,17 @@ more or less, two like symbols swapped, 2 for 3.
 
 from __future__ import annotations
 
+import random
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 
+import mpmath as mp
 import sympy as sp
+from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
-from derivations.ledger.judge import difference, vanishes
+from derivations.ledger.judge import difference, evaluate, vanishes
 from derivations.ledger.model import Entry, Evidence, Forms
 from derivations.nomenclature import NOMENCLATURE
 
@@ -122,6 +125,22 @@ def mutants(forms: Forms) -> Iterator[Mutant]:
                     yield Mutant(name, f"{symbol} and {other} swapped", {**forms, name: mutated})
 
 
+def _differs(expr: sp.Basic) -> bool:
+    """Whether an expression is surely not 0: some number of it is not, at points without meaning."""
+    calculus = expr.atoms(sp.Derivative, sp.Integral, sp.Sum, sp.Subs)
+    functions = expr.atoms(AppliedUndef)
+    plain = expr.xreplace({node: sp.Dummy() for node in calculus}).xreplace({f: sp.Dummy() for f in functions})
+    if plain.atoms(AppliedUndef):
+        return False
+    free = sorted(plain.free_symbols, key=str)
+    for seed in ("one", "two", "three"):
+        draw = random.Random(seed)
+        value = evaluate(plain, {symbol: mp.mpf(draw.uniform(0.3, 0.9)) for symbol in free})
+        if mp.isfinite(value) and abs(value) > mp.mpf(10) ** -20:
+            return True
+    return False
+
+
 @cache
 def _equivalent(mutated: sp.Basic, form: sp.Basic) -> bool:
     """Whether a mutant is the same formula: equal branches, or an equation with the same solutions."""
@@ -132,10 +151,12 @@ def _equivalent(mutated: sp.Basic, form: sp.Basic) -> bool:
         if not isinstance(mutated, sp.Equality):
             return False
         sides = [sp.expand(e.lhs - e.rhs) for e in (mutated, form)]
-        return bool(vanishes(sides[0] - sides[1]) or vanishes(sides[0] + sides[1]))
+        gaps = (sides[0] - sides[1], sides[0] + sides[1])
+        return any(not _differs(gap) and vanishes(gap) for gap in gaps)
     if isinstance(form, Relational):
         return bool(mutated == form)
-    return bool(vanishes(difference(mutated, form)))
+    gap = difference(mutated, form)
+    return not _differs(gap) and bool(vanishes(gap))
 
 
 def try_mutants(entry: Entry) -> list[Outcome]:

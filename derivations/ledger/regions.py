@@ -17,6 +17,7 @@ __all__ = ["by_region", "context", "row_value", "rows", "within", "worst"]
 
 t = sym("t")[0]
 _EDGES = sym("t_1 t_2 t_3 t_4")
+_T_1 = mp.mpf("0.00123")  # some other time than 0, so that a slip in t - t_1 shows
 
 
 def within(first: int, last: int) -> sp.Basic:
@@ -38,7 +39,7 @@ def rows(form: sp.Basic) -> list[sp.Expr]:
 def context(cycle: Cycle, region: str, tau: mp.mpf) -> dict[str, mp.mpf]:
     """Values by symbol name at a time of the cycle, those of the reconstructed supplement among them."""
     first, second, third = cycle.durations()
-    edges = (mp.mpf(0), first, first + second, first + second + third)
+    edges = tuple(_T_1 + shift for shift in (mp.mpf(0), first, first + second, first + second + third))
     index = REGIONS.index(region)
     time = edges[index] + tau
     names = {**cycle.values, "t": time, "W_maxf": cycle["W"], **{f"t_{i + 1}": edge for i, edge in enumerate(edges)}}
