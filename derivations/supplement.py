@@ -52,7 +52,7 @@ def forced_phase(phase: str) -> sp.Expr:
 
 @cache
 def free_start(phase: str, region: str) -> tuple[sp.Expr, sp.Expr]:
-    """a and b: free displacement and velocity at the start of a region, the cycle having begun in steady state."""
+    """A and b: free displacement and velocity at the start of a region, the cycle having begun in steady state."""
     index = phases.REGIONS.index(region)
     state = phases.propagate_cycle(phase, (sp.Integer(0), sp.Integer(0)))[index]
     values = {s: 1, phases.Delta_omega: omega_q - omega_n}

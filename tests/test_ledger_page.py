@@ -99,7 +99,9 @@ def browser(tmp_path):
     chosen = webdriver.ChromeOptions()
     for switch in (*SWITCHES, f"--user-data-dir={tmp_path}"):
         chosen.add_argument(switch)
-    chosen.binary_location = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    chosen.binary_location = (
+        shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    )
     chosen.set_capability("goog:loggingPrefs", {"browser": "ALL"})
     driver = webdriver.Chrome(options=chosen, service=webdriver.ChromeService(shutil.which("chromedriver")))
     yield driver
@@ -123,6 +125,8 @@ def test_it_opens_filters_searches_and_finds_its_anchors(browser):
     box.send_keys("(24)")
     assert "eq-24" in visible()
     assert len(visible()) < len(ENTRIES)
-    heights = browser.execute_script("return [...document.querySelectorAll('math')].map(m => m.getBBox ? 1 : m.offsetHeight)")
+    heights = browser.execute_script(
+        "return [...document.querySelectorAll('math')].map(m => m.getBBox ? 1 : m.offsetHeight)"
+    )
     assert len(heights) > len(ENTRIES)
     assert [entry for entry in browser.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")] == []

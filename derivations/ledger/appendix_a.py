@@ -104,7 +104,9 @@ def _judge_a2(forms: Forms) -> Iterator[Evidence]:
         vertical = lambda u: a * mp.sin(v["k_c"] * u) + b * mp.cos(v["k_c"] * u)  # noqa: E731
         return vertical(v["x"]) if name == "zeta_z" else v["D"] * mp.diff(vertical, v["x"])
 
-    yield agrees(forms, displacement, symbols=_SYMBOLS, ranges=_RANGES, tolerance=1e-18, against="(11) taken numerically")
+    yield agrees(
+        forms, displacement, symbols=_SYMBOLS, ranges=_RANGES, tolerance=1e-18, against="(11) taken numerically"
+    )
     yield identical(forms, _derive_a2().forms)
 
 
@@ -167,9 +169,13 @@ def _judge_a4(forms: Forms) -> Iterator[Evidence]:
     worst = mp.mpf(0)
     for point in points(sym("W_a W_b omega_a omega_b varphi_b t"), 6, "A4", _RANGES):
         v = _numbers(point)
-        place = lambda u, v=v: mp.mpc(v["W_a"] * mp.cos(v["omega_a"] * u), v["W_b"] * mp.sin(v["omega_b"] * u + v["varphi_b"]))  # noqa: E731, E501
+        place = lambda u, v=v: mp.mpc(
+            v["W_a"] * mp.cos(v["omega_a"] * u), v["W_b"] * mp.sin(v["omega_b"] * u + v["varphi_b"])
+        )  # noqa: E731, E501
         here = place(v["t"])
-        rate = mp.diff(lambda u, f=place, h=here: mp.arg(f(u) / h), v["t"])  # no cut: counted from the present direction
+        rate = mp.diff(
+            lambda u, f=place, h=here: mp.arg(f(u) / h), v["t"]
+        )  # no cut: counted from the present direction
         for form in forms.values():
             put = form.subs(phi_q, sp.atan2(xi_z, xi_x)).subs(_MOTION).doit()
             worst = max(worst, abs(evaluate(put, point) / rate - 1))
@@ -204,7 +210,9 @@ def _judge_a5(forms: Forms) -> Iterator[Evidence]:
     def area(_: str, point: dict[sp.Symbol, mp.mpf]) -> mp.mpf:
         """Minus twice the area that the path's point sweeps per time."""
         v = _numbers(point)
-        place = lambda u: mp.mpc(v["W_a"] * mp.cos(v["omega_a"] * u), v["W_b"] * mp.sin(v["omega_b"] * u + v["varphi_b"]))  # noqa: E731, E501
+        place = lambda u: mp.mpc(
+            v["W_a"] * mp.cos(v["omega_a"] * u), v["W_b"] * mp.sin(v["omega_b"] * u + v["varphi_b"])
+        )  # noqa: E731, E501
         return -mp.im(mp.conj(place(v["t"])) * mp.diff(place, v["t"]))
 
     symbols = sym("W_a W_b omega_a omega_b varphi_b t")
@@ -257,7 +265,9 @@ def _judge_a6(forms: Forms) -> Iterator[Evidence]:
     yield agrees(forms, swept, symbols=_SYMBOLS, ranges=_RANGES, tolerance=1e-18,
                  against="minus twice the area that the particle of (A2) sweeps per time")  # fmt: skip
     same = forms["Q_q"].subs({omega_b: omega_a, varphi_b: varphi_a + sp.pi / 2})
-    yield evidence("limit", vanishes(same - D * k_c * W_a * W_b * omega_a), "steady wave: constant, D k_c W_a W_b omega")
+    yield evidence(
+        "limit", vanishes(same - D * k_c * W_a * W_b * omega_a), "steady wave: constant, D k_c W_a W_b omega"
+    )
     yield identical(forms, {"Q_q": _exact()})
 
 
@@ -278,10 +288,14 @@ def _judge_a7(forms: Forms) -> Iterator[Evidence]:
     relation = forms["much_greater"]
     ratios = []
     for point in points(sym("omega_a omega_b varphi_a varphi_b"), 12, "A7", _RANGES):
-        large, small = (evaluate(side, {s: point[s] for s in side.free_symbols}) for side in (relation.gts, relation.lts))
+        large, small = (
+            evaluate(side, {s: point[s] for s in side.free_symbols}) for side in (relation.gts, relation.lts)
+        )
         ratios.append(large / abs(small) if small else mp.inf)
     least = min(ratios)
-    yield evidence("numeric", least > 10, f"the greater side is {mp.nstr(least, 3)} times the smaller one at least; asked: 10")
+    yield evidence(
+        "numeric", least > 10, f"the greater side is {mp.nstr(least, 3)} times the smaller one at least; asked: 10"
+    )
     turn = relation.subs(varphi_a, varphi_a - 2 * sp.pi)
     yield evidence("domain", turn == relation, "does not change when a phase is counted a turn further")
     drops = forms["much_greater"].has(omega_a) and forms["much_greater"].has(omega_b)
@@ -347,7 +361,7 @@ def _judge_a9(forms: Forms) -> Iterator[Evidence]:
     worst = mp.mpf(0)
     for point in points(sym("omega_a omega_b varphi_a varphi_b W_a W_b D k_c t"), 6, "A9", _RANGES):
         period = evaluate(form, {s: point[s] for s in form.free_symbols})
-        wave = lambda u, p=point: evaluate(sp.sin(_DIFFERENCE), {**{s: p[s] for s in _DIFFERENCE.free_symbols}, t: u})  # noqa: E731, E501
+        wave = lambda u, p=point: evaluate(sp.sin(_DIFFERENCE), {**{s: p[s] for s in _DIFFERENCE.free_symbols}, t: u})  # noqa: E731
         whole, part = wave(point[t] + period) - wave(point[t]), wave(point[t] + period / 2) + wave(point[t])
         worst = max(worst, abs(whole), abs(part))
     yield evidence("numeric", worst < mp.mpf(10) ** -20, "the shortest period: the sign turns after half of it")

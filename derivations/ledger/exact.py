@@ -45,7 +45,7 @@ class Cycle:
         return self["W"] * mp.expj(self["psi"] + _LEAD[phase] * mp.pi / 2)
 
     def free(self, phase: str, region: str) -> mp.mpc:
-        """z of the free motion Re(z exp(lambda tau)) at the start of a region."""
+        """Z of the free motion Re(z exp(lambda tau)) at the start of a region."""
         eigenvalue = self._eigenvalue
         forced = self._forced(phase)
         w, v = mp.re(forced), mp.re(1j * self["omega_q"] * forced)

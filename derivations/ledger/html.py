@@ -83,9 +83,7 @@ def _formulas(title: str, formulas: Iterable[str] | None) -> str:
 
 def _steps(steps: list[dict[str, Any]]) -> str:
     marks = {None: "", True: " ✓", False: " ✗"}
-    items = [
-        f"<li>{escape(s['text'])}{marks[s['holds']]}{''.join(_math(f) for f in s['latex'])}</li>" for s in steps
-    ]
+    items = [f"<li>{escape(s['text'])}{marks[s['holds']]}{''.join(_math(f) for f in s['latex'])}</li>" for s in steps]
     return f"<ol>{''.join(items)}</ol>"
 
 

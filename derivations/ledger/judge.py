@@ -16,7 +16,18 @@ import sympy as sp
 from derivations.ledger.model import WORKING_DIGITS, Evidence, Forms, Kind
 from trum_sym.motor import Motor
 
-__all__ = ["DIGITS", "agrees", "compiled", "difference", "error_size", "evaluate", "identical", "points", "usual", "vanishes"]
+__all__ = [
+    "DIGITS",
+    "agrees",
+    "compiled",
+    "difference",
+    "error_size",
+    "evaluate",
+    "identical",
+    "points",
+    "usual",
+    "vanishes",
+]
 
 DIGITS = 30
 Point = dict[sp.Symbol, mp.mpf]

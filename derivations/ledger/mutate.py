@@ -75,7 +75,10 @@ def _slips(node: sp.Basic) -> Iterator[tuple[str, sp.Basic]]:
         turned = _TURNED[node.func]
         yield f"{turned.__name__} for {node.func.__name__}", turned(*node.args)
     elif isinstance(node, sp.Rational) and 2 in (abs(node.p), node.q):
-        yield f"3 for 2 in {node}", sp.Rational(node.p, node.q) * (sp.Rational(3, 2) if abs(node.p) == 2 else sp.Rational(2, 3))
+        yield (
+            f"3 for 2 in {node}",
+            sp.Rational(node.p, node.q) * (sp.Rational(3, 2) if abs(node.p) == 2 else sp.Rational(2, 3)),
+        )
     elif node == 3:
         yield "2 for 3", sp.Integer(2)
 

@@ -48,7 +48,9 @@ def context(cycle: Cycle, region: str, tau: mp.mpf) -> dict[str, mp.mpf]:
     return names
 
 
-def row_value(form: sp.Basic, names: Mapping[str, object], functions: Mapping[sp.Basic, str] | None = None) -> mp.mpf | None:
+def row_value(
+    form: sp.Basic, names: Mapping[str, object], functions: Mapping[sp.Basic, str] | None = None
+) -> mp.mpf | None:
     """The value of the branch that holds at the time; None where no branch does."""
     chosen = form
     if isinstance(form, sp.Piecewise):

@@ -53,4 +53,3 @@ def record(result: Result) -> dict[str, Any]:
             for s in result.derivation.steps
         ],
     }
-

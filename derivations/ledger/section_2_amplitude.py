@@ -99,7 +99,9 @@ def _judge_7(forms: Forms) -> Iterator[Evidence]:
         mass = mp.quad(lambda u: v["rho"] * (v["A"] * mp.cos(k * u) ** 2 + v["I_z"] * (v["beta"] * mp.sin(k * u)) ** 2),
                        [0, wave / 4, wave / 2, 3 * wave / 4, wave])  # fmt: skip
         # the steady state of mass (q'' + 2 xi omega_n q' + omega_n^2 q) = force cos(omega_q t), as one complex number
-        response = force / mass / mp.mpc(v["omega_n"] ** 2 - v["omega_q"] ** 2, 2 * v["xi"] * v["omega_n"] * v["omega_q"])
+        response = (
+            force / mass / mp.mpc(v["omega_n"] ** 2 - v["omega_q"] ** 2, 2 * v["xi"] * v["omega_n"] * v["omega_q"])
+        )
         worst = max(worst, abs(evaluate(form, full) / abs(response) - 1))
     detail = f"off the modal balance by quadrature by {mp.nstr(worst, 3)} relative at most"
     yield evidence("numeric", worst < mp.mpf(10) ** -20, detail)

@@ -149,7 +149,9 @@ def _judge_21(forms: Forms) -> Iterator[Evidence]:
         size = mp.sqrt(state["a"] ** 2 + state["b"] ** 2)
         worst_ = max(worst_, abs(value / size - 1))
         highest &= bool(value >= max(grid))
-    yield evidence("numeric", worst_ < mp.mpf(10) ** -25, f"is the length of (w_A, w_B) to {mp.nstr(worst_, 2)} relative")
+    yield evidence(
+        "numeric", worst_ < mp.mpf(10) ** -25, f"is the length of (w_A, w_B) to {mp.nstr(worst_, 2)} relative"
+    )
     yield evidence("domain", highest, "no other place of the wave is higher; never negative")
 
 
@@ -176,9 +178,9 @@ def _judge_22(forms: Forms) -> Iterator[Evidence]:
         value, k = _at_crest(form, state), state["k_c"]
         place = mp.atan2(state["a"], state["b"]) / k
         # zeta_x a moment later less now, by numerical differentiation of (11) in x and t
-        zeta = lambda u, h, s=state: (s["a"] + h * s["da"]) * mp.sin(s["k_c"] * u) + (s["b"] + h * s["db"]) * mp.cos(
-            s["k_c"] * u
-        )  # noqa: E731
+        zeta = lambda u, h, s=state: (
+            (s["a"] + h * s["da"]) * mp.sin(s["k_c"] * u) + (s["b"] + h * s["db"]) * mp.cos(s["k_c"] * u)
+        )
         wanted = state["D"] * mp.diff(lambda h: mp.diff(lambda u, h=h: zeta(u, h), place), 0)
         worst_ = max(worst_, abs(value - wanted))
         q = state["da"] * state["b"] - state["db"] * state["a"]
@@ -317,7 +319,13 @@ def _judge_23(forms: Forms) -> Iterator[Evidence]:
             for name in ("B_ell", "C_ell", "F_ell"):
                 expr = forms[name + suffix]
                 values[name] = evaluate(expr, {s: base[s] for s in expr.free_symbols})
-            point = {**base, _A_ell: values["A_ell"], _B_ell: values["B_ell"], _C_ell: values["C_ell"], _F_ell: values["F_ell"]}
+            point = {
+                **base,
+                _A_ell: values["A_ell"],
+                _B_ell: values["B_ell"],
+                _C_ell: values["C_ell"],
+                _F_ell: values["F_ell"],
+            }
             left = forms["conic"].lhs - forms["conic"].rhs
             value = evaluate(left, {s: point[s] for s in left.free_symbols})
             worst_ = max(worst_, abs(value) / (size**4 * scale))
@@ -503,7 +511,9 @@ def _picture_24() -> Picture:
                 curves[label][0].append(float(1000 * (start + tau)))
                 curves[label][1].append(float(value))
         start += length
-    return Picture("Direction determinant over a cycle of 14 in 20 pulses", "t - t_1, ms", "Q / (D k_c W^2 omega_q)", curves)
+    return Picture(
+        "Direction determinant over a cycle of 14 in 20 pulses", "t - t_1, ms", "Q / (D k_c W^2 omega_q)", curves
+    )
 
 
 ENTRIES = (

@@ -233,7 +233,9 @@ def _judge_12(forms: Forms) -> Iterator[Evidence]:
 
 
 def _effect_12() -> str:
-    return "None for the formula; its arguments are (13) and (14). A_Q is the envelope of the displacement, not its value."
+    return (
+        "None for the formula; its arguments are (13) and (14). A_Q is the envelope of the displacement, not its value."
+    )
 
 
 # --- (13) ---------------------------------------------------------------------------------------------------
@@ -453,8 +455,12 @@ def _judge_15(forms: Forms) -> Iterator[Evidence]:
     if forms["T_add"].subs(add, 0) != sp.oo:
         problems.append("T_add divides by Delta_omega_add = 0")
     yield evidence("domain", not problems, "; ".join(problems) or "positive periods, none where there is no beat")
-    size = [sp.Abs(forms[name]) * sp.Abs(rate) / (2 * sp.pi) for name, rate in (("T_redu", redu), ("T_addredu", addredu))]
-    for point in points((redu, addredu), 3, "eq15", {"Delta_omega_redu": (1e4, 2e4), "Delta_omega_addredu": (5e3, 1e4)}):
+    size = [
+        sp.Abs(forms[name]) * sp.Abs(rate) / (2 * sp.pi) for name, rate in (("T_redu", redu), ("T_addredu", addredu))
+    ]
+    for point in points(
+        (redu, addredu), 3, "eq15", {"Delta_omega_redu": (1e4, 2e4), "Delta_omega_addredu": (5e3, 1e4)}
+    ):
         for expr in size:
             if abs(evaluate(expr, point) - 1) > mp.mpf(10) ** -25:
                 yield evidence("numeric", False, "the phase difference has not turned once after a period")

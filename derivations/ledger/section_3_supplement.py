@@ -53,7 +53,7 @@ def values(forms: Forms, cycle: Cycle, time: mp.mpf) -> dict[str, mp.mpf]:
 
 
 def displacement(region: str, forms: Forms, cycle: Cycle, time: mp.mpf) -> mp.mpf:
-    """w of the region's phase from the forms."""
+    """W of the region's phase from the forms."""
     phase, radius, theta, psi, amplitude, slow = _NAMES[region]
     v = values(forms, cycle, time)
     if not psi:
@@ -135,7 +135,9 @@ def _derive(region: str) -> Callable[[], Derivation]:
         R, angle = supplement.free_polar()
         polar = sp.Symbol("R") * sp.exp(-xi * omega_n * tau) * sp.sin(omega_d * tau + sp.Symbol("Theta"))
         rows = sp.expand(sp.expand_trig(polar))
-        rows = rows.subs({sp.sin(sp.Symbol("Theta")): a / R, sp.cos(sp.Symbol("Theta")): (b + xi * omega_n * a) / omega_d / R})
+        rows = rows.subs(
+            {sp.sin(sp.Symbol("Theta")): a / R, sp.cos(sp.Symbol("Theta")): (b + xi * omega_n * a) / omega_d / R}
+        )
         rows = rows.subs(sp.Symbol("R"), R).subs(omega_d, supplement.damped_frequency())
         steps = [
             step("Free motion from displacement a and velocity b at the region's start:", free_w, free_v),

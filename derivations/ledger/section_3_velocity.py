@@ -61,7 +61,9 @@ def _judge_11(forms: Forms) -> Iterator[Evidence]:
         return vertical(v["x"]) if name == "zeta_z" else v["D"] * mp.diff(vertical, v["x"])
 
     names = sym("W omega_q omega_n t x k_c D")
-    yield agrees(forms, displacement, given=TRIAL, symbols=names, tolerance=1e-18, against="the slope taken numerically")
+    yield agrees(
+        forms, displacement, given=TRIAL, symbols=names, tolerance=1e-18, against="the slope taken numerically"
+    )
     tangential = forms["zeta_x"].doit()
     quarter = vanishes(tangential.subs(x, x + 2 * sp.pi / k_c) - tangential)
     yield evidence("limit", quarter, "both displacements repeat after a wavelength")
@@ -116,7 +118,9 @@ def _judge_16(forms: Forms) -> Iterator[Evidence]:
     parts = {"v_x": D * k_c * (M_a * sp.sin(k_c * x) + M_b * sp.cos(k_c * x))}
     yield agrees(whole, parts, ranges=_RANGES_17, count=8, against="M_a sin(k_c x) + M_b cos(k_c x), times D k_c")
     at_zero = forms["v_x"].subs(x, 0).subs(_PAIR)
-    yield evidence("limit", vanishes(sp.simplify(at_zero - D * k_c * M_b)), "at x = 0 only phase A moves the surface along")
+    yield evidence(
+        "limit", vanishes(sp.simplify(at_zero - D * k_c * M_b)), "at x = 0 only phase A moves the surface along"
+    )
 
 
 def _judge_17(forms: Forms) -> Iterator[Evidence]:
@@ -125,7 +129,9 @@ def _judge_17(forms: Forms) -> Iterator[Evidence]:
     yield agrees(wave, parts, ranges=_RANGES_17, count=12, against="M_a sin(k_c x) + M_b cos(k_c x), times D k_c")
     angle = forms["Psi_v"].subs(M_b, 1)
     ends = sp.limit(angle.args[0][0], M_a, 0, "+"), sp.limit(angle.args[1][0], M_a, 0, "-")
-    yield evidence("continuity", ends == (sp.pi / 2, sp.pi / 2), "both branches meet at M_a = 0, where the first divides by zero")
+    yield evidence(
+        "continuity", ends == (sp.pi / 2, sp.pi / 2), "both branches meet at M_a = 0, where the first divides by zero"
+    )
     yield evidence("limit", forms["A_v"].subs(M_b, 0) == D * k_c * sp.Abs(M_a), "one part alone is its own amplitude")
 
 
