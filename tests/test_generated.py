@@ -17,7 +17,7 @@ import sympy as sp
 import trum_sym as ts
 from derivations.emit import GENERATED, render, stale, write
 from derivations.kernels import kernels
-from derivations.nomenclature import sym
+from derivations.nomenclature import CONSTANTS
 from trum_sym.kernels import call
 
 ROOT = Path(__file__).parent.parent
@@ -141,6 +141,9 @@ def random_arguments(kernel, rng):
         k_f=3e8, k_dx=3e8, omega_n=2.45e5, omega_q=2.65e5, Delta_omega=1.9e4, beta=280.0, theta=0.4, W=5.5e-6,
         F_c=180.0, m=20, n=14, psi=0.7, s=-1, tau=8e-5, T=4.7e-4, a_A=3e-6, b_A=-0.7, a_B=-4e-6, b_B=0.5, g_A=1, g_B=0,
         q_plus=80.0, q_minus=30.0, p_plus=3e6, p_minus=7e5,
+        a=3e-6, b=-0.7, T_load=0.3, f_A_re=3e-6, f_A_im=-2e-6, f_B_re=-4e-6, f_B_im=1e-6, p_re=0.6, p_im=0.8, e_re=0.9, e_im=0.4,
+        d_re=0.8, d_im=0.5, W_c=5e-6, engagement=40.0, engagement_per_height=1e7, W_full=4e-7, share=-38.0,
+        fullness=0.008, fullness_root=0.2, sin_theta=0.39, phi=0.2, cos_phi=0.98, sin_phi=0.2, R_v=1.2, v=0.3, f=0.4,
     )  # fmt: skip
     whole = {"m", "n", "s", "g_A", "g_B", "n_s", "n_j"}
     return {
@@ -153,9 +156,13 @@ def random_arguments(kernel, rng):
 def test_compiled_kernel_agrees_with_its_expression_at_50_digits(kernel):
     rng = np.random.default_rng(17)
     names = list(kernel.inputs)
-    one_newton = {sym("N_1")[0]: sp.Integer(1)}
+    constants = {symbol: sp.Float(value, 60) for symbol, value in CONSTANTS.items()}
     exact = {
-        output: sp.lambdify(names, sp.sympify(expr).subs(one_newton).replace(expm1, expm1_exact), "mpmath")
+        output: sp.lambdify(
+            names,
+            sp.sympify(expr).subs(constants).replace(expm1, expm1_exact),
+            [{"less": lambda x, y: mp.mpf(x < y)}, "mpmath"],
+        )
         for output, expr in kernel.outputs.items()
     }
     for _ in range(20):
