@@ -69,7 +69,7 @@ def test_the_shipped_ledger_is_what_is_proved_now(records):
 
 # --- the machinery refuses what is not so -------------------------------------------------------------------
 def toy(**changes) -> Entry:
-    x, t = sym("x t")
+    x, _ = sym("x t")
     base = {
         "id": "0", "section": "", "title": "", "place": "", "printed": {"x": x}, "units": {"x": "m"},
         "verdict": "verified", "reason": "",
@@ -103,7 +103,7 @@ def test_a_verdict_that_the_evidence_does_not_bear_is_not_confirmed(changes, pro
 
 
 def test_an_erratum_needs_a_repair_that_passes_and_the_stated_kinds():
-    x, t = sym("x t")
+    x, _ = sym("x t")
     wrong = {"printed": {"x": 2 * x}, "verdict": "erratum", "found_by": ("numeric",)}
     assert confirm(toy(**wrong, repair=lambda f: {"x": f["x"] / 2})).confirmed
     assert not confirm(toy(**wrong)).confirmed
