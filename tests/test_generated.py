@@ -141,7 +141,8 @@ def random_arguments(kernel, rng):
         k_f=3e8, k_dx=3e8, omega_n=2.45e5, omega_q=2.65e5, Delta_omega=1.9e4, beta=280.0, theta=0.4, W=5.5e-6,
         F_c=180.0, m=20, n=14, psi=0.7, s=-1, tau=8e-5, T=4.7e-4, a_A=3e-6, b_A=-0.7, a_B=-4e-6, b_B=0.5, g_A=1, g_B=0,
         q_plus=80.0, q_minus=30.0, p_plus=3e6, p_minus=7e5,
-        a=3e-6, b=-0.7, T_load=0.3, f_A_re=3e-6, f_A_im=-2e-6, f_B_re=-4e-6, f_B_im=1e-6, p_re=0.6, p_im=0.8, e_re=0.9, e_im=0.4,
+        a=3e-6, b=-0.7, T_load=0.3,
+        f_A_re=3e-6, f_A_im=-2e-6, f_B_re=-4e-6, f_B_im=1e-6, p_re=0.6, p_im=0.8, e_re=0.9, e_im=0.4,
         d_re=0.8, d_im=0.5, W_c=5e-6, engagement=40.0, engagement_per_height=1e7, W_full=4e-7, share=-38.0,
         fullness=0.008, fullness_root=0.2, sin_theta=0.39, phi=0.2, cos_phi=0.98, sin_phi=0.2, R_v=1.2, v=0.3, f=0.4,
     )  # fmt: skip
