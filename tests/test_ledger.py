@@ -134,7 +134,6 @@ PLANTED = [
     ("20", "x_max", put(w_A / w_B, w_B / w_A), "identity"),
     ("22", "v_xmax", put(w_A, -w_A), "numeric"),
     ("23", "B_ell", lambda f: f / 2, "numeric"),
-    ("24", "Q_q", put(omega_q - omega_n, omega_n - omega_q), "numeric"),
     ("A4", "reduced", lambda f: -f, "numeric"),
     ("A6", "Q_q", put(omega_b - omega_a, omega_a - omega_b), "numeric"),
     ("A9", "T_q", lambda f: f / 2, "numeric"),
