@@ -2,6 +2,17 @@
 // alone and in the same order whatever the width (one register of the instruction set: GCC breaks wider ones up), so a result does not depend on the width or on its neighbours.
 // Include inside a namespace of its own, with LANES defined.
 
+// plain numbers keep their own functions
+using ::acos;
+using ::atan2;
+using ::cos;
+using ::exp;
+using ::fabs;
+using ::fmax;
+using ::fmin;
+using ::sin;
+using ::sqrt;
+
 typedef double Vector __attribute__((vector_size(8 * LANES)));
 typedef long long Bits __attribute__((vector_size(8 * LANES)));
 
@@ -25,7 +36,6 @@ inline Lane& operator+=(Lane& a, Lane b) { return a = a + b; }
 inline Lane one_where(Bits mask) { return (Vector)(mask & (Bits)Lane(1.0).v); }
 inline Lane operator<(Lane a, Lane b) { return one_where(a.v < b.v); }
 
-inline Bits select_bits(Bits mask, Bits a, Bits b) { return (mask & a) | (~mask & b); }
 inline Lane select(Bits mask, Lane a, Lane b) { return (Vector)((mask & (Bits)a.v) | (~mask & (Bits)b.v)); }
 
 inline Lane fabs(Lane a) { return (Vector)((Bits)a.v & ~(Bits)Lane(-0.0).v); }
@@ -52,11 +62,16 @@ inline bool any(Bits mask) {
 }
 #endif
 
+// Even and odd powers apart: two short chains of operations instead of a long one.
 template <int n>
 inline Lane polynomial(const double (&c)[n], Lane x) {
-  Lane sum = c[n - 1];
-  for (int k = n - 2; k >= 0; --k) sum = sum * x + c[k];
-  return sum;
+  const Lane q = x * x;
+  Lane first = c[n - 1], second = c[n - 2];
+  for (int k = n - 3; k >= 0; k -= 2) {
+    first = first * q + c[k];
+    if (k > 0) second = second * q + c[k - 1];
+  }
+  return n % 2 == 1 ? first + x * second : second + x * first;
 }
 
 // sin and cos of moderate arguments: quarter turns off in two parts, then the polynomial of the quadrant.
@@ -109,10 +124,26 @@ inline Lane exp(Lane x) {
   return (Vector)((Bits)polynomial(coefficients, r).v + ((Bits)shifted.v << 52));
 }
 
-// Cube root of a positive number to 1e-4, enough for the first guess that it serves.
-inline Lane cube_root_guess(Lane t) {
+// Cube root of a positive number to 1e-4: a first guess is all that it serves as.
+inline Lane cube_root_of(Lane t) {
   const Bits high = (Bits)t.v >> 32;
   const Bits third = ((high * 0x55555556LL) >> 32) + 0x2A9F7893LL;
   const Lane r = (Vector)(third << 32), cube = r * r * r;
   return r * (cube + t + t) / (cube + cube + t);
 }
+
+// What trum_orbit.h asks of numbers and of their truth values.
+inline Bits less_than(Lane a, Lane b) { return a.v < b.v; }
+inline Bits at_most(Lane a, Lane b) { return a.v <= b.v; }
+inline Bits no(Bits a) { return ~a; }
+inline Bits is(int a) { return a ? ~Bits{} : Bits{}; }
+inline int in_lane(Bits a, int i) { return a[i] != 0; }
+inline Lane sel(Bits m, Lane a, Lane b) { return select(m, a, b); }
+inline Bits sel_mask(Bits m, Bits a, Bits b) { return (m & a) | (~m & b); }
+inline Lane least(Lane a, Lane b) { return fmin(a, b); }
+inline Lane most(Lane a, Lane b) { return fmax(a, b); }
+inline Lane size_of(Lane a) { return fabs(a); }
+inline Lane root_of(Lane a) { return sqrt(a); }
+inline double get(const Lane* x, int i) { return x->v[i]; }
+inline void put(Lane* x, int i, double value) { x->v[i] = value; }
+inline void put_mask(Bits* x, int i, int value) { (*x)[i] = value ? -1 : 0; }
