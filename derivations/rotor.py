@@ -199,7 +199,8 @@ def friction() -> dict[str, sp.Expr]:
     mean (0 and below: not in contact), whose changes of sign are kinks of f.
     """
     ratio = sp.Max(-1, sp.Min(1, v / (R_v + TINY)))
-    alpha, sine = sp.acos(ratio), sp.sqrt(1 - ratio**2)
+    sine = sp.sqrt(1 - ratio**2)
+    alpha = sp.atan2(sine, ratio)
     shares, pressures = [], []
     for sign in (1, -1):
         u = phi + sign * alpha

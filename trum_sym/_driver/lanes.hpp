@@ -36,25 +36,36 @@ inline Lane& operator+=(Lane& a, Lane b) { return a = a + b; }
 inline Lane one_where(Bits mask) { return (Vector)(mask & (Bits)Lane(1.0).v); }
 inline Lane operator<(Lane a, Lane b) { return one_where(a.v < b.v); }
 
-inline Lane select(Bits mask, Lane a, Lane b) { return (Vector)((mask & (Bits)a.v) | (~mask & (Bits)b.v)); }
+inline Lane select(Bits mask, Lane a, Lane b) { return mask ? a.v : b.v; }
 
 inline Lane fabs(Lane a) { return (Vector)((Bits)a.v & ~(Bits)Lane(-0.0).v); }
-inline Lane fmin(Lane a, Lane b) { return select(a.v < b.v, a, b); }
-inline Lane fmax(Lane a, Lane b) { return select(a.v > b.v, a, b); }
 #if defined(__AVX512F__)
 static_assert(LANES == 8, "one register of lanes");
 inline Lane sqrt(Lane a) { return (Vector)_mm512_sqrt_pd((__m512d)a.v); }
+inline Lane fmin(Lane a, Lane b) { return (Vector)_mm512_min_pd((__m512d)a.v, (__m512d)b.v); }
+inline Lane fmax(Lane a, Lane b) { return (Vector)_mm512_max_pd((__m512d)a.v, (__m512d)b.v); }
+// 1/a to the last digits, without the divider's wait.
+inline Lane inverse_of(Lane a) {
+  const Lane r = (Vector)_mm512_rcp14_pd((__m512d)a.v), s = r + r * (Lane(1.0) - a * r);
+  return s + s * (Lane(1.0) - a * s);
+}
 inline bool any(Bits mask) { return _mm512_test_epi64_mask((__m512i)mask, (__m512i)mask) != 0; }
 #elif defined(__AVX2__)
 static_assert(LANES == 4, "one register of lanes");
 inline Lane sqrt(Lane a) { return (Vector)_mm256_sqrt_pd((__m256d)a.v); }
+inline Lane fmin(Lane a, Lane b) { return (Vector)_mm256_min_pd((__m256d)a.v, (__m256d)b.v); }
+inline Lane fmax(Lane a, Lane b) { return (Vector)_mm256_max_pd((__m256d)a.v, (__m256d)b.v); }
+inline Lane inverse_of(Lane a) { return Lane(1.0) / a; }
 inline bool any(Bits mask) { return _mm256_movemask_pd((__m256d)mask) != 0; }
 #else
+inline Lane fmin(Lane a, Lane b) { return select(a.v < b.v, a, b); }
+inline Lane fmax(Lane a, Lane b) { return select(a.v > b.v, a, b); }
 inline Lane sqrt(Lane a) {
   Lane root;
   for (int i = 0; i < LANES; ++i) root.v[i] = __builtin_sqrt(a.v[i]);
   return root;
 }
+inline Lane inverse_of(Lane a) { return Lane(1.0) / a; }
 inline bool any(Bits mask) {
   long long found = 0;
   for (int i = 0; i < LANES; ++i) found |= mask[i];
@@ -101,11 +112,10 @@ inline Lane cos(Lane x) {
 
 inline Lane atan2(Lane y, Lane x) {
   static constexpr double coefficients[] = TRUM_ATAN_COEFFICIENTS;
-  const Lane ax = fabs(x), ay = fabs(y);
+  const Lane ax = fabs(x), ay = fabs(y), low = fmin(ax, ay), high = fmax(ax, ay);
   const Bits steep = ay.v > ax.v;
-  const Lane t = fmin(ax, ay) / (fmax(ax, ay) + Lane(1e-300));
-  const Bits upper = t.v > 0.41421356237309504880 - Vector{};
-  const Lane u = select(upper, (t - Lane(1.0)) / (t + Lane(1.0)), t);
+  const Bits upper = low.v > (high * Lane(0.41421356237309504880)).v;
+  const Lane u = select(upper, low - high, low) / (select(upper, low + high, high) + Lane(1e-300));
   Lane angle = u * polynomial(coefficients, u * u);
   angle = select(upper, angle + Lane(0.78539816339744830962), angle);
   angle = select(steep, Lane(1.57079632679489661923) - angle, angle);

@@ -38,6 +38,7 @@ static void put(real* x, int i, double value) { (void)i, *x = (real)value; }
 static void put_mask(mask* x, int i, int value) { (void)i, *x = value; }
 static real root_of(real a) { return (real)sqrt((double)a); }
 static real cube_root_of(real a) { return (real)cbrt((double)a); }
+static real inverse_of(real a) { return 1 / a; }
 #endif
 #include "trum_collocation.h"
 
@@ -87,7 +88,8 @@ typedef struct {
 typedef struct {
   real omega_n, Delta_omega, xi, s, W, D, k_c, engagement_per_height, W_full, push, drag, period, whole;
   real free_[4], drive_re, drive_im, g_A, g_B; /* the region's phasors at its start, its gates */
-  real v0, allowed, event_error, kink_error;   /* of the lap: start speed; error of a step's integral f, s; of events */
+  real v0, per_allowed, event_error, kink_error;   /* of the lap: start speed; 1/error of a step's integral f, 1/s; of events */
+  real newton_error;                           /* last change of a step's speeds, whose square is the error left */
   real tau, left, h, natural, bend;            /* place in the region; the step, its size without events, its map */
   real target, tries, patience;                /* the event that the step is to end at, or -1 */
   real x, S, f, f_v, angle0, event[EVENTS];    /* where the step begins */
@@ -99,16 +101,28 @@ typedef struct {
 } trum_lanes;
 
 #ifndef TRUM_LEVEL
+#ifndef TRUM_NEWTON_SHARE
+#define TRUM_NEWTON_SHARE 0.05
+#endif
 #define TRUM_LEVEL 0.05
-#define TRUM_ERROR_SHARE 0.5
-#define TRUM_EVENT_SHARE 2.0
+#ifndef TRUM_ERROR_SHARE
+#define TRUM_ERROR_SHARE 0.2
+#endif
+#ifndef TRUM_EVENT_SHARE
+#define TRUM_EVENT_SHARE 4.0
+#endif
+#ifndef TRUM_SAFETY
+#define TRUM_SAFETY 0.8
+#endif
 #ifndef TRUM_GROW
-#define TRUM_GROW 2
+#define TRUM_GROW 1.5
 #endif
 #ifndef TRUM_LONGEST
 #define TRUM_LONGEST 0.0625
 #endif
-#define TRUM_KINK_SHARE 50.0
+#ifndef TRUM_KINK_SHARE
+#define TRUM_KINK_SHARE 100.0
+#endif
 #endif
 static const double trum_longest = TRUM_LONGEST, trum_first = 1.0 / 16.0, trum_shortest = 1e-9; /* drive periods */
 
@@ -188,22 +202,24 @@ static void trum_rub(const trum_surface* at, real v, real* f, real* f_v, real* l
 /* Solves y_i = right_i + sum_j A_ij K_j y_j for the nodes after the first. */
 static void trum_solve(const real* K, const real* right, real* y) {
   static const double A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS;
-  real M[3][3], b[3];
+  real M[3][3], b[3], first, second;
   int i, j;
   for (i = 0; i < 3; ++i) {
     for (j = 0; j < 3; ++j) M[i][j] = N_(i == j ? 1.0 : 0.0) - N_(A[i + 1][j + 1]) * K[j + 1];
     b[i] = right[i + 1];
   }
+  first = inverse_of(M[0][0]);
   for (i = 1; i < 3; ++i) {
-    const real t = M[i][0] / M[0][0];
+    const real t = M[i][0] * first;
     M[i][1] = M[i][1] - t * M[0][1], M[i][2] = M[i][2] - t * M[0][2], b[i] = b[i] - t * b[0];
   }
+  second = inverse_of(M[1][1]);
   {
-    const real t = M[2][1] / M[1][1];
-    y[3] = (b[2] - t * b[1]) / (M[2][2] - t * M[1][2]);
+    const real t = M[2][1] * second;
+    y[3] = (b[2] - t * b[1]) * inverse_of(M[2][2] - t * M[1][2]);
   }
-  y[2] = (b[1] - M[1][2] * y[3]) / M[1][1];
-  y[1] = (b[0] - M[0][1] * y[2] - M[0][2] * y[3]) / M[0][0];
+  y[2] = (b[1] - M[1][2] * y[3]) * second;
+  y[1] = (b[0] - M[0][1] * y[2] - M[0][2] * y[3]) * first;
 }
 
 /* The cubic through (0, e0), (z1, e1), (z2, e2), (1, e3). */
@@ -211,11 +227,24 @@ typedef struct {
   real e0, d1, d2, d3, z1, z2;
 } trum_cubic;
 
-static trum_cubic trum_through(const real* z, real e0, real e1, real e2, real e3) {
+/* Reciprocals of the distances of the nodes, which all cubics of a step share. */
+typedef struct {
+  real z1, z2, of_01, of_12, of_23, of_02, of_13;
+} trum_places;
+
+static trum_places trum_space(const real* z) {
+  trum_places s;
+  s.z1 = z[1], s.z2 = z[2];
+  s.of_01 = inverse_of(z[1]), s.of_12 = inverse_of(z[2] - z[1]), s.of_23 = inverse_of(N_(1) - z[2]);
+  s.of_02 = inverse_of(z[2]), s.of_13 = inverse_of(N_(1) - z[1]);
+  return s;
+}
+
+static trum_cubic trum_through(const trum_places* s, real e0, real e1, real e2, real e3) {
   trum_cubic c;
-  const real d01 = (e1 - e0) / z[1], d12 = (e2 - e1) / (z[2] - z[1]), d23 = (e3 - e2) / (N_(1) - z[2]);
-  const real d012 = (d12 - d01) / z[2], d123 = (d23 - d12) / (N_(1) - z[1]);
-  c.e0 = e0, c.d1 = d01, c.d2 = d012, c.d3 = d123 - d012, c.z1 = z[1], c.z2 = z[2];
+  const real d01 = (e1 - e0) * s->of_01, d12 = (e2 - e1) * s->of_12, d23 = (e3 - e2) * s->of_23;
+  const real d012 = (d12 - d01) * s->of_02, d123 = (d23 - d12) * s->of_13;
+  c.e0 = e0, c.d1 = d01, c.d2 = d012, c.d3 = d123 - d012, c.z1 = s->z1, c.z2 = s->z2;
   return c;
 }
 
@@ -230,15 +259,17 @@ static real trum_cubic_slope(const trum_cubic* c, real z) {
 
 /* Where the step first meets an event: its place, 2 if none, and which.  Saturated friction has no edges to cross,
  * and where the fastest point does not touch it is saturated already. */
-static void trum_first_event(const trum_lanes* l, const real* z, real (*e)[EVENTS], real* place, real* which) {
+static void trum_first_event(const trum_lanes* l, const real* z, real (*e)[EVENTS], trum_cubic* cubic, real* place,
+                             real* which) {
   int k, j;
+  const trum_places spaces = trum_space(z);
   mask saturated = is(0), touching = is(0);
   for (j = 0; j < NODES; ++j) touching = touching | less_than(N_(0), e[j][LARGER]);
   *place = N_(2), *which = N_(-1);
   for (k = 0; k < EVENTS; ++k) {
     const real sign = sel(l->fresh[k], e[1][k], e[0][k]);
     const mask positive = less_than(N_(0), sign);
-    const trum_cubic c = trum_through(z, e[0][k], e[1][k], e[2][k], e[EDGE][k]);
+    const trum_cubic c = cubic[k] = trum_through(&spaces, e[0][k], e[1][k], e[2][k], e[EDGE][k]);
     mask found = is(0);
     real from = N_(0), to = N_(0), before = N_(0), root;
     for (j = 1; j < NODES; ++j) {
@@ -264,12 +295,12 @@ static void trum_first_event(const trum_lanes* l, const real* z, real (*e)[EVENT
     {
       const real at_from = trum_cubic_at(&c, from), at_to = trum_cubic_at(&c, to);
       const mask bracket = less_than(at_from * at_to, N_(0));
-      root = sel(bracket, from + (to - from) * (at_from / sel(bracket, at_from - at_to, N_(1))), from);
+      root = sel(bracket, from + (to - from) * (at_from * inverse_of(sel(bracket, at_from - at_to, N_(1)))), from);
     }
     for (j = 0; j < 3; ++j) {
       const real slope = trum_cubic_slope(&c, root);
       const mask steep = less_than(N_(1e-200), size_of(slope));
-      root = sel(steep, root - trum_cubic_at(&c, root) / sel(steep, slope, N_(1)), root);
+      root = sel(steep, root - trum_cubic_at(&c, root) * inverse_of(sel(steep, slope, N_(1))), root);
       root = most(from, least(to, root));
     }
     {
@@ -304,7 +335,7 @@ static void trum_extremes(const real* G, const real* x, real S0, real S1, mask a
         const real slope = p[1] + at * (N_(2) * p[2] + at * N_(3) * p[3]);
         const real rate = p[0] + at * (p[1] + at * (p[2] + at * p[3]));
         const mask steep = less_than(N_(1e-200), size_of(slope));
-        at = most(N_(0), least(N_(1), sel(steep, at - rate / sel(steep, slope, N_(1)), at)));
+        at = most(N_(0), least(N_(1), sel(steep, at - rate * inverse_of(sel(steep, slope, N_(1))), at)));
       }
       value = x[0] + at * (p[0] + at * (N_(1.0 / 2) * p[1] + at * (N_(1.0 / 3) * p[2] + at * N_(1.0 / 4) * p[3])));
       S = S0 + at * (S1 - S0);
@@ -395,7 +426,6 @@ static mask trum_step(trum_lanes* l) {
   trum_surface at[NODES];
   real z[NODES], T[NODES], x[NODES], f[NODES], f_v[NODES], G[NODES], e[NODES][EVENTS], right[NODES], y[NODES];
   const mask held = at_most(l->push, N_(0));
-  const real small = l->allowed * most(l->push, N_(0));
   mask open = l->active, wrong, accepted;
   int i, j, k, tries;
 #ifdef TRUM_COUNT
@@ -440,7 +470,7 @@ static mask trum_step(trum_lanes* l) {
       f[j] = sel(open, f[j] + f_v[j] * (next - x[j]), f[j]);
       x[j] = sel(open, next, x[j]);
     }
-    open = open & no(at_most(change, small));
+    open = open & no(at_most(change, l->newton_error));
   }
   for (j = 0; j < NODES; ++j) G[j] = T[j] * f[j];
   for (j = 1; j < NODES; ++j) {
@@ -449,6 +479,7 @@ static mask trum_step(trum_lanes* l) {
   }
 
   { /* what is wrong with the step: an event inside, or an error too large */
+    trum_cubic cubic[EVENTS];
     real place, which, ratio, error, factor, h = l->h, bend = l->bend, target = l->target;
     const mask aimed = at_most(N_(0), target);
     const mask startled = less_than(bend, N_(0));
@@ -456,14 +487,14 @@ static mask trum_step(trum_lanes* l) {
     mask meets, singular, distant, late, redo, off_target, hit;
     const mask patient = less_than(l->tries, N_(10)); /* no step is tried for ever */
     real tolerance_here;
-    trum_first_event(l, z, e, &place, &which);
+    trum_first_event(l, z, e, cubic, &place, &which);
     /* a step that was aimed at an event: is it there? */
     {
       real root = N_(1), missed = N_(0);
       if (any(aimed)) {
-        trum_cubic q = trum_through(z, sel(at_most(target, N_(0)), e[0][0], e[0][1]), e[1][0], e[2][0], e[3][0]);
+        trum_cubic q = cubic[0];
         for (k = 0; k < EVENTS; ++k) {
-          const trum_cubic own = trum_through(z, e[0][k], e[1][k], e[2][k], e[EDGE][k]);
+          const trum_cubic own = cubic[k];
           const mask mine = at_most(size_of(target - N_(k)), N_(0.25));
           q.e0 = sel(mine, own.e0, q.e0), q.d1 = sel(mine, own.d1, q.d1), q.d2 = sel(mine, own.d2, q.d2);
           q.d3 = sel(mine, own.d3, q.d3);
@@ -472,7 +503,7 @@ static mask trum_step(trum_lanes* l) {
         for (j = 0; j < 3; ++j) {
           const real slope = trum_cubic_slope(&q, root);
           const mask steep = less_than(N_(1e-200), size_of(slope));
-          root = sel(steep, root - trum_cubic_at(&q, root) / sel(steep, slope, N_(1)), root);
+          root = sel(steep, root - trum_cubic_at(&q, root) * inverse_of(sel(steep, slope, N_(1))), root);
           root = most(N_(1), least(N_(1.25), root));
         }
         root = sel(at_most(size_of(which - target), N_(0.25)), place, root);
@@ -519,7 +550,13 @@ static mask trum_step(trum_lanes* l) {
 #endif
 
     error = trum_quadrature_error(G);
-    ratio = error / l->allowed;
+    if (any(held & l->active)) { /* a held lap also measures the contact */
+      real angle[NODES];
+      angle[0] = T[0] * l->angle0;
+      for (j = 1; j < NODES; ++j) angle[j] = T[j] * at[j].theta;
+      error = sel(held, most(error, N_(0.31830988618379067154) * trum_quadrature_error(angle)), error);
+    }
+    ratio = error * l->per_allowed;
     {
       const mask number = less_than(ratio, N_(1e30));
       ratio = sel(number & no(open), least(ratio, N_(1e6)), N_(1e6));
@@ -527,7 +564,7 @@ static mask trum_step(trum_lanes* l) {
     }
     tiny = tiny | at_most(l->h, N_(trum_shortest) * l->period);
     wrong = no(at_most(ratio, N_(1))) & no(tiny);
-    factor = least(N_(TRUM_GROW), most(N_(0.15), N_(0.9) / root_of(root_of(most(ratio, N_(1e-5))))));
+    factor = least(N_(TRUM_GROW), most(N_(0.15), N_(TRUM_SAFETY) * inverse_of(root_of(root_of(most(ratio, N_(1e-5)))))));
     accepted = l->active & no(redo) & no(wrong);
     {
       const mask shrink = wrong & no(redo);
@@ -616,8 +653,8 @@ typedef struct {
   const trum_orbit_in* in;
   trum_orbit_out* out;
   double start[TRUM_REGIONS][4], pulses[TRUM_REGIONS]; /* phasors at the start of the regions; their drive periods */
-  double low, high, v0, scale, level;                  /* bracket of the start speed, guess, largest speed, of a step */
-  int stage, region, laps;
+  double low, high, v0, scale, level;                  /* bracket of the start speed, guess, speed that errors are measured by, error of a step */
+  int stage, region, laps, finer;
 } trum_job;
 
 enum { HELD, ROUGH, FINE };
@@ -646,9 +683,10 @@ static void trum_start_lap(trum_lanes* l, int i, trum_job* job) {
   if (reach > whole) reach = whole;
   allowed = job->level * reach / job->in->m;
   put(&l->push, i, held ? 0.0 : push), put(&l->drag, i, held ? 0.0 : job->in->drag);
-  put(&l->v0, i, job->v0), put(&l->allowed, i, allowed);
+  put(&l->v0, i, job->v0), put(&l->per_allowed, i, 1.0 / allowed);
   put(&l->event_error, i, TRUM_EVENT_SHARE * cbrt(allowed * allowed * period));
   put(&l->kink_error, i, TRUM_KINK_SHARE * allowed);
+  put(&l->newton_error, i, held ? 0.0 : allowed * push * sqrt(TRUM_NEWTON_SHARE * job->in->m / job->level));
   put(&l->patience, i, trum_most_tries * job->in->m);
   put(&l->natural, i, trum_first * period);
   put(&l->x, i, 0.0), put(&l->S, i, 1.0), put(&l->f, i, 0.0), put(&l->f_v, i, 0.0), put(&l->angle0, i, 0.0);
@@ -699,7 +737,7 @@ static void trum_load(trum_lanes* l, int i, trum_job* job, const trum_orbit_in* 
     }
   }
   job->in = in, job->out = out;
-  job->stage = HELD, job->laps = 0, job->v0 = 0.0, job->low = -HUGE_VAL, job->high = HUGE_VAL;
+  job->stage = HELD, job->laps = job->finer = 0, job->v0 = 0.0, job->low = -HUGE_VAL, job->high = HUGE_VAL;
   job->scale = 0.0, job->level = TRUM_LEVEL * in->tolerance;
   out->mean = out->low = out->high = out->variance = out->start = out->level = out->error = NAN;
   out->contact = out->held = NAN, out->flags = 0;
@@ -750,8 +788,12 @@ static int trum_judge(trum_lanes* l, int i, trum_job* job) {
     noise = get(&r->error, i) * in->push / pull;
     /* a Newton step this small leaves an error of its square, which the figures' derivatives take along */
     close = away * away <= 0.1 * in->tolerance * top * top || fabs(away) <= noise || job->high - job->low <= 1e-15 * bound;
-    job->scale = top;
-    if (close && (accurate || last)) {
+    /* the less a lap pulls speeds together, the more an error of a step weighs */
+    job->scale = top * (pull > 1e-3 ? pull : 1e-3 * (in->push * whole < top ? pull + in->push * whole / top : 1.0));
+    if (close && accurate && noise > in->tolerance * top && !last && ++job->finer <= 3) {
+      const double excess = in->tolerance * top / noise;
+      job->level *= 0.3 * (excess > 0.01 ? excess : 0.01);
+    } else if (close && (accurate || last)) {
       const double mean = get(&r->x, i) / whole, mean_S = get(&r->S, i) / whole;
       const double square = get(&r->xx, i) / whole, mean_xS = get(&r->xS, i) / whole;
       const double variance = square - mean * mean + 2.0 * away * (mean_xS - mean * mean_S);
@@ -768,7 +810,8 @@ static int trum_judge(trum_lanes* l, int i, trum_job* job) {
       out->start = job->v0, out->level = job->level, out->error = fabs(away) / top;
       return 0;
     }
-    if (close) job->stage = FINE, job->level = fine, job->low = -HUGE_VAL, job->high = HUGE_VAL;
+    if (close && !accurate) job->level = fine;
+    if (close) job->stage = FINE, job->low = -HUGE_VAL, job->high = HUGE_VAL;
     job->v0 = next;
   }
   trum_start_lap(l, i, job);
