@@ -118,7 +118,7 @@ typedef struct {
 #define TRUM_GROW 1.5
 #endif
 #ifndef TRUM_LONGEST
-#define TRUM_LONGEST 0.0625
+#define TRUM_LONGEST (1.0 / 24.0)
 #endif
 #ifndef TRUM_KINK_SHARE
 #define TRUM_KINK_SHARE 100.0
@@ -257,45 +257,41 @@ static real trum_cubic_slope(const trum_cubic* c, real z) {
   return c->d1 + (z - c->z1) * inner + z * (inner + (z - c->z1) * c->d3);
 }
 
-/* Where the step first meets an event: its place, 2 if none, and which.  Saturated friction has no edges to cross,
- * and where the fastest point does not touch it is saturated already. */
+/* Where the step first meets an event: its place, 2 if none, and which.  Saturated friction has no edges to cross. */
 static void trum_first_event(const trum_lanes* l, const real* z, real (*e)[EVENTS], trum_cubic* cubic, real* place,
                              real* which) {
-  int k, j;
   const trum_places spaces = trum_space(z);
-  mask saturated = is(0), touching = is(0);
-  for (j = 0; j < NODES; ++j) touching = touching | less_than(N_(0), e[j][LARGER]);
+  const mask saturated = at_most(sel(l->fresh[SPEED], e[1][SPEED], e[0][SPEED]), N_(0));
+  int k, j;
   *place = N_(2), *which = N_(-1);
   for (k = 0; k < EVENTS; ++k) {
-    const real sign = sel(l->fresh[k], e[1][k], e[0][k]);
-    const mask positive = less_than(N_(0), sign);
+    const mask fresh = l->fresh[k], positive = less_than(N_(0), sel(fresh, e[1][k], e[0][k]));
     const trum_cubic c = cubic[k] = trum_through(&spaces, e[0][k], e[1][k], e[2][k], e[EDGE][k]);
     mask found = is(0);
-    real from = N_(0), to = N_(0), before = N_(0), root;
+    real from = N_(0), to = N_(0), root;
     for (j = 1; j < NODES; ++j) {
-      { /* it may turn back between two nodes */
-        const real middle = N_(0.5) * (z[j - 1] + z[j]);
-        const real value = trum_cubic_at(&c, middle);
-        const mask crossed = no(found) & (less_than(N_(0), value) ^ positive) & ((j == 1) ? no(l->fresh[k]) : is(1));
-        from = sel(crossed, before, from), to = sel(crossed, middle, to), found = found | crossed;
-        before = middle;
-      }
-      {
-        const mask crossed = no(found) & (less_than(N_(0), e[j][k]) ^ positive);
-        from = sel(crossed, before, from), to = sel(crossed, z[j], to), found = found | crossed;
-        before = z[j];
-      }
+      const mask crossed = no(found) & (less_than(N_(0), e[j][k]) ^ positive);
+      from = sel(crossed, z[j - 1], from), to = sel(crossed, z[j], to), found = found | crossed;
     }
-    if (k == SPEED) {
-      saturated = no(positive);
-      found = found & touching;
+    { /* it may cross and turn back between two nodes, where the cubic is lowest (highest, if it begins negative) */
+      const real side = sel(positive, N_(1), N_(-1));
+      const real c3 = side * c.d3, c2 = side * (c.d2 - (c.z1 + c.z2) * c.d3);
+      const real c1 = side * (c.d1 - c.z1 * (c.d2 - c.z2 * c.d3)), square = c2 * c2 - N_(3) * c1 * c3;
+      const real below = c2 + root_of(most(square, N_(0)));
+      const mask bowl = less_than(N_(0), square) & less_than(N_(1e-300), size_of(below));
+      const real lowest = sel(bowl, -c1 * inverse_of(sel(bowl, below, N_(1))), N_(-1));
+      const real begin = sel(fresh, z[1], N_(0));
+      const mask inside = bowl & less_than(begin, lowest) & less_than(lowest, sel(found, to, N_(1)));
+      const mask crossed = inside & at_most(side * trum_cubic_at(&c, lowest), N_(0));
+      from = sel(crossed, begin, from), to = sel(crossed, lowest, to), found = found | crossed;
     }
     if (k == LARGER || k == SMALLER) found = found & no(saturated);
-    if (!any(found)) continue;
+    if (!any(found & l->active)) continue;
     {
       const real at_from = trum_cubic_at(&c, from), at_to = trum_cubic_at(&c, to);
       const mask bracket = less_than(at_from * at_to, N_(0));
-      root = sel(bracket, from + (to - from) * (at_from * inverse_of(sel(bracket, at_from - at_to, N_(1)))), from);
+      root = from + (to - from) * (at_from * inverse_of(sel(bracket, at_from - at_to, N_(1))));
+      root = sel(bracket, root, from);
     }
     for (j = 0; j < 3; ++j) {
       const real slope = trum_cubic_slope(&c, root);
