@@ -23,6 +23,7 @@ GATES = np.array([[0.0, 1.0], [1.0, 0.0], [1.0, 1.0]])  # (A, B) in T_redu, T_ad
 _STAGES = DOP853.n_stages
 _TABLE = (DOP853.A, DOP853.B, DOP853.C, DOP853.E3, DOP853.E5)
 _SAMPLES = 8  # of a step, in search of events
+_MOST_STEPS = 2_000_000  # in a cycle
 _SIZE = 5  # deviation of speed, its integral, its square's, work of the surface, heat
 _TURN = 2 * np.pi
 
@@ -217,11 +218,12 @@ def _event(p, y, gates, tau, v, kind):
     """What changes its sign where friction changes its form.
 
     0: by how much the fastest point in contact is ahead of the rotor, in the rotor's direction; friction is saturated
-    where it is not.  1: growth of the wave; where it begins to grow anew the crest may sweep past in no time.
+    where it is not.  1: growth of the wave; where it begins to grow anew the crest may sweep past in no time.  A plain
+    travelling wave does not grow, up to rounding: hence the threshold.
     """
     w = _modal(p, y, gates, tau)
     if kind == 1:
-        return w[0] * w[2] + w[1] * w[3]
+        return w[0] * w[2] + w[1] * w[3] - 1e-6 * p[5] ** 2 * p[0]
     fastest = p[6] * math.hypot(w[2], w[3])
     off = math.atan2(w[0], w[1]) + math.atan2(w[3], w[2]) + (math.pi if v < 0 else 0.0)
     off = abs(off - _TURN * round(off / _TURN))
@@ -288,6 +290,8 @@ def _lap(table, p, states, durations, gates, v0, scales, tolerance, longest):
             continue
         rate(p, states[r], gates[r], 0.0, v0, x, k[0])
         while tau < end:
+            if steps > _MOST_STEPS:
+                raise RuntimeError("the reference does not get on")
             last = tau + h * 1.0000001 >= end
             step = end - tau if last else h
             _step(table, p, states[r], gates[r], tau, v0, x, step, k, new)
@@ -395,9 +399,7 @@ class Reference:
 
     def lap(self, v0, tolerance):
         scales = self.scale * np.array([1.0, self.cycle_time, self.scale * self.cycle_time])
-        return _lap(
-            _TABLE, self.p, self.states, self.durations, GATES, v0, scales, tolerance, self.longest
-        )
+        return _lap(_TABLE, self.p, self.states, self.durations, GATES, v0, scales, tolerance, self.longest)
 
     def orbit(self) -> ReferenceOrbit:
         """The cycle that repeats itself.  A lap's gain falls as its start rises: secant, halved where it leaves."""
@@ -405,16 +407,20 @@ class Reference:
             raise ValueError("no speed balances the load")
         bound = self.fastest + 2 * (self.push + abs(self.drag)) * self.cycle_time
         v, slope, laps, steps = 0.0, -1.0, 0, 0
-        for tolerance, close in ((max(1e-9, self.tolerance), 1e-8), (self.tolerance, 1e-10)):
+        for tolerance, close in ((max(1e-9, self.tolerance), 1e-6), (self.tolerance, 5e-10)):
             low, high, before = -bound, bound, None
-            while laps < 200:
+            while True:
+                if laps == 200:
+                    raise RuntimeError("no orbit found")
                 x, least, most, taken = self.lap(v, tolerance)
                 gain, laps, steps = x[0], laps + 1, steps + taken
                 low, high = (v, high) if gain > 0 else (low, v)
-                if before is not None and gain != before[1]:
+                noise = 1e4 * tolerance * self.scale
+                flat = before is not None and abs(gain - before[1]) < noise < abs(gain)  # friction saturated throughout
+                if before is not None and abs(gain - before[1]) > noise:
                     slope = min((gain - before[1]) / (v - before[0]), -1e-9)
                 before, new = (v, gain), v - gain / slope
-                if not low <= new <= high:
+                if flat or not low <= new <= high:
                     new = 0.5 * (low + high)
                 if abs(new - v) <= close * max(abs(v + least), abs(v + most)):
                     break

@@ -1,6 +1,6 @@
 """Random points over a wide domain: ``ts.evaluate`` beside the independent orbit of :mod:`orbit_reference`.
 
-    python tests/orbit_study.py [COUNT]     prints every disagreement
+python tests/orbit_study.py [COUNT]     prints every disagreement
 """
 
 from __future__ import annotations
@@ -76,10 +76,7 @@ def evaluate(points: list[Sample], tolerance: float) -> list[ts.OperatingPoint]:
         for place, i in enumerate(chosen):
             shape = np.shape(batch.mean_speed)
             answers[i] = type(batch)(
-                **{
-                    name: value[place] if np.shape(value) == shape else value
-                    for name, value in batch.as_dict().items()
-                }
+                **{name: value[place] if np.shape(value) == shape else value for name, value in batch.as_dict().items()}
             )
     return answers
 
