@@ -116,13 +116,17 @@ def main(count: int) -> None:
             if answer.converged or not np.isnan(error).all():
                 print(f"{i}: runaway, not flagged: {error} {point}")
             continue
-        errors.append(np.abs(error))
+        if np.isfinite(error).all():
+            errors.append(np.abs(error))
         if not answer.converged or not np.abs(error).max() <= 1e-6:
             told = ", ".join(f"{name} {value:+.1e}" for name, value in zip(FIGURES, error, strict=True))
             print(f"{i}: {told}, converged {bool(answer.converged)}: {point}")
     print(f"reference: {(time.perf_counter() - begin) / count:.4f} s a point")
     spread = np.array(errors)
-    print(f"{len(errors)} points, {runaways} runaway; largest error of mean, low, high, deviation:", spread.max(0))
+    print(
+        f"{count} points, {runaways} runaway, {len(errors)} compared; largest error of mean, low, high, deviation:",
+        spread.max(0),
+    )
     print("median:", np.median(spread, 0), " within 1e-6:", int((spread.max(1) <= 1e-6).sum()))
 
 
