@@ -1,6 +1,6 @@
 """Cold start of ``trum-sym evaluate`` beside the import of the tools it was derived with.
 
-python -m benchmarks.cold_start
+python -m benchmarks --only start
 """
 
 from __future__ import annotations
@@ -11,6 +11,10 @@ import subprocess
 import sys
 import time
 
+from benchmarks.rows import Row
+
+__all__ = ["rows"]
+
 COMMANDS = {
     "trum-sym evaluate": ["-m", "trum_sym.console", "evaluate"],
     "trum-sym evaluate --json": ["-m", "trum_sym.console", "evaluate", "--json"],
@@ -19,8 +23,8 @@ COMMANDS = {
 }
 
 
-def main(repeats: int = 15) -> None:
-    """Measure and print."""
+def rows(repeats: int) -> list[Row]:
+    """Wall time of whole processes; the ratio says how many times as fast as the import of SymPy and CasADi."""
     times: dict[str, list[float]] = {name: [] for name in COMMANDS}
     for _ in range(repeats):  # interleaved, so that a busy moment hits all
         for name, arguments in COMMANDS.items():
@@ -28,12 +32,8 @@ def main(repeats: int = 15) -> None:
             subprocess.run([sys.executable, *arguments], stdout=subprocess.DEVNULL, check=True, cwd=os.sep)
             times[name].append(time.perf_counter() - begin)
     slowest = statistics.median(times["import sympy, casadi"])
-    for name, found in times.items():
-        median = statistics.median(found)
-        print(
-            f"{name:26} {1000 * median:6.0f} ms  (min {1000 * min(found):4.0f})  {median / slowest:5.2f} of the import"
-        )
-
-
-if __name__ == "__main__":
-    main()
+    found = []
+    for name, seen in times.items():
+        median = statistics.median(seen)
+        found.append(Row("cold start", name, 1e3 * median, "ms", (max(seen) - min(seen)) / median, slowest / median))
+    return found

@@ -13,9 +13,9 @@ from trum_sym.modal import modal_values, response
 
 
 def lsoda_cycles(
-    motor: ts.Motor, drive: ts.Drive, point: ts.OperatingPoint, cycles: int
+    motor: ts.Motor, drive: ts.Drive, point: ts.OperatingPoint, cycles: int, start: float | None = None
 ) -> Iterator[tuple[float, float, float]]:
-    """Mean, lowest and highest rotor speed (rad/s) of cycle after cycle, begun at the mean speed of ``point``.
+    """Mean, lowest and highest rotor speed (rad/s) of cycle after cycle, begun at ``start`` or ``point``'s mean speed.
 
     The Winkler contact and the friction are written out anew and the load balance solved by Brent's method; only the
     modal displacements, which have their own witnesses, are the project's.
@@ -47,7 +47,7 @@ def lsoda_cycles(
         return 2 * np.sum(cumulative(phase + half + turns) - cumulative(phase - half + turns)) - 1
 
     push, drag = radius**2 * mu * F / J, radius * float(drive.load_torque) / J
-    v = point.mean_speed * radius
+    v = (point.mean_speed if start is None else start) * radius
     for _ in range(cycles):
         steps = solve_ivp(
             lambda t, y: [push * fraction(t, y[0]) - drag, y[0]],

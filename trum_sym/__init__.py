@@ -15,7 +15,8 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from trum_sym.drive import Drive
-    from trum_sym.errors import ConvergenceError, ParameterError, ValidityWarning
+    from trum_sym.errors import ConvergenceError, MissingExtraError, ParameterError, ValidityWarning
+    from trum_sym.histories import simulate
     from trum_sym.motor import Motor, Parameter
     from trum_sym.motor_file import load_motor
     from trum_sym.operating_point import OperatingPoint, evaluate
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 __all__ = [
     "ConvergenceError",
     "Drive",
+    "MissingExtraError",
     "Motor",
     "OperatingPoint",
     "Parameter",
@@ -30,11 +32,13 @@ __all__ = [
     "ValidityWarning",
     "evaluate",
     "load_motor",
+    "simulate",
 ]
 
 _HOME = {
     "ConvergenceError": "errors",
     "Drive": "drive",
+    "MissingExtraError": "errors",
     "Motor": "motor",
     "OperatingPoint": "operating_point",
     "Parameter": "motor",
@@ -42,6 +46,7 @@ _HOME = {
     "ValidityWarning": "errors",
     "evaluate": "operating_point",
     "load_motor": "motor_file",
+    "simulate": "histories",
 }
 
 

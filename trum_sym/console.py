@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
 
 __all__ = ["main"]
 
+_LEVELS = ("contact", "resonance", "foundation", "amplitude", "sampling_period")
 _STARTS = ("periodic", "steady", "rest")
 
 
@@ -114,7 +116,7 @@ def evaluate(motor: str, overrides: tuple[str, ...], as_json: bool, **options: A
     from trum_sym.operating_point import evaluate as evaluate_point
 
     machine, drive = _motor(motor, overrides), _drive(options)
-    levels = {name: options[name] for name in ("contact", "resonance", "foundation", "amplitude", "sampling_period")}
+    levels = {name: options[name] for name in _LEVELS}
     point = evaluate_point(machine, drive, **levels)
     if as_json:
         from trum_sym.tables import as_json_text
@@ -124,6 +126,46 @@ def evaluate(motor: str, overrides: tuple[str, ...], as_json: bool, **options: A
         from trum_sym.tables import as_table
 
         click.echo(as_table(machine, drive, point, levels))
+
+
+@_cli.command()
+@_point_options
+@_option("--cycles", "1", 1, "Drive cycles.", "K")
+@_option("--samples-per-period", "1", 64, "Samples in a drive period.", "K")
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Write the histories: .nc (NetCDF, with every setting and unit) or .csv.  [default: a summary]",
+)
+def simulate(
+    motor: str,
+    overrides: tuple[str, ...],
+    cycles: float,
+    samples_per_period: float,
+    out: Path | None,
+    **options: Any,  # noqa: ANN401
+) -> None:
+    """Time histories of one operating point on its periodic orbit.
+
+    Phases, surface, determinant, contact, friction, and the rotor's speed and angle.
+    """
+    from trum_sym.files import check_target, write
+    from trum_sym.histories import simulate as simulate_point
+
+    if out is not None:
+        check_target("--out", out)
+    levels = {name: options[name] for name in _LEVELS}
+    histories = simulate_point(
+        _motor(motor, overrides), _drive(options), cycles=cycles, samples_per_period=samples_per_period, **levels
+    )
+    if out is not None:
+        write("--out", histories, out)
+        click.echo(f"{out}: {histories.sizes['time']} times of {len(histories.data_vars)} histories")
+    else:
+        from trum_sym.tables import histories_table
+
+        click.echo(histories_table(histories))
 
 
 @_cli.command()
@@ -174,6 +216,13 @@ def main(arguments: list[str] | None = None) -> int:
             from trum_sym.errors import ParameterError
 
             if not isinstance(error, ParameterError):
+                raise
+            click.echo(f"trum-sym: {error}", err=True)
+            return 2
+        except ImportError as error:
+            from trum_sym.errors import MissingExtraError
+
+            if not isinstance(error, MissingExtraError):
                 raise
             click.echo(f"trum-sym: {error}", err=True)
             return 2

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-__all__ = ["ConvergenceError", "ParameterError", "ValidityWarning", "shorten"]
+__all__ = ["ConvergenceError", "MissingExtraError", "ParameterError", "ValidityWarning", "shorten"]
 
 
 def _one_line(text: str) -> str:
@@ -44,6 +44,13 @@ class ParameterError(ValueError):
 
 class ConvergenceError(RuntimeError):
     """A well-posed problem whose iteration did not settle; says which and what to try."""
+
+
+class MissingExtraError(ImportError):
+    """A package that the default install does not bring; names what needs it and how to get it."""
+
+    def __init__(self, what: str, package: str, extra: str) -> None:
+        super().__init__(f"{what} needs {package}: pip install 'trum-sym[{extra}]'", name=package)
 
 
 class ValidityWarning(UserWarning):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,7 +15,10 @@ from trum_sym.operating_point import OperatingPoint
 from trum_sym.outputs import OUTPUTS
 from trum_sym.units import parse_unit
 
-__all__ = ["as_json_text", "as_table"]
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["as_json_text", "as_table", "histories_table"]
 
 
 def as_json_text(point: OperatingPoint) -> str:
@@ -24,6 +28,29 @@ def as_json_text(point: OperatingPoint) -> str:
         for name, value in point.as_dict().items()
     }
     return json.dumps(figures, indent=1, allow_nan=False)
+
+
+def histories_table(histories: xr.Dataset) -> str:
+    """What the histories span: lowest, mean and highest value of each, in SI units."""
+    from tabulate import tabulate
+
+    rows = [
+        (name, *(f"{float(value):.6g}" for value in (h.min(), h.mean(), h.max())), h.units, h.long_name)
+        for name, h in histories.data_vars.items()
+    ]
+    table = tabulate(
+        rows, headers=("", "lowest", "mean", "highest", "unit", ""), disable_numparse=True,
+        colalign=("left", "right", "right", "right", "left", "left"),
+    )  # fmt: skip
+    count, known = histories.sizes["time"], histories.attrs
+    title = (
+        f"{known['title']}, start {known['start']}\n{known['cycles']} cycles of {1e3 * known['cycle_time']:.6g} ms, "
+        f"{count} times; --out FILE.nc or FILE.csv writes them"
+    )
+    notes = ["", "no speed balances the load: it exceeds what friction can transmit"] if known["runaway"] else []
+    if not (known["runaway"] or known["converged"]):
+        notes = ["", "the rotor's speed did not settle to its tolerance"]
+    return "\n".join([title, "", table, *notes])
 
 
 def _published(motor: Motor, drive: Drive) -> dict[str, Published]:

@@ -1,0 +1,78 @@
+"""Data sets on disk: NetCDF or CSV by the file's suffix, whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from trum_sym.errors import MissingExtraError, ParameterError
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["check_target", "write"]
+
+_SUFFIXES = (".nc", ".csv")
+
+
+def check_target(name: str, target: Path) -> None:
+    """Refuse, before any work is done, a file that cannot be written.
+
+    Raises
+    ------
+    ParameterError
+        For another suffix than .nc and .csv, a folder that is not there or not ours to write in.
+    """
+    if target.suffix not in _SUFFIXES:
+        raise ParameterError(name, str(target), f"a file name that ends in {' or '.join(_SUFFIXES)}")
+    if target.is_dir():
+        raise ParameterError(name, str(target), "a file; this is a folder")
+    if not target.parent.is_dir() or not os.access(target.parent, os.W_OK):
+        raise ParameterError(name, str(target), "a file in a folder that exists and can be written to")
+
+
+def write(name: str, dataset: xr.Dataset, target: Path) -> None:
+    """Write beside the file and rename, so that no half-written one is ever seen.
+
+    CSV has one row per time and the units in its header; NetCDF keeps the attributes too.
+
+    Raises
+    ------
+    ParameterError
+        If the file cannot be written.
+    MissingExtraError
+        For NetCDF without h5netcdf.
+    """
+    check_target(name, target)
+    beside = None
+    try:
+        handle, path = tempfile.mkstemp(prefix=f".{target.stem}-", suffix=target.suffix, dir=target.parent)
+        os.close(handle)
+        beside = Path(path)
+        if target.suffix == ".nc":
+            try:
+                import h5netcdf  # noqa: F401
+                import h5py  # noqa: F401
+            except ImportError as error:
+                raise MissingExtraError("a .nc file", str(error.name), "data") from None
+            dataset.to_netcdf(beside, engine="h5netcdf")
+        else:
+            units = {
+                name: f"{name} [{array.attrs['units']}]"
+                for name, array in dataset.variables.items()
+                if "units" in array.attrs
+            }
+            table = dataset.to_dataframe().reset_index().rename(columns=units)
+            table.to_csv(beside, index=False, float_format="%.17g")
+        mask = os.umask(0)
+        os.umask(mask)
+        beside.chmod(0o666 & ~mask)  # as any other new file; mkstemp's are private
+        beside.replace(target)
+        beside = None
+    except OSError as error:
+        raise ParameterError(name, str(target), f"a file that can be written ({error.strerror or error})") from None
+    finally:
+        if beside is not None:
+            beside.unlink(missing_ok=True)
