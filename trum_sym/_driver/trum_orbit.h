@@ -92,7 +92,7 @@ typedef struct {
   real newton_error;                           /* last change of a step's speeds, whose square is the error left */
   real tau, left, h, natural, bend;            /* place in the region; the step, its size without events, its map */
   real target, tries, patience;                /* the event that the step is to end at, or -1 */
-  real x, S, f, f_v, angle0, event[EVENTS];    /* where the step begins */
+  real x, S, f, f_v, angle0, cos_phi, sin_phi, event[EVENTS];    /* where the step begins */
   mask fresh[EVENTS];                          /* it begins at this event */
   mask active, cold, lost;
   int hertz;
@@ -110,6 +110,12 @@ typedef struct {
 #endif
 #ifndef TRUM_EVENT_SHARE
 #define TRUM_EVENT_SHARE 4.0
+#endif
+#ifndef TRUM_TURN
+#define TRUM_TURN 0.4
+#endif
+#ifndef TRUM_SEES
+#define TRUM_SEES 2e-4
 #endif
 #ifndef TRUM_SAFETY
 #define TRUM_SAFETY 0.8
@@ -355,9 +361,10 @@ static void trum_begin(trum_lanes* l) {
   trum_look(l, l->tau, &at);
   trum_rub(&at, l->v0 + l->x, &f, &f_v, &e[LARGER], &e[SMALLER]);
   e[SPEED] = at.R_v * at.R_v - (l->v0 + l->x) * (l->v0 + l->x);
-  e[FULL] = at.W_c - l->W_full;
+  e[FULL] = at.W_c * at.W_c - l->W_full * l->W_full;
   l->f = sel(l->cold, f, l->f), l->f_v = sel(l->cold, f_v, l->f_v);
   l->angle0 = sel(l->cold, at.theta, l->angle0);
+  l->cos_phi = sel(l->cold, at.cos_phi, l->cos_phi), l->sin_phi = sel(l->cold, at.sin_phi, l->sin_phi);
   for (k = 0; k < EVENTS; ++k) {
     l->event[k] = sel(l->cold, e[k], l->event[k]);
     l->fresh[k] = l->fresh[k] & no(l->cold);
@@ -471,7 +478,7 @@ static mask trum_step(trum_lanes* l) {
   for (j = 0; j < NODES; ++j) G[j] = T[j] * f[j];
   for (j = 1; j < NODES; ++j) {
     e[j][SPEED] = at[j].R_v * at[j].R_v - (l->v0 + x[j]) * (l->v0 + x[j]);
-    e[j][FULL] = at[j].W_c - l->W_full;
+    e[j][FULL] = at[j].W_c * at[j].W_c - l->W_full * l->W_full;
   }
 
   { /* what is wrong with the step: an event inside, or an error too large */
@@ -559,6 +566,17 @@ static mask trum_step(trum_lanes* l) {
       l->lost = l->lost | (l->active & no(number) & tiny);
     }
     tiny = tiny | at_most(l->h, N_(trum_shortest) * l->period);
+    { /* near a standing wave the surface's speed turns fast; the steps must see it turn, unless all of it touches */
+      mask blind = is(0);
+      real cosine = l->cos_phi, sine = l->sin_phi;
+      for (j = 1; j < NODES; ++j) {
+        const mask jumps = less_than(cosine * at[j].cos_phi + sine * at[j].sin_phi, N_(TRUM_TURN));
+        blind = blind | (jumps & less_than(N_(0), most(e[j][FULL], e[j - 1][FULL])));
+        cosine = at[j].cos_phi, sine = at[j].sin_phi;
+      }
+      blind = blind & less_than(N_(TRUM_SEES) * l->period, l->h);
+      ratio = sel(blind, most(ratio, N_(40)), ratio);
+    }
     wrong = no(at_most(ratio, N_(1))) & no(tiny);
     factor = least(N_(TRUM_GROW), most(N_(0.15), N_(TRUM_SAFETY) * inverse_of(root_of(root_of(most(ratio, N_(1e-5)))))));
     accepted = l->active & no(redo) & no(wrong);
@@ -619,6 +637,8 @@ static mask trum_step(trum_lanes* l) {
       l->x = sel(accepted, x[EDGE], l->x), l->S = sel(accepted, S[EDGE], l->S);
       l->f = sel(accepted, f[EDGE], l->f), l->f_v = sel(accepted, f_v[EDGE], l->f_v);
       l->angle0 = sel(accepted, angle[EDGE], l->angle0);
+      l->cos_phi = sel(accepted, at[EDGE].cos_phi, l->cos_phi);
+      l->sin_phi = sel(accepted, at[EDGE].sin_phi, l->sin_phi);
       for (k = 0; k < EVENTS; ++k) {
         const mask mine = hit & at_most(size_of(l->target - N_(k)), N_(0.25));
         l->event[k] = sel(accepted, e[EDGE][k], l->event[k]);
@@ -795,6 +815,8 @@ static int trum_judge(trum_lanes* l, int i, trum_job* job) {
       const double variance = square - mean * mean + 2.0 * away * (mean_xS - mean * mean_S);
       out->mean = job->v0 + mean + away * mean_S;
       out->low = job->v0 + low + away * get(&r->S_low, i), out->high = job->v0 + high + away * get(&r->S_high, i);
+      /* Newton's last change leaves the order of nearly equal speeds open */
+      out->low = out->low < out->mean ? out->low : out->mean, out->high = out->high > out->mean ? out->high : out->mean;
       out->variance = variance > 0.0 ? variance : 0.0;
       out->start = next, out->level = job->level, out->error = noise / top;
       if (noise <= in->tolerance * top && !isnan(out->held)) out->flags += trum_converged;
