@@ -15,15 +15,15 @@ import sympy as sp
 
 from derivations import transfer
 from derivations.ledger.history import STARTS, history, values
+from derivations.ledger.judge import figure, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
-from derivations.ledger.names import KNOWN, figure, name, worse
 from derivations.ledger.operating import stator
 from derivations.nomenclature import sym
 
 __all__ = ["ENTRIES"]
 
 m, n, Delta_omega, omega_q, omega_n, k_N, k_c, n_j, F_c, T = sym("m n Delta_omega omega_q omega_n k_N k_c n_j F_c T")
-X, Y = name("X Y")
+X, Y = sym("X Y")
 _HALF = sp.Rational(1, 2)
 
 
@@ -388,7 +388,7 @@ def _effect_add() -> str:
 
 
 def _entry(identifier: str, **fields: Any) -> Entry:  # noqa: ANN401
-    return Entry(id=identifier, **{"units": {}, "known": KNOWN, **fields})
+    return Entry(id=identifier, **{"units": {}, **fields})
 
 
 ENTRIES = (
@@ -405,7 +405,7 @@ ENTRIES = (
         "claim-crest", section="3.4", place="Sect. 3.4", title="'At the wave peak the vertical velocity is zero'",
         printed=_CREST, verdict="erratum", judge=_judge_crest, derive=_derive_crest, effect=_effect_crest,
         repair=lambda _: _derive_crest().forms, found_by=("numeric",), units={},
-        known=KNOWN | transfer.DIMENSIONS,
+        known=transfer.DIMENSIONS,
         reason="The slope is zero at the crest; the vertical velocity is the rate of its height, zero in a "
                "steady wave only.",
     ),

@@ -12,13 +12,12 @@ import sympy as sp
 
 from derivations.ledger.appendix_b_c import differs_by_start
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
-from derivations.ledger.names import KNOWN, name
 from derivations.nomenclature import sym
 
 __all__ = ["ENTRIES"]
 
 (T,) = sym("T")
-(X,) = name("X")
+(X,) = sym("X")
 
 
 # --- monotonicity of Appendix C.2 ---------------------------------------------------------------------------
@@ -116,7 +115,7 @@ def _effect_trend() -> str:
 
 
 def _entry(identifier: str, **fields: Any) -> Entry:  # noqa: ANN401
-    return Entry(id=identifier, **{"units": {}, "known": KNOWN, **fields})
+    return Entry(id=identifier, **{"units": {}, **fields})
 
 
 ENTRIES = (

@@ -9,10 +9,8 @@ from typing import Any
 from latex2mathml.converter import convert
 
 from derivations.ledger.model import Entry
-from derivations.ledger.names import NAMES
 from derivations.ledger.pictures import svg
 from derivations.nomenclature import CLASHES, NOMENCLATURE
-from derivations.nomenclature import latex as typeset
 
 __all__ = ["page"]
 
@@ -128,12 +126,6 @@ def _nomenclature() -> str:
         f"<tr><td>{convert(e.latex)}</td><td>{escape(e.unit)}</td><td>{escape(e.where)}</td>"
         f"<td>{escape(e.meaning)}</td></tr>"
         for e in NOMENCLATURE.values()
-    ]
-    rows += [
-        f"<tr><td>{convert(typeset(n.symbol))}</td><td>{escape(n.unit)}</td><td>{escape(n.where)}</td>"
-        f"<td>{escape(n.meaning)}</td></tr>"
-        for n in NAMES.values()
-        if n.symbol.name not in NOMENCLATURE
     ]
     clashes = [
         f"<tr><td>{convert(letter)}</td><td>{escape('; '.join(meanings))}</td></tr>"

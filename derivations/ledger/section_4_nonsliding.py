@@ -17,18 +17,16 @@ from derivations.ledger.friction_states import (
     states,
 )
 from derivations.ledger.history import history, values
-from derivations.ledger.judge import evaluate
+from derivations.ledger.judge import evaluate, figure, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
-from derivations.ledger.names import KNOWN, figure, name, worse
 from derivations.nomenclature import sym
 
 __all__ = ["ENTRIES"]
 
 D, k_c, W, F_c, n_j, mu, theta, x, p = sym("D k_c W F_c n_j mu theta x p")
-M_a, M_b, N_a, N_b, Psi_v, v_xp, v_xx = name("M_a M_b N_a N_b Psi_v v_xp v_xx")
-phi_vm1, phi_vm2, x_px, x_max, x_xm, v_xm, v_xmax = name("phi_vm1 phi_vm2 x_px x_max x_xm v_xm v_xmax")
+M_a, M_b, N_a, N_b, Psi_v, v_xp, v_xx = sym("M_a M_b N_a N_b Psi_v v_xp v_xx")
+phi_vm1, phi_vm2, x_px, x_max, x_xm, v_xm, v_xmax = sym("phi_vm1 phi_vm2 x_px x_max x_xm v_xm v_xmax")
 phi, c, u, R_v = transfer.phi, transfer.c, transfer.u, transfer.R_v
-_KNOWN = {**KNOWN, **transfer.DIMENSIONS}
 
 
 # --- (33) ---------------------------------------------------------------------------------------------------
@@ -288,7 +286,7 @@ _PLACE = "Sect. 4.2.2"
 ENTRIES = (
     Entry(
         id="33", section="4.2.2", title="Peaks and troughs of the tangential velocity", place=_PLACE, printed=_EQ33,
-        units={}, verdict="erratum", judge=_judge_33, derive=_derive_33, effect=_effect_33, known=_KNOWN,
+        units={}, verdict="erratum", judge=_judge_33, derive=_derive_33, effect=_effect_33, known=transfer.DIMENSIONS,
         repair=lambda forms: {"row 1": forms["row 1"], "row 2": forms["row 2"].subs(phi_vm1, phi_vm2)},
         found_by=("domain",),
         reason="Both rows define phi_vm1, so it has two values and phi_vm2 of eq. 35 none; the second is phi_vm2.",
@@ -296,14 +294,14 @@ ENTRIES = (
     Entry(
         id="34", section="4.2.2", title="Position of a nonsliding point", place=_PLACE, printed=_EQ34,
         units={"x_px_redu": "m", "x_px": "m"}, verdict="erratum", judge=_judge_34, derive=_derive_34,
-        effect=_effect_34, known=_KNOWN, repair=_repair_34, found_by=("dimension", "numeric", "domain"),
+        effect=_effect_34, known=transfer.DIMENSIONS, repair=_repair_34, found_by=("dimension", "numeric", "domain"),
         reason="Lacks W_maxf in T_redu, where eq. 17 takes it out of M_a and M_b, and a row for M_a = 0 > M_b; "
                "gives one "
         "of two solutions.",
     ),
     Entry(
         id="35", section="4.2.2", title="The only nonsliding point", place=_PLACE, printed=_EQ35, units={"x_p": "m"},
-        verdict="erratum", judge=_judge_35, derive=_derive_35, effect=_effect_35, known=_KNOWN,
+        verdict="erratum", judge=_judge_35, derive=_derive_35, effect=_effect_35, known=transfer.DIMENSIONS,
         repair=lambda _: _derive_35().forms, found_by=("dimension", "domain", "numeric"),
         reason="Adds 2 pi to a length, leaves most states without a row, and uses the undefined phi_vm2. One "
                "expression "

@@ -20,19 +20,19 @@ from derivations.ledger.friction_states import (
     states,
 )
 from derivations.ledger.history import Array, history, numeric, values
+from derivations.ledger.judge import figure, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, Picture, evidence, step
-from derivations.ledger.names import KNOWN, figure, name, worse
 from derivations.nomenclature import sym
+from trum_sym.units import parse_unit
 
 __all__ = ["ENTRIES", "surface_motion"]
 
 D, k_c, W, F_c, n_j, mu, theta, x, p = sym("D k_c W F_c n_j mu theta x p")
-M_a, M_b, N_a, N_b, Psi_v, v_xp, v_xx = name("M_a M_b N_a N_b Psi_v v_xp v_xx")
-phi_vm1, phi_vm2, x_px, x_max, x_xm, v_xm, v_xmax = name("phi_vm1 phi_vm2 x_px x_max x_xm v_xm v_xmax")
-f_t, f_b, f_nall, M_n, T_load = name("f_t f_b f_nall M_n T_load")
+M_a, M_b, N_a, N_b, Psi_v, v_xp, v_xx = sym("M_a M_b N_a N_b Psi_v v_xp v_xx")
+phi_vm1, phi_vm2, x_px, x_max, x_xm, v_xm, v_xmax = sym("phi_vm1 phi_vm2 x_px x_max x_xm v_xm v_xmax")
+f_t, f_b, f_nall, M_n, T_load = sym("f_t f_b f_nall M_n T_load")
 r_c, J, t = sym("r_c J t")
 phi, c, u, R_v = transfer.phi, transfer.c, transfer.u, transfer.R_v
-_KNOWN = {**KNOWN, **transfer.DIMENSIONS}
 
 
 def surface_motion() -> tuple[Array, Array, Array]:
@@ -392,7 +392,7 @@ def _effect_reverse() -> str:
 ENTRIES = (
     Entry(
         id="36", section="4.2.3", title="Friction on the rotor", place="Sect. 4.2.3", printed=_EQ36, units={"f_n": "N"},
-        verdict="erratum", judge=_judge_36, derive=_derive_36, effect=_effect_36, known=_KNOWN, picture=_picture_36,
+        verdict="erratum", judge=_judge_36, derive=_derive_36, effect=_effect_36, known=transfer.DIMENSIONS, picture=_picture_36,
         repair=lambda forms: {key: _whole_zone(form) for key, form in forms.items()},
         found_by=("numeric", "derivation"),
         reason="Twice the right half of the contact is the whole only where v_x is even about the crest; in a beat the "
@@ -400,7 +400,7 @@ ENTRIES = (
     ),
     Entry(
         id="37", section="4.2.3", title="Sign of the friction", place="Sect. 4.2.3", printed=_EQ37, units={"sign": "1"},
-        verdict="erratum", judge=_judge_37, derive=_derive_37, effect=_effect_37, known=_KNOWN,
+        verdict="erratum", judge=_judge_37, derive=_derive_37, effect=_effect_37, known=transfer.DIMENSIONS,
         repair=lambda _: {"sign": sp.Piecewise((1, v_xx - v_xp > 0), (-1, v_xx - v_xp < 0), (0, True))},
         found_by=("domain",),
         reason="The conditions on v_xp are empty but exclude the rotor at rest, so nothing could start.",
@@ -408,7 +408,7 @@ ENTRIES = (
     Entry(
         id="transfer-cases", section="4.2.3", title="The sixteen transfer models of Figs. 7 and 8",
         place="Sect. 4.2.3, a and b", printed={}, units={f"f_{i}": "1" for i in range(1, 17)}, verdict="reconstructed",
-        judge=_judge_cases, derive=_derive_cases, effect=_effect_cases, known=_KNOWN,
+        judge=_judge_cases, derive=_derive_cases, effect=_effect_cases, known=transfer.DIMENSIONS,
         reason="The text names what tells the cases apart but not their forces; each is a corollary of one "
                "closed form.",
     ),
@@ -416,13 +416,13 @@ ENTRIES = (
         id="38", section="4.2.3", title="Torque balance of the rotor", place="Sect. 4.2.3", printed=_EQ38,
         units={"f_nall": "N", "M_n": "N*m", "omega_p": "rad/s"}, verdict="verified", judge=_judge_38,
         derive=_derive_38, effect=_effect_38,
-        known={**_KNOWN, _omega: KNOWN[name("S_k")[0]]},
+        known={**transfer.DIMENSIONS, _omega: parse_unit("rad/s").dimension},
         reason="Angular momentum of the rotor, for forward motion; the reverse model needs the sign judged apart.",
     ),
     Entry(
         id="reverse-model", section="4.2.3", title="Driving and braking zone of the reverse model",
         place="Sect. 4.2.3, b, and below eq. 38", printed=_REVERSE, units={"f_nall": "N"}, verdict="erratum",
-        judge=_judge_reverse, derive=_derive_reverse, effect=_effect_reverse, known=_KNOWN,
+        judge=_judge_reverse, derive=_derive_reverse, effect=_effect_reverse, known=transfer.DIMENSIONS,
         repair=lambda forms: {"f_nall": sp.sign(v_xp) * forms["f_nall"]}, found_by=("numeric", "limit"),
         reason="Where the rotor runs backward, the driving zone pushes along -x, and f_t - f_b changes its sign.",
     ),

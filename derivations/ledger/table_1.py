@@ -10,9 +10,8 @@ import numpy as np
 import sympy as sp
 
 from derivations import beam, section
-from derivations.ledger.judge import usual
+from derivations.ledger.judge import figure, usual
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
-from derivations.ledger.names import figure
 from derivations.ledger.operating import at_point, operating_point
 from trum_sym.units import Dimension, parse_unit
 
