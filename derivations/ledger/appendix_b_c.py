@@ -222,11 +222,10 @@ def _effect_a13() -> str:
     decayed = p["W"] * float(sp.exp(-p["xi"] * p["omega_n"] * h.time[redu][-1]))
     area = float(sp.pi) * p["D"] * p["k_c"]
     return (
-        "Drawn as an ellipse it has no area. The path encloses pi D k_c W^2 = "
-        f"{figure(area * p['W'] ** 2 * 1e12)} um^2 in the steady wave of Table 3; at the end of T_redu, after a steady "
-        f"start, W_a has fallen to {figure(1e6 * decayed)} um and the phases have drifted by {figure(angle)} "
-        f"rad, so it "
-        f"encloses {figure(area * p['W'] * decayed * abs(float(sp.cos(angle))) * 1e12)} um^2."
+        f"Drawn as an ellipse it has no area. The path encloses pi D k_c W^2 = {figure(area * p['W'] ** 2 * 1e12)} "
+        "um^2 in the steady wave of Table 3; at the end of T_redu, after a steady start, W_a has fallen to "
+        f"{figure(1e6 * decayed)} um and the phases have drifted by {figure(angle)} rad, so it encloses "
+        f"{figure(area * p['W'] * decayed * abs(float(sp.cos(angle))) * 1e12)} um^2."
     )
 
 
@@ -318,9 +317,8 @@ def _effect_a15() -> str:
     ratio = known[q_plus] / known[q_minus]
     slope = 2 / ((ratio + 1) ** 2 * p["T"])
     return (
-        f"{figure(slope)} 1/s for each unit of X at Table 3. T is taken as constant; from 2800 to 3300 Hz it "
-        f"changes by "
-        f"{100 * (_cycle_time(3300) / _cycle_time(2800) - 1):.2f} %, and Q_aver with it."
+        f"{figure(slope)} 1/s for each unit of X at Table 3. T is taken as constant; from 2800 to 3300 Hz it changes "
+        f"by {100 * (_cycle_time(3300) / _cycle_time(2800) - 1):.2f} %, and Q_aver with it."
     )
 
 
@@ -407,9 +405,8 @@ def _derive_a17() -> Derivation:
                  zero=sp.simplify(branch_above.diff(above) ** 2 - 1 / (above**2 * ((1 + above) ** 2 - 1)))),
             step("Below 1, with Y = 1 - e and so df/dY = -df/de:", sp.Eq(sp.Symbol("f"), branch_below),
                  zero=sp.simplify(branch_below.diff(below) ** 2 - 1 / (below**2 * (1 - (1 - below) ** 2)))),
-            step("Both have the sign of 1 - Y. The printed -2/(Y - 1) is the derivative of (Y + 1)/(Y - 1) "
-                 "short of its "
-                 "square, and without the root's:", form,
+            step("Both have the sign of 1 - Y. The printed -2/(Y - 1) is the derivative of (Y + 1)/(Y - 1) short of "
+                 "its square, and without the root's:", form,
                  zero=sp.simplify(((Y + 1) / (Y - 1)).diff(Y) + 2 / (Y - 1) ** 2)),
         ),
         {"df/dY": form},
@@ -463,7 +460,7 @@ ENTRIES = (
         verdict="erratum", judge=_judge_a13, derive=_derive_a13, effect=_effect_a13, known={delta: Dimension()},
         repair=lambda _: _derive_a13().forms, found_by=("domain",), picture=_picture_a13,
         reason="An identity, but no ellipse: a perfect square whose coefficients turn with the vibration. The path's "
-        "conic has the amplitudes and the slow phase difference for coefficients.",
+               "conic has the amplitudes and the slow phase difference for coefficients.",
     ),
     Entry(
         id="A14", section="C.1", title="Speed determinant in X", place=_C1, printed=_A14,

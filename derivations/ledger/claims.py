@@ -15,7 +15,7 @@ import sympy as sp
 
 from derivations import transfer
 from derivations.ledger.history import STARTS, history, values
-from derivations.ledger.judge import figure, worse
+from derivations.ledger.judge import figure, largest, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
 from derivations.ledger.operating import stator
 from derivations.nomenclature import sym
@@ -54,16 +54,13 @@ def _derive_half() -> Derivation:
     found = _forward_shares()
     return Derivation(
         (
-            step("With constant amplitudes Q runs as the sine of the phases' difference (A8), which changes "
-                 "sign every half "
-                 "beat: forward and backward take half each.", slow,
+            step("With constant amplitudes Q runs as the sine of the phases' difference (A8), which changes sign "
+                 "every half beat: forward and backward take half each.", slow,
                  zero=sp.expand_trig(slow.subs(step_, step_ + sp.pi) + slow)),
-            step("A decaying amplitude scales Q but does not move its zeros, so in T_redu that stays so; "
-                 "measured on the "
-                 f"exact Q over whole beats, {found['share_redu']:.3f}."),
-            step("In T_addredu phase A vibrates at two frequencies, its own free one and the drive's, while B "
-                 "is free: the "
-                 "part at equal frequencies adds a constant to the sine and shifts its zeros; "
+            step("A decaying amplitude scales Q but does not move its zeros, so in T_redu that stays so; measured on "
+                 f"the exact Q over whole beats, {found['share_redu']:.3f}."),
+            step("In T_addredu phase A vibrates at two frequencies, its own free one and the drive's, while B is "
+                 "free: the part at equal frequencies adds a constant to the sine and shifts its zeros; "
                  f"{found['share_addredu']:.3f}."),
         ),
         {key: sp.Float(f"{value:.3f}") for key, value in found.items()},
@@ -123,9 +120,8 @@ def _derive_crest() -> Derivation:
             step("The crest is where the slope d(zeta_z)/dx vanishes (eq. 20); the vertical velocity there is "
                  "w_A' sin(k_c x_max) + w_B' cos(k_c x_max):", vA * sine + vB * cosine,
                  zero=sp.expand(vA * sine + vB * cosine - rate)),
-            step("the rate of the crest's height, which is 0 only if the height does not change: in a steady "
-                 "wave, not in "
-                 "a beat.", rate),
+            step("the rate of the crest's height, which is 0 only if the height does not change: in a steady wave, "
+                 "not in a beat.", rate),
         ),
         {"zeta_z_rate": rate},
     )  # fmt: skip
@@ -136,7 +132,7 @@ def _judge_crest(forms: Forms) -> Iterator[Evidence]:
     worst = 0.0
     for A, B, vA, vB in ((4e-6, 3e-6, 0.5, -0.2), (-2e-6, 5e-6, 0.9, 0.4), (1e-6, -6e-6, -1.1, 0.3)):
         h = 1e-9
-        height = [max(math.hypot(A + side * h * vA, B + side * h * vB), 0) for side in (-1, 1)]
+        height = [math.hypot(A + side * h * vA, B + side * h * vB) for side in (-1, 1)]
         found = complex(form.subs(dict(zip(_RATE, (A, B, vA, vB), strict=True))))
         worst = worse(worst, abs(found - (height[1] - height[0]) / (2 * h)))
     yield evidence("numeric", worst < 1e-6, f"the crest's height by differences in time: off by {worst:.2g} m/s")
@@ -148,9 +144,8 @@ def _effect_crest() -> str:
     h = history()
     p = values()
     return (
-        f"At Table 3 (periodic) the crest moves vertically at up to {1e3 * float(np.abs(h.W_c_rate).max()):.0f} "
-        f"mm/s and "
-        f"{1e3 * float(np.sqrt((h.W_c_rate**2).mean())):.0f} mm/s rms, where the largest tangential velocity is "
+        f"At Table 3 (periodic) the crest moves vertically at up to {1e3 * float(np.abs(h.W_c_rate).max()):.0f} mm/s "
+        f"and {1e3 * float(np.sqrt((h.W_c_rate**2).mean())):.0f} mm/s rms, where the largest tangential velocity is "
         f"{1e3 * p['D'] * p['k_c'] * float(np.hypot(h.v_A, h.v_B).max()):.0f} mm/s. The condition printed beside it, "
         "d(zeta_z)/dx = 0, is the right one."
     )
@@ -186,7 +181,7 @@ def _judge_power(forms: Forms) -> Iterator[Evidence]:
     rates = [p["omega_q"] * sizes[i] * np.array([math.cos(0.3), -math.sin(0.3)]) for i in (0, 1)]
     Q = np.array([p["D"] * p["k_c"] * (r[0] * w[1] - r[1] * w[0]) for w, r in zip(wave, rates, strict=True)])
     grows = [float(np.log(f[1] / f[0]) / math.log(2)) for f in (Q, crest)]
-    off = max(abs(float(form) - found) for form, found in zip(forms.values(), grows, strict=True))
+    off = largest(abs(float(form) - found) for form, found in zip(forms.values(), grows, strict=True))
     yield evidence(
         "numeric", off < 1e-9, f"twice the amplitude: Q grows by 2^{grows[0]:.0f}, the speed by 2^{grows[1]:.0f}"
     )
@@ -293,7 +288,7 @@ def _derive_constant() -> Derivation:
 def _judge_constant(forms: Forms) -> Iterator[Evidence]:
     stated = float(forms["T_over_T"])
     over_f, over_p = (_period(180, 3300) / _period(180, 2800), _period(210, 3000) / _period(160, 3000))
-    worst = max(abs(stated / found - 1) for found in (over_f, over_p))
+    worst = largest(abs(stated / found - 1) for found in (over_f, over_p))
     yield evidence(
         "error_size", worst < 0.02, f"T at 3300 over 2800 Hz is {over_f:.5f}, at 210 over 160 N {over_p:.5f}"
     )
@@ -329,9 +324,9 @@ def _judge_beats(forms: Forms) -> Iterator[Evidence]:
     turns = int((np.sign(q[1:]) != np.sign(q[:-1])).sum())
     at = {m: 100, n: 55, Delta_omega: values()["Delta_omega"], omega_q: values()["omega_q"]}
     found = float(forms["beats_in_T_redu"].subs(at))
-    yield evidence("numeric", abs(found - turns / 2) < 0.5, f"Q changes sign {turns} times in T_redu for m = "
-                                                            f"100, n = 55 "
-                   f"(steady start): {turns / 2:.1f} beats; stated {found:.2f}")  # fmt: skip
+    yield evidence("numeric", abs(found - turns / 2) < 0.5, f"Q changes sign {turns} times in T_redu for m = 100, n = "
+                                                            f"55 (steady start): {turns / 2:.1f} beats; stated "
+                                                            f"{found:.2f}")  # fmt: skip
     longer = float(forms["beats_in_T_redu"].subs({**at, m: 145})) / found
     yield evidence("limit", abs(longer - 2) < 1e-12, "twice the pulses, twice the beats")
 
@@ -393,9 +388,9 @@ def _entry(identifier: str, **fields: Any) -> Entry:  # noqa: ANN401
 
 ENTRIES = (
     _entry(
-        "claim-half-beat", section="3.5", place="Sect. 3.5, Appendix A", title="'The time for both phases is "
-                                                                               "half of the beat "
-        "period'", printed=_SHARES, verdict="erratum", judge=_judge_half, derive=_derive_half, effect=_effect_half,
+        "claim-half-beat", section="3.5", place="Sect. 3.5, Appendix A", printed=_SHARES, verdict="erratum",
+        title="'The time for both phases is half of the beat period'",
+        judge=_judge_half, derive=_derive_half, effect=_effect_half,
         repair=lambda forms: {**forms, "share_addredu": sp.Float(f"{_forward_shares()['share_addredu']:.3f}")},
         found_by=("numeric", "limit"),
         reason="True for constant amplitudes and, nearly, in T_redu; in T_addredu one third turns forward, two "
@@ -416,8 +411,8 @@ ENTRIES = (
         reason="The surface speed grows as the amplitude, Q as its square; it gives the direction, not the speed.",
     ),
     _entry(
-        "claim-contact", section="5.3", place="Sects. 3.1, 5.3", title="The crest 'is always in "
-                                                                       "contact'", printed=_CONTACT,
+        "claim-contact", section="5.3", place="Sects. 3.1, 5.3", title="The crest 'is always in contact'",
+                                                                       printed=_CONTACT,
         verdict="verified", judge=_judge_contact, derive=_derive_contact, effect=_effect_contact,
         reason="Under a constant prepressure the crest always stands in the layer.",
     ),

@@ -35,8 +35,8 @@ article[hidden] { display: none; } .place { color: var(--soft); font-size: .9rem
 details { margin: .4rem 0; } summary { cursor: pointer; color: #0969da; } ol > li { margin: .5rem 0; }
 li.against { color: #b42318; } table { border-collapse: collapse; } td, th { border: 1px solid var(--line);
   padding: .15rem .5rem; text-align: left; vertical-align: top; } svg { max-width: 100%; height: auto; }
-.index a { display: inline-block; min-width: 2.2rem; text-align: center; border-radius: .3rem; color: #fff; margin: .1rem;
-  text-decoration: none; padding: 0 .3rem; font-size: .85rem; } .definition { background: #57606a; }
+.index a { display: inline-block; min-width: 2.2rem; text-align: center; border-radius: .3rem; color: #fff;
+  margin: .1rem; text-decoration: none; padding: 0 .3rem; font-size: .85rem; } .definition { background: #57606a; }
 """
 
 _SCRIPT = """
@@ -134,8 +134,8 @@ def _nomenclature() -> str:
     head = "<tr><th>symbol</th><th>unit</th><th>defined</th><th>meaning</th></tr>"
     return (
         f'<section id="nomenclature"><h2>Symbols</h2><details><summary>{len(rows)} symbols</summary><table>{head}'
-        f"{''.join(rows)}</table></details><h2>One letter, several meanings</h2><details><summary>{len(clashes)} letters"
-        f"</summary><table>{''.join(clashes)}</table></details></section>"
+        f"{''.join(rows)}</table></details><h2>One letter, several meanings</h2><details><summary>{len(clashes)} "
+        f"letters</summary><table>{''.join(clashes)}</table></details></section>"
     )
 
 
@@ -153,12 +153,12 @@ def page(records: list[dict[str, Any]], entries: Iterable[Entry]) -> str:
     return (
         '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><meta name="viewport" '
         'content="width=device-width"><link rel="icon" href="data:,"><title>The ledger: every equation judged</title>'
-        f"<style>{_STYLE}</style></head><body><header><h1>The ledger</h1>"
-        "<p>Every numbered equation of <i>Research on Low-Speed Driving Model of Ultrasonic Motor Based on Beat Traveling "
-        "Wave Theory</i> (Actuators 2021, 10(11), 304), the definitions between them, its tables and statements: what is "
-        "printed, what follows from first principles, the verdict, the evidence, and what the difference does to "
-        "TRUM-60 at the operating point of Table 3 (180 N, 3000 Hz, 14 of 20 pulses). A tick marks a step or finding "
-        "that is checked by machine each time this page is made.</p></header>"
+        f"<style>{_STYLE}</style></head><body><header><h1>The ledger</h1><p>Every numbered equation of <i>Research on "
+        "Low-Speed Driving Model of Ultrasonic Motor Based on Beat Traveling Wave Theory</i> (Actuators 2021, 10(11), "
+        "304), the definitions between them, its tables and statements: what is printed, what follows from first "
+        "principles, the verdict, the evidence, and what the difference does to TRUM-60 at the operating point of "
+        "Table 3 (180 N, 3000 Hz, 14 of 20 pulses). A tick marks a step or finding that is checked by machine each "
+        "time this page is made.</p></header>"
         f'<div class="bar">{buttons}<input id="search" type="search" placeholder="search" aria-label="search">'
         f'<span id="shown"></span></div><nav class="index">{index}</nav>\n{articles}\n{_nomenclature()}'
         f"<script>{_SCRIPT}</script></body></html>\n"

@@ -115,7 +115,7 @@ class Entry:
     picture: Callable[[], Picture] | None = None
 
     def evidence(self, forms: Forms) -> Iterator[Evidence]:
-        """Evidence on any forms: dimensions first, then the judge's; forms it cannot evaluate speak against themselves."""
+        """Evidence on any forms: dimensions, then the judge's; forms it cannot evaluate speak against themselves."""
         yield _dimensions(forms, self.units, self.known)
         try:
             yield from self.judge(forms)

@@ -215,8 +215,8 @@ ENTRIES = (
     Entry(
         id="25", section="4.1", title="Equivalent curvature diameter of the crest", place=_PLACE, printed=_EQ25,
         units={"rho_k": "m"}, verdict="verified", judge=_judge_25, derive=_derive_25, effect=_effect_25,
-        reason="Twice the crest's radius of curvature, with m the number of crests and r_t the radius on which "
-        "k_c = m/r_t.",
+        reason="Twice the crest's radius of curvature, with m the number of crests and r_t the radius on which k_c = "
+               "m/r_t.",
     ),
     Entry(
         id="C_E", section="4.1", title="Contact compliance", place="below eq. 26", printed=_C_E,
@@ -227,7 +227,7 @@ ENTRIES = (
         id="26", section="4.1", title="Length of the contact", place=_PLACE, printed=_EQ26, units={"2x_m": "m"},
         verdict="approximation", judge=_judge_26, derive=_derive_26, effect=_effect_26,
         picture=_picture_26,
-        reason="Hertz's line contact with sqrt(8/pi) rounded to 1.6; its premise, bodies far thicker than the "
-        "contact is long, does not hold for the layer.",
+        reason="Hertz's line contact with sqrt(8/pi) rounded to 1.6; its premise, bodies far thicker than the contact "
+               "is long, does not hold for the layer.",
     ),
 )  # fmt: skip

@@ -170,8 +170,8 @@ def _effect_29() -> str:
     crest = q["D"] * q["k_c"] * q["omega_q"] * q["W"]
     return (
         "None once the numerator's missing exponent 2 is put in. For the steady wave the surface runs at "
-        f"{figure(1000 * crest * mp.cos(q['theta']), 4)} mm/s at the ends of the contact, "
-        f"{figure(1000 * crest, 4)} mm/s at the crest."
+        f"{figure(1000 * crest * mp.cos(q['theta']), 4)} mm/s at the ends of the contact, {figure(1000 * crest, 4)} "
+        "mm/s at the crest."
     )
 
 
@@ -370,14 +370,14 @@ ENTRIES = (
         verdict="erratum", judge=_judge_30, derive=_derive_30, effect=_effect_30, repair=_repair_30,
         found_by=("dimension", "numeric", "domain"),
         reason="k_f is undefined and A_p the ceramic's section; the product has no dimension that eq. 31 could "
-        "integrate to a force, and nothing keeps the layer from pulling. A Winkler layer has E_m b_m/h_m.",
+               "integrate to a force, and nothing keeps the layer from pulling. A Winkler layer has E_m b_m/h_m.",
     ),
     Entry(
         id="31", section="4.1", title="Balance with the prepressure", place=_PLACE, printed=_EQ31,
         units={"F_c": "N"}, verdict="erratum", judge=_judge_31, derive=_derive_31, effect=_effect_31,
         repair=_repair_31, found_by=("numeric", "identity"),
-        reason="Sums over one half of one contact; the prepressure rests on both halves of all crests. Eq. 36, "
-        "which has the factor 2 m, contradicts it.",
+        reason="Sums over one half of one contact; the prepressure rests on both halves of all crests. Eq. 36, which "
+               "has the factor 2 m, contradicts it.",
     ),
     Entry(
         id="32", section="4.1", title="Pressure in the three regions", place=_PLACE, printed={},

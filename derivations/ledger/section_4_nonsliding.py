@@ -76,7 +76,7 @@ def _judge_33(forms: Forms) -> Iterator[Evidence]:
             found = complex(evaluate(form.rhs, {M_a: a, M_b: b, k_c: K}))
             worst = worse(worst, abs(K * found - at))
     yield evidence("numeric", worst < 1e-6, "the extrema in (-pi/2, 3 pi/2)/k_c, in order, by scanning v_x for all "
-                   f"signs of M_a, M_b: off by {worst:.1e} rad at most")  # fmt: skip
+                                            f"signs of M_a, M_b: off by {worst:.1e} rad at most")  # fmt: skip
     slopes = [(M_a * sp.cos(k_c * f.rhs) - M_b * sp.sin(k_c * f.rhs)) for f in forms.values()]
     yield evidence("identity", all(s.simplify() == 0 for s in slopes), "the slope of v_x vanishes in both rows")
 
@@ -170,8 +170,8 @@ def _effect_34() -> str:
     return (
         f"In T_redu the arcsine's argument comes out {figure(v['W'], 3)} times too small: for a rotor at half the "
         f"surface's {figure(1000 * speed)} mm/s the point moves by {figure(1000 * shift / v['k_c'], 3)} mm, to where "
-        f"the surface stands still. The rows give points in (-3 pi/2, pi/2)/k_c, not in the "
-        f"stated (-pi/2, 3 pi/2)/k_c: {100 * outside:.0f} % of 4000 random states leave it."
+        "the surface stands still. The rows give points in (-3 pi/2, pi/2)/k_c, not in the stated (-pi/2, 3 "
+        f"pi/2)/k_c: {100 * outside:.0f} % of 4000 random states leave it."
     )
 
 
@@ -261,12 +261,10 @@ def _tally_35(form: sp.Expr, count: int = 150) -> Counter[str]:
 def _judge_35(forms: Forms) -> Iterator[Evidence]:
     tally = _tally_35(forms["x_p"])
     total = sum(tally.values())
-    yield evidence("domain", not tally["none"], f"gives a point in {total - tally['none']} of {total} random "
-                                                f"states with "
-                   "one nonsliding point between crest and end")  # fmt: skip
-    yield evidence("numeric", not tally["wrong"], f"right in {tally['right']} of these, by scanning and "
-                                                  f"bisection; wrong "
-                   f"in {tally['wrong']}")  # fmt: skip
+    yield evidence("domain", not tally["none"], f"gives a point in {total - tally['none']} of {total} random states "
+                                                "with one nonsliding point between crest and end")  # fmt: skip
+    yield evidence("numeric", not tally["wrong"], f"right in {tally['right']} of these, by scanning and bisection; "
+                                                  f"wrong in {tally['wrong']}")  # fmt: skip
 
 
 def _effect_35() -> str:
@@ -295,16 +293,14 @@ ENTRIES = (
         id="34", section="4.2.2", title="Position of a nonsliding point", place=_PLACE, printed=_EQ34,
         units={"x_px_redu": "m", "x_px": "m"}, verdict="erratum", judge=_judge_34, derive=_derive_34,
         effect=_effect_34, known=transfer.DIMENSIONS, repair=_repair_34, found_by=("dimension", "numeric", "domain"),
-        reason="Lacks W_maxf in T_redu, where eq. 17 takes it out of M_a and M_b, and a row for M_a = 0 > M_b; "
-               "gives one "
-        "of two solutions.",
+        reason="Lacks W_maxf in T_redu, where eq. 17 takes it out of M_a and M_b, and a row for M_a = 0 > M_b; gives "
+               "one of two solutions.",
     ),
     Entry(
         id="35", section="4.2.2", title="The only nonsliding point", place=_PLACE, printed=_EQ35, units={"x_p": "m"},
         verdict="erratum", judge=_judge_35, derive=_derive_35, effect=_effect_35, known=transfer.DIMENSIONS,
         repair=lambda _: _derive_35().forms, found_by=("dimension", "domain", "numeric"),
         reason="Adds 2 pi to a length, leaves most states without a row, and uses the undefined phi_vm2. One "
-               "expression "
-        "replaces the table. Repeated rows are transcribed once; the text breaks off.",
+               "expression replaces the table. Repeated rows are transcribed once; the text breaks off.",
     ),
 )  # fmt: skip

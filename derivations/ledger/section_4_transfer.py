@@ -20,7 +20,7 @@ from derivations.ledger.friction_states import (
     states,
 )
 from derivations.ledger.history import Array, history, numeric, values
-from derivations.ledger.judge import figure, worse
+from derivations.ledger.judge import figure, largest, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, Picture, evidence, step
 from derivations.nomenclature import sym
 from trum_sym.units import parse_unit
@@ -148,7 +148,7 @@ def _judge_36(forms: Forms) -> Iterator[Evidence]:
     found = [float(integrals_done(form, _concrete(s))) / scale for s in chosen]
     brute = float(np.max([abs(f - brute_fraction(s, whole=True)) for f, s in zip(found, chosen, strict=True)]))
     yield evidence("numeric", brute < 1e-3, f"the friction of all elements summed by brute force: off by {brute:.1e} "
-                   "of mu F_c at most")  # fmt: skip
+                                            "of mu F_c at most")  # fmt: skip
     fractions = [float(closed(s.phi, s.c, s.theta)) for s in chosen]
     exact = float(np.max(np.abs(np.subtract(found, fractions))))
     yield evidence("derivation", exact < 1e-10, f"the closed form of the friction fraction: off by {exact:.1e}")
@@ -168,10 +168,10 @@ def _effect_36() -> str:
     signs = float((np.sign(half) != np.sign(whole)).mean())
     return (
         "Over the periodic cycle at Table 4's mean speed, with a contact half-angle from "
-        f"{figure(float(zone.min()), 3)} to {figure(float(zone.max()), 3)} rad: the doubled half differs from "
-        f"the whole by {figure(rms * rub, 3)} N rms and "
-        f"{figure(worst * rub, 3)} N at most of {figure(rub)} N, has the wrong sign {100 * signs:.1f} % of the time, "
-        f"and a mean of {figure(float(half.mean()) * rub, 3)} N where it is {figure(float(whole.mean()) * rub, 3)} N."
+        f"{figure(float(zone.min()), 3)} to {figure(float(zone.max()), 3)} rad: the doubled half differs from the "
+        f"whole by {figure(rms * rub, 3)} N rms and {figure(worst * rub, 3)} N at most of {figure(rub)} N, has the "
+        f"wrong sign {100 * signs:.1f} % of the time, and a mean of {figure(float(half.mean()) * rub, 3)} N where it "
+        f"is {figure(float(whole.mean()) * rub, 3)} N."
     )
 
 
@@ -303,9 +303,8 @@ def _derive_38() -> Derivation:
     energy, power = J * _omega**2 / 2, f_nall * r_c * _omega - T_load * _omega
     return Derivation(
         (
-            step("The rotor's kinetic energy grows by the power of the friction at the contact radius, where "
-                 "its surface "
-                 "runs at r_c omega_p, less that of the load:", sp.Eq(sp.Derivative(energy, t), power)),
+            step("The rotor's kinetic energy grows by the power of the friction at the contact radius, where its "
+                 "surface runs at r_c omega_p, less that of the load:", sp.Eq(sp.Derivative(energy, t), power)),
             step("Over omega_p that is the balance of torques:", _EQ38["balance"],
                  zero=sp.expand(energy.diff(t) - power - _omega * (J * _omega.diff(t) - f_nall * r_c + T_load))),
             step("The same with the closed form of the friction:", sp.Eq(_omega.diff(t), transfer.torque_balance()),
@@ -375,7 +374,7 @@ def _judge_reverse(forms: Forms) -> Iterator[Evidence]:
         found = float(forms["f_nall"].subs(known))
         way = "forward" if s.c > 0 else "reverse"
         worst[way] = worse(worst[way], abs(found - brute_fraction(s, whole=True, steps=20001)))
-    yield evidence("numeric", max(worst.values()) < 1e-9, "the signed sum of eq. 36, off by "
+    yield evidence("numeric", largest(worst.values()) < 1e-9, "the signed sum of eq. 36, off by "
                    + ", ".join(f"{error:.2g} {way}" for way, error in worst.items()) + " of mu F_c")  # fmt: skip
     backward = forms["f_nall"].subs({f_t: 1, f_b: 0, v_xp: -1})
     yield evidence("limit", backward == -1, "a reverse rotor driven on its whole contact is pushed along -x")
@@ -392,11 +391,12 @@ def _effect_reverse() -> str:
 ENTRIES = (
     Entry(
         id="36", section="4.2.3", title="Friction on the rotor", place="Sect. 4.2.3", printed=_EQ36, units={"f_n": "N"},
-        verdict="erratum", judge=_judge_36, derive=_derive_36, effect=_effect_36, known=transfer.DIMENSIONS, picture=_picture_36,
+        verdict="erratum", judge=_judge_36, derive=_derive_36, effect=_effect_36, picture=_picture_36,
+        known=transfer.DIMENSIONS,
         repair=lambda forms: {key: _whole_zone(form) for key, form in forms.items()},
         found_by=("numeric", "derivation"),
-        reason="Twice the right half of the contact is the whole only where v_x is even about the crest; in a beat the "
-        "crest's height changes and it is not.",
+        reason="Twice the right half of the contact is the whole only where v_x is even about the crest; in a beat "
+               "the crest's height changes and it is not.",
     ),
     Entry(
         id="37", section="4.2.3", title="Sign of the friction", place="Sect. 4.2.3", printed=_EQ37, units={"sign": "1"},

@@ -107,9 +107,9 @@ def _judge_40(forms: Forms) -> Iterator[Evidence]:
 def _effect_40() -> str:
     p = values()
     return (
-        "Follows from the sampling: samples every 2 ms (Sect. 8.2) average the "
-        f"{figure(1e3 * p['T'])} ms cycle away, so Table 4's 17.3 % and a volatility within the cycle are different "
-        "figures. It has no bound as the mean speed crosses 0."
+        f"Follows from the sampling: samples every 2 ms (Sect. 8.2) average the {figure(1e3 * p['T'])} ms cycle away, "
+        "so Table 4's 17.3 % and a volatility within the cycle are different figures. It has no bound as the mean "
+        "speed crosses 0."
     )
 
 
