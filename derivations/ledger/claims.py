@@ -82,6 +82,11 @@ def _phasor_shares() -> dict[str, float]:
     return {"share_redu": float(redu.mean()), "share_addredu": float(addredu.mean())}
 
 
+def _repair_half(forms: Forms) -> Forms:
+    """The measured share in place of one half."""
+    return {**forms, "share_addredu": forms["share_addredu"] * 2 * sp.Float(_forward_shares()["share_addredu"])}
+
+
 def _judge_half(forms: Forms) -> Iterator[Evidence]:
     exact, slow = _forward_shares(), _phasor_shares()
     listed = ", ".join(f"{key} {value:.3f}" for key, value in exact.items())
@@ -360,6 +365,11 @@ def _derive_add() -> Derivation:
     )  # fmt: skip
 
 
+def _repair_add(forms: Forms) -> Forms:
+    """Half the difference of the frequencies in place of half their sum, as the envelope's magnitude has it."""
+    return {"T_beat": forms["T_beat"] * (omega_q + omega_n) / (2 * (omega_q - omega_n))}
+
+
 def _judge_add(forms: Forms) -> Iterator[Evidence]:
     p = values()
     time = np.linspace(0, 1e-3, 400001)
@@ -391,7 +401,7 @@ ENTRIES = (
         "claim-half-beat", section="3.5", place="Sect. 3.5, Appendix A", printed=_SHARES, verdict="erratum",
         title="'The time for both phases is half of the beat period'",
         judge=_judge_half, derive=_derive_half, effect=_effect_half,
-        repair=lambda forms: {**forms, "share_addredu": sp.Float(f"{_forward_shares()['share_addredu']:.3f}")},
+        repair=_repair_half,
         found_by=("numeric", "limit"),
         reason="True for constant amplitudes and, nearly, in T_redu; in T_addredu one third turns forward, two "
                "thirds backward.",
@@ -430,7 +440,7 @@ ENTRIES = (
     _entry(
         "claim-add-beat", section="5.2.3", place="Sect. 5.2.3", title="Beat period in T_addT", printed=_ADD,
         units={"T_beat": "s"}, verdict="erratum", judge=_judge_add, derive=_derive_add, effect=_effect_add,
-        repair=lambda _: _derive_add().forms, found_by=("numeric", "limit"),
+        repair=_repair_add, found_by=("numeric", "limit"),
         reason="4 pi/(omega_q + omega_n) is the period of the vibration itself, not of its envelope.",
     ),
 )  # fmt: skip

@@ -5,12 +5,13 @@ from __future__ import annotations
 import json
 import sys
 import time
+from collections import Counter
 from typing import Any
 
 from derivations.emit import GENERATED
 from derivations.ledger import ENTRIES, entry
 from derivations.ledger.model import Entry, confirm
-from derivations.ledger.mutate import MUTATED, try_mutants
+from derivations.ledger.mutate import MUTATED, Outcome, try_misreadings, try_mutants
 from derivations.ledger.report import record
 from trum_sym.ledger import table, written_out
 
@@ -39,27 +40,33 @@ def as_json(records: list[dict[str, Any]]) -> str:
     return json.dumps(records, indent=1, ensure_ascii=False) + "\n"
 
 
+def _tally(what: str, outcomes: list[tuple[str, Outcome]]) -> int:
+    """Print the counts and every survivor; returns the number of survivors."""
+    kinds = Counter(o.rejected_by.kind for _, o in outcomes if o.rejected_by is not None)
+    survivors = [(name, o.mutant) for name, o in outcomes if o.survives]
+    equivalent = sum(o.equivalent for _, o in outcomes)
+    discarded = sum(o.discarded for _, o in outcomes)
+    by_kind = ", ".join(f"{count} by {kind}" for kind, count in kinds.most_common())
+    print(
+        f"{len(outcomes)} {what}: {kinds.total()} rejected ({by_kind}), {equivalent} proved equivalent, "
+        f"{discarded} in what the correction discards, {len(survivors)} surviving"
+    )
+    for name, mutant in survivors:
+        print(f"surviving ({name}) {mutant.name}: {mutant.slip}")
+    return len(survivors)
+
+
 def check_mutants(entries: tuple[Entry, ...]) -> int:
-    """Try all mutants; prints the counts and every survivor, returns 1 if one is neither rejected nor equivalent."""
-    total = rejected = equivalent = 0
-    by_kind: dict[str, int] = {}
-    survivors = []
+    """Try all mutants and misreadings; returns 1 if one is neither rejected nor equivalent."""
+    standing: list[tuple[str, Outcome]] = []
+    printed: list[tuple[str, Outcome]] = []
     for candidate in (e for e in entries if e.verdict in MUTATED):
-        start = time.perf_counter()
-        outcomes = try_mutants(candidate)
-        for outcome in outcomes:
-            if outcome.rejected_by is not None:
-                rejected += 1
-                by_kind[outcome.rejected_by.kind] = by_kind.get(outcome.rejected_by.kind, 0) + 1
-            elif outcome.equivalent:
-                equivalent += 1
-            else:
-                survivors.append(f"({candidate.id}) {outcome.mutant.name}: {outcome.mutant.slip}")
-        total += len(outcomes)
-        _progress(f"({candidate.id}) {len(outcomes)} mutants, {time.perf_counter() - start:.1f} s")
-    kinds = ", ".join(f"{count} by {kind}" for kind, count in sorted(by_kind.items(), key=lambda item: -item[1]))
-    print(f"{total} mutants: {rejected} rejected ({kinds}), {equivalent} proved equivalent, {len(survivors)} surviving")
-    print("".join(f"surviving {line}\n" for line in survivors), end="")
+        start, before = time.perf_counter(), len(standing) + len(printed)
+        standing += [(candidate.id, outcome) for outcome in try_mutants(candidate)]
+        printed += [(candidate.id, outcome) for outcome in try_misreadings(candidate)]
+        count = len(standing) + len(printed) - before
+        _progress(f"({candidate.id}) {count} slips, {time.perf_counter() - start:.1f} s")
+    survivors = _tally("mutants of what stands", standing) + _tally("misreadings of misprints", printed)
     return 1 if survivors else 0
 
 

@@ -39,7 +39,7 @@ def _repair_7(forms: Forms) -> Forms:
     lever = (h_e + h_p / 2 - D) / (D / 2)
     return {
         "W_max": forms["W_max"],
-        "M_1": forms["M_1"].subs({A_p: 1, rho_p: rho * A + rho * I_z * beta**2}),
+        "M_1": forms["M_1"] / (A_p * rho_p) * (rho * A + rho * I_z * beta**2),
         "A_zm": forms["A_zm"].subs(d_31, sp.Abs(d_31)) * lever * beta / (2 * sp.pi / lam),
         "lambda": forms["lambda"] * 2,
     }

@@ -161,8 +161,9 @@ def _corrected_5() -> Forms:
 
 
 def _repair_5(forms: Forms) -> Forms:
-    cross = k_f * w + k_f * rho * I_z / SHEAR * w.diff(t, 2) - k_f * E * I_z / SHEAR * w.diff(x, 2)
-    return {**forms, "beam": sp.Eq(forms["beam"].lhs.subs(k_ds, 0) + cross, 0)}
+    """k_f for k_ds, and the two terms of the foundation that were dropped."""
+    cross = k_f * rho * I_z / SHEAR * w.diff(t, 2) - k_f * E * I_z / SHEAR * w.diff(x, 2)
+    return {**forms, "beam": sp.Eq(forms["beam"].lhs.subs(k_ds, k_f) + cross, forms["beam"].rhs)}
 
 
 def _derive_5() -> Derivation:
@@ -291,10 +292,11 @@ _EQ6: Forms = {
 
 
 def _repair_6(forms: Forms) -> Forms:
-    upper, lower = sp.fraction(forms["omega_n"] ** 2)
-    lower = rho * A + sp.expand(lower - rho * A) * E * I_z + k_f * rho * I_z / SHEAR
-    upper = upper.subs(k_dx, k_f) + k_f * E * I_z * k_c**2 / SHEAR
-    return {"omega_n": sp.sqrt(upper / lower)}
+    """k_f for k_dx and its two lost terms, and the factor E I_z of the second term below."""
+    above, below = sp.fraction(forms["omega_n"] ** 2)
+    lower = rho * A + sp.expand(below - rho * A) * E * I_z + k_f * rho * I_z / SHEAR
+    upper = above.subs(k_dx, k_f) + k_f * E * I_z * k_c**2 / SHEAR
+    return {"omega_n": forms["omega_n"] * sp.sqrt(upper * below / (lower * above))}
 
 
 def _derive_6() -> Derivation:

@@ -316,6 +316,7 @@ def _judge_15(forms: Forms) -> Iterator[Evidence]:
                     close = -worse(-close, -abs(_ratio(name, difference, time + length / part) - now))
     if forms["T_add"].subs(add, 0) != sp.oo:
         problems.append("T_add divides by Delta_omega_add = 0")
+        off = worse(off, abs(mp.mpmathify(sp.N(forms["T_add"].subs(add, 3), 40)) * 3 / (2 * mp.pi) - 1))
     yield evidence("domain", not problems, "; ".join(problems) or "positive periods, none where there is no beat")
     yield evidence("numeric", off < mp.mpf(10) ** -25 and close > mp.mpf("0.05"),
                    "for constant amplitudes the phases' vectors stand to each other as before after T_redu and "

@@ -11,11 +11,7 @@ import numpy as np
 import sympy as sp
 
 from derivations import transfer
-from derivations.ledger.friction_states import (
-    K,
-    State,
-    states,
-)
+from derivations.ledger.friction_states import K, State, states
 from derivations.ledger.history import history, values
 from derivations.ledger.judge import evaluate, figure, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
@@ -60,8 +56,8 @@ def _extrema(a: float, b: float) -> list[float]:
             low, high = grid[i - 1], grid[i + 1]
             for _ in range(80):
                 one, two = low + (high - low) / 3, high - (high - low) / 3
-                worse = abs(a * math.sin(one) + b * math.cos(one)) < abs(a * math.sin(two) + b * math.cos(two))
-                low, high = (one, high) if worse else (low, two)
+                lower = abs(a * math.sin(one) + b * math.cos(one)) < abs(a * math.sin(two) + b * math.cos(two))
+                low, high = (one, high) if lower else (low, two)
             found.append((low + high) / 2)
     return found
 

@@ -310,7 +310,7 @@ ENTRIES = (
     _entry(
         "isotropy", title="E, G and mu of one material", printed=_SHEAR, units={"G_e": "Pa", "G_p": "Pa"},
         verdict="erratum", judge=_judge_shear, derive=_derive_shear, effect=_effect_shear,
-        repair=lambda forms: {key: _shear(key) * form / form.subs(unit("Pa"), 1) for key, form in forms.items()},
+        repair=lambda forms: {key: form * _shear(key) / usual()[key] for key, form in forms.items()},
         found_by=("numeric", "domain"),
         reason="E = 2 G (1 + mu) fails by a fifth for both materials; E and G would need a Poisson's ratio above 0.5.",
     ),
