@@ -20,7 +20,7 @@ from derivations.ledger.judge import difference, evaluate, vanishes
 from derivations.ledger.model import Entry, Evidence, Forms
 from derivations.nomenclature import NOMENCLATURE
 
-__all__ = ["MUTATED", "Mutant", "Outcome", "mutants", "try_misreadings", "try_mutants"]
+__all__ = ["MUTATED", "Mutant", "Outcome", "equivalent", "mutants", "try_misreadings", "try_mutants"]
 
 MUTATED = ("verified", "erratum", "reconstructed")
 """Verdicts whose standing forms are mutated: printed and verified, corrected, reconstructed."""
@@ -154,11 +154,11 @@ def _differs(expr: sp.Basic) -> bool:
 
 
 @cache
-def _equivalent(mutated: sp.Basic, form: sp.Basic) -> bool:
+def equivalent(mutated: sp.Basic, form: sp.Basic) -> bool:
     """Whether a mutant is the same formula: equal branches, or an equation with the same solutions."""
     if isinstance(mutated, sp.Piecewise) and isinstance(form, sp.Piecewise):
         pairs = zip(mutated.args, form.args, strict=True)
-        return all(a[1] == b[1] and _equivalent(a[0], b[0]) for a, b in pairs)
+        return all(a[1] == b[1] and equivalent(a[0], b[0]) for a, b in pairs)
     if isinstance(form, sp.Equality):
         if not isinstance(mutated, sp.Equality):
             return False
@@ -185,7 +185,7 @@ def _try(entry: Entry, forms: Forms, rejects: Callable[[Forms], Evidence | None]
     for mutant in mutants(forms):
         against, pair = rejects(mutant.forms), (mutant.forms[mutant.name], forms[mutant.name])
         periodic = entry.units.get(mutant.name) in ("rad", "m")
-        same = against is None and (_equivalent(*pair) or (periodic and _whole_turns(*pair)))
+        same = against is None and (equivalent(*pair) or (periodic and _whole_turns(*pair)))
         outcomes.append(Outcome(mutant, against, same))
     return outcomes
 

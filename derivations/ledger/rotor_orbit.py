@@ -67,8 +67,8 @@ def _derive() -> Derivation:
                  "p(phi - a))/(R sin a):", inside, zero=sp.simplify(f.diff(a) * (-1 / (R_v * sp.sin(a))) - inside)),
             step("An end outside the contact, where p = 0, adds nothing, so for |v| < R, whatever the wave,",
                  sp.Eq(sp.Symbol("f_v"), forms["df_dv"])),
-            step("This is never positive, nor is it where the whole wave touches, with the density below for p. For v >= "
-                 "R friction is -1, for v <= -R it is +1: f never grows with v.",
+            step("This is never positive, nor is it where the whole wave touches, with the density below for p. For "
+                 "v >= R friction is -1, for v <= -R +1: f never grows with v.",
                  sp.Eq(sp.Symbol("p"), transfer.whole_wave_share().subs(sp.Max(-sp.pi, sp.Min(sp.pi, u)), u).diff(u))),
             step("Eq. 38 for the rim v = r_c omega_p: two rotors a small gap delta apart, c_f = r_c^2 mu F_c/J, follow",
                  sp.Eq(gap.diff(tau), rate * slope * gap), sp.Eq(sp.Symbol("delta/delta_0"), grown),
