@@ -6,6 +6,7 @@ only one derivation works with are made there.  ``CLASHES`` lists the letters th
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, fields
 
 import sympy as sp
@@ -283,6 +284,10 @@ def sym(names: str) -> tuple[sp.Symbol, ...]:
     return tuple(NOMENCLATURE[name].symbol for name in names.split())
 
 
+_INTERVAL = re.compile(r"\\text\{for\}\\: t \\geq (t_\d) \\wedge t \\leq (t_\d)")
+
+
 def latex(expr: sp.Basic) -> str:
-    """LaTeX with the nomenclature's names."""
-    return str(sp.latex(expr, symbol_names=_LATEX, fold_short_frac=False, ln_notation=True))
+    """LaTeX with the nomenclature's names, intervals as the paper writes them."""
+    text = str(sp.latex(expr, symbol_names=_LATEX, fold_short_frac=False, ln_notation=True))
+    return _INTERVAL.sub(r"t \\in [\1, \2]", text)

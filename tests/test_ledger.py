@@ -226,6 +226,16 @@ def test_an_idle_judge_lets_mutants_survive():
     assert any(o.survives for o in try_mutants(idle))
 
 
+def test_a_surviving_mutant_is_1_and_is_named(capsys, monkeypatch):
+    idle = replace(entry("12"), judge=lambda _: [])
+    monkeypatch.setattr("derivations.ledger.command.entry", lambda _: idle)
+    assert verify("12", **options(mutants=True)) == 1
+    assert "surviving (12) A_Q: " in capsys.readouterr().out
+    monkeypatch.undo()
+    assert verify("12", **options(mutants=True)) == 0
+    assert "29 mutants of what stands: 29 rejected" in capsys.readouterr().out
+
+
 # --- symbols and command line -------------------------------------------------------------------------------
 def test_every_symbol_has_unit_latex_place_and_meaning():
     assert all(e.latex and e.where and e.meaning for e in NOMENCLATURE.values())

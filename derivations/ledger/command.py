@@ -6,6 +6,9 @@ import json
 import sys
 import time
 from collections import Counter
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
 from typing import Any
 
 from derivations.emit import GENERATED
@@ -40,6 +43,25 @@ def as_json(records: list[dict[str, Any]]) -> str:
     return json.dumps(records, indent=1, ensure_ascii=False) + "\n"
 
 
+def _slips(name: str) -> tuple[list[Outcome], list[Outcome], float]:
+    """What became of the mutants and misreadings of an entry, their forms left out, and the seconds it took."""
+    start, candidate = time.perf_counter(), entry(name)
+    found = [
+        [replace(outcome, mutant=replace(outcome.mutant, forms={})) for outcome in attempt(candidate)]
+        for attempt in (try_mutants, try_misreadings)
+    ]
+    return found[0], found[1], time.perf_counter() - start
+
+
+def _all_slips(names: list[str]) -> Iterator[tuple[list[Outcome], list[Outcome], float]]:
+    """The same for several entries, in their order, on all processors."""
+    if len(names) < 2:
+        yield from map(_slips, names)
+        return
+    with ProcessPoolExecutor() as pool:
+        yield from pool.map(_slips, names)
+
+
 def _tally(what: str, outcomes: list[tuple[str, Outcome]]) -> int:
     """Print the counts and every survivor; returns the number of survivors."""
     kinds = Counter(o.rejected_by.kind for _, o in outcomes if o.rejected_by is not None)
@@ -57,15 +79,14 @@ def _tally(what: str, outcomes: list[tuple[str, Outcome]]) -> int:
 
 
 def check_mutants(entries: tuple[Entry, ...]) -> int:
-    """Try all mutants and misreadings; returns 1 if one is neither rejected nor equivalent."""
+    """Try all mutants and misreadings, on all processors; returns 1 if one goes unnoticed that changes something."""
+    names = [e.id for e in entries if e.verdict in MUTATED]
     standing: list[tuple[str, Outcome]] = []
     printed: list[tuple[str, Outcome]] = []
-    for candidate in (e for e in entries if e.verdict in MUTATED):
-        start, before = time.perf_counter(), len(standing) + len(printed)
-        standing += [(candidate.id, outcome) for outcome in try_mutants(candidate)]
-        printed += [(candidate.id, outcome) for outcome in try_misreadings(candidate)]
-        count = len(standing) + len(printed) - before
-        _progress(f"({candidate.id}) {count} slips, {time.perf_counter() - start:.1f} s")
+    for name, (mutated, misread, seconds) in zip(names, _all_slips(names), strict=True):
+        standing += [(name, outcome) for outcome in mutated]
+        printed += [(name, outcome) for outcome in misread]
+        _progress(f"({name}) {len(mutated) + len(misread)} slips, {seconds:.1f} s")
     survivors = _tally("mutants of what stands", standing) + _tally("misreadings of misprints", printed)
     return 1 if survivors else 0
 

@@ -300,22 +300,30 @@ def _repair_6(forms: Forms) -> Forms:
 
 
 def _derive_6() -> Derivation:
-    a, b, c = beam.dispersion()
-    root = sp.sqrt(sp.expand(c) / sp.expand(b))
+    a, b, c = (sp.expand(coefficient) for coefficient in beam.dispersion())
+    root, lower = sp.sqrt(c / b), 2 * c / (b + sp.sqrt(b**2 - 4 * a * c))
     quartic = a * _omega**4 - b * _omega**2 + c
     wave = sp.cos(k_c * x) * sp.sin(_omega * t)
-    left = beam_equation().lhs.subs(w, wave).doit()
+    corrected = _corrected_5()
+    values = {sym(name)[0]: form for name, form in corrected.items() if name != "beam"}
+    left = corrected["beam"].lhs.subs(values)
     return Derivation(
         (
-            step("Eq. (4) put into eq. (5), foundation kept whole, leaves of every term a number times the same shape:",
-                 sp.Eq(quartic, 0), zero=sp.expand(left / wave - quartic)),
-            step("a_4 omega^4 is dropped, as the paper does without a word (its share is under `effect`). What is "
-                 "left is linear in omega^2:", sp.Eq(_omega**2 * b, c)),
-            step("Each term of the denominator carries the inertia it comes from. The printed one, rho (1/(kappa G) + "
-                 "1/E) k_c^2, lost a_2's factor E I_z, so that kg/m and s^2/m^4 would be added:",
+            step("Eq. (5) put right, with the foundation's two further terms, which arise where its force enters the "
+                 "elimination of the rotation from (3):", corrected["beam"],
+                 *(sp.Eq(symbol, form) for symbol, form in values.items()),
+                 zero=left - beam_equation().lhs),
+            step("The wave (4) put into it leaves of every term a number times the same shape; with omega for its "
+                 "frequency:", sp.Eq(w, wave), sp.Eq(quartic, 0),
+                 zero=sp.expand(left.subs(w, wave).doit() / wave - quartic)),
+            step("The paper drops a_4 omega^4 without a word (what that costs is under Effect). What is left is "
+                 "linear in omega^2:", sp.Eq(_omega**2 * b, c), zero=_omega**2 * b - c - (a * _omega**4 - quartic)),
+            step("Solved for omega. Each term below carries the inertia it comes from. The printed one, rho (1/(kappa "
+                 "G) + 1/E) k_c^2, lost a_2's factor E I_z, so that kg/m and s^2/m^4 would be added:",
                  sp.Eq(omega_n, root), zero=[root**2 * b - c, root**2 - beam.resonance()["eq6"] ** 2]),
-            step("The full quadratic in omega^2 has two roots; the lower one is the bending mode:",
-                 sp.Eq(omega_n, beam.resonance()["quartic"])),
+            step("With a_4 kept there are two roots omega^2; the lower one is the bending mode. It is what the figures "
+                 "under Effect call the full quartic:", sp.Eq(omega_n, beam.resonance()["quartic"]),
+                 zero=sp.radsimp(quartic.subs(_omega, sp.sqrt(lower)))),
         ),
         {"omega_n": root},
     )  # fmt: skip

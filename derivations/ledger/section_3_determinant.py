@@ -46,7 +46,10 @@ _EQ24: Forms = {
 }  # fmt: skip
 
 
-def _as_cosines() -> list[tuple[tuple[sp.Expr, sp.Expr], tuple[sp.Expr, sp.Expr]]]:
+_Pair = tuple[tuple[sp.Expr, sp.Expr], tuple[sp.Expr, sp.Expr]]
+
+
+def _as_cosines() -> list[_Pair]:
     """(amplitude, angle) of both phases as cosines in every region, from (9) and (10) put right."""
     found = []
     for of_A, of_B in zip(rows(EQ9["w_A"]), rows(corrected_10()["w_B"]), strict=True):
@@ -93,9 +96,8 @@ def _off_responses(form: sp.Basic, names: dict[str, mp.mpf]) -> mp.mpf:
     """Off (A8) from (9) and (10) put right, as vectors of their own values, relative."""
     (a, rate_a), (b, rate_b) = turning(EQ9["w_A"], names), turning(corrected_10()["w_B"], names)
     scale = names["D"] * names["k_c"] * abs(a) * abs(b) * (rate_a + rate_b) / 2
-    names = {**names, "Delta_omega_add": mp.mpf(700)}  # 0 by (14); the print carries it along
-    drift = 700 * (names["t"] - names["t_3"]) if form.has(_add) and names["t"] > names["t_3"] else 0
-    return abs(row_value(form, names) / scale - mp.sin(mp.arg(b / a) + drift))
+    value = row_value(form, {**names, "Delta_omega_add": mp.mpf(700)})  # 0 by (14), so nothing may hang on it
+    return abs(value / scale - mp.sin(mp.arg(b / a)))
 
 
 def _judge_24(forms: Forms) -> Iterator[Evidence]:
@@ -117,27 +119,40 @@ def _judge_24(forms: Forms) -> Iterator[Evidence]:
 
 
 def _repair_24(forms: Forms) -> Forms:
-    """Sign of the drift in T_addredu, minus before the bracket in T_add, amplitude of B from (10) put right."""
+    """Sign of the drift in T_addredu, minus before the bracket and no beat in T_add, amplitude of B from (10)."""
     first, second, third = rows(forms["Q_q"])
     drift = (omega_q - omega_n) / 2 * (t - t_2)
     wave = next(e for e in second.atoms(sp.sin) if e.has(t_2))
     back = wave.func(sp.expand(wave.args[0]) - 2 * sp.expand(drift))
     second = second.xreplace({wave: back}) * omega_q / omega_n
     lost = -mean * (t_3 - t_2) * (half_A + varphi_A - sp.pi / 2)
-    meant = -mean * (t_3 - t_2) - (half_A + varphi_A - sp.pi / 2)
+    meant = -mean * (t_3 - t_2) - (half_A + varphi_A - sp.pi / 2) - _add * (t - t_3)
     last = next(e for e in third.atoms(sp.sin) if e.has(t_3))
     third = third.xreplace({last: last.func(sp.expand(last.args[0] - lost + meant))})
     return {"Q_q": with_rows(forms["Q_q"], (first, second, third))}
 
 
+def _angles(region: int) -> list[sp.Eq]:
+    """Amplitudes and angles of both phases in a region, by name."""
+    (A, alpha), (B, beta) = _as_cosines()[region]
+    return [sp.Eq(W_a, A), sp.Eq(W_b, B), sp.Eq(sp.Symbol("alpha_A"), alpha), sp.Eq(sp.Symbol("alpha_B"), beta)]
+
+
+def _of_a8(pair: _Pair) -> sp.Expr:
+    """(A8) for amplitudes and angles of both phases."""
+    (A, alpha), (B, beta) = pair
+    return D * k_c * A * B * (sp.diff(alpha, t) + sp.diff(beta, t)) / 2 * sp.sin(beta - alpha)
+
+
 def _derive_24() -> Derivation:
     exact = determinant.determinant()
     forms = corrected_24()
-    alpha, beta_ = sp.symbols("alpha beta_", cls=sp.Function)
+    alpha, beta_ = sp.symbols("alpha_A alpha_B", cls=sp.Function)
     a, b = W_a * sp.cos(alpha(t)), W_b * sp.cos(beta_(t))
     put = exact.subs({w_A: a, w_B: b}).doit()
     da, db = alpha(t).diff(t), beta_(t).diff(t)
     half = D * k_c * W_a * W_b / 2
+    slow = half * (da + db) * sp.sin(beta_(t) - alpha(t))
     product = half * ((db - da) * sp.sin(alpha(t) + beta_(t)) + (da + db) * sp.sin(beta_(t) - alpha(t)))
     (al1, be1), (al2, be2), (al3, be3) = (tuple(angle for _, angle in pair) for pair in _as_cosines())
     return Derivation(
@@ -145,19 +160,22 @@ def _derive_24() -> Derivation:
             step("For any two phases the determinant (A5) with the displacements (11) is, wherever the particle is, "
                  "exactly",
                  sp.Eq(sym("Q_q")[0], exact)),
-            step("Two phases W_a cos(alpha), W_b cos(beta) of slowly varying amplitude give (A6):", product,
+            step("Two phases W_a cos(alpha_A), W_b cos(alpha_B) of slowly varying amplitude give (A6):", product,
                  zero=sp.expand(sp.expand_trig(put - product))),
-            step("The term with the sum of the angles is smaller by the ratio of difference to sum of the frequencies "
-                 "and averages out; what stays is (A8), D k_c W_a W_b times the mean frequency times sin(beta - "
-                 "alpha)."),
-            step("From t_1 to t_2 A is free and B forced; alpha and beta are", al1, be1,
+            step("The fast term, with the sum of the angles, is smaller by the ratio of the frequencies' difference "
+                 "to their sum and averages out. The slow one stays, which is (A8):", slow,
+                 zero=sp.expand(product - slow - half * (db - da) * sp.sin(alpha(t) + beta_(t)))),
+            step("From t_1 to t_2 A is free and B forced, (9) and (10) put right as cosines with the amplitudes "
+                 "before them; alpha_B - alpha_A grows with the whole difference of the frequencies:", *_angles(0),
                  zero=sp.expand(be1 - al1 - (omega_q - omega_n) * (t - t_1) - sp.pi / 2)),
-            step("From t_2 to t_3 A has the mean frequency, B is free and slower: beta - alpha falls, by half the "
-                 "difference; the print lets it rise.", al2, be2,
+            step("From t_2 to t_3 A has the mean frequency, B is free and slower: alpha_B - alpha_A falls, by half the "
+                 "difference; the print lets it rise. B starts with omega_q/omega_n times W_maxf (10):", *_angles(1),
                  zero=sp.expand(sp.diff(be2 - al2, t) + (omega_q - omega_n) / 2)),
-            step("From t_3 to t_4 both have the mean frequency and beta - alpha stands still but for the slow phases. "
-                 "The print lost a minus before its last bracket.", al3, be3, zero=sp.expand(sp.diff(be3 - al3, t))),
-            step("Put together:", *rows(forms["Q_q"])),
+            step("From t_3 to t_4 both have the mean frequency and alpha_B - alpha_A stands still but for the slow "
+                 "phases, so Delta_omega_add is 0. The print lost a minus before its last bracket.", *_angles(2),
+                 zero=sp.expand(sp.diff(be3 - al3, t))),
+            step("Put into (A8), region by region:", *(sp.Eq(sym("Q_q")[0], row) for row in rows(forms["Q_q"])),
+                 zero=[_of_a8(pair) - row for pair, row in zip(_as_cosines(), rows(forms["Q_q"]), strict=True)]),
         ),
         forms,
     )  # fmt: skip

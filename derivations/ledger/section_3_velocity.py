@@ -243,7 +243,7 @@ def _derive_rates(name: str) -> Callable[[], Derivation]:
                      derived["redu"], zero=derived["redu"] - repair["redu"]),
                 step("From t_2 to t_3:", derived["addredu"], zero=sp.expand(derived["addredu"] - repair["addredu"])),
                 step("From t_3 to t_4; a derivative of a sine brings its frequency down, which the print forgot. "
-                     "Amplitude and slow phase are held, what that costs is under `evidence`:", derived["add"],
+                     "Amplitude and slow phase are held, what that costs is under Evidence:", derived["add"],
                      zero=sp.expand(derived["add"] - repair["add"])),
             ),
             derived,
