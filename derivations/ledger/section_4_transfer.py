@@ -85,7 +85,7 @@ def _derive_36() -> Derivation:
             step("The tangential velocity D d2(zeta_z)/dx dt of eq. 11 becomes, about the crest,",
                  sp.Eq(sp.Symbol("v_xx"), speed),
                  zero=_about_the_crest() - sp.expand(speed.subs(states_at))),
-            step("Both terms together are one cosine, R cos(u - phi): the surface is fastest at phi from the crest.",
+            step("Both terms together are one cosine, R cos(u - phi): the surface is fastest at phi, below phi_v.",
                  sp.Eq(R_v, largest), sp.Eq(phi, angle),
                  zero=sp.simplify(largest * (sp.cos(u) * sp.cos(angle) + sp.sin(u) * sp.sin(angle)) - speed)),
             step("phi is 0 or pi only while the crest's height does not change. In a beat it does."),
