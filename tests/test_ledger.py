@@ -113,6 +113,25 @@ def test_an_erratum_needs_a_repair_that_passes_and_the_stated_kinds():
     assert not confirm(toy(**{**wrong, "found_by": ("identity",)}, repair=lambda f: {"x": f["x"] / 2})).confirmed
 
 
+def rows_of(head):
+    text = (ROOT / "docs" / "ledger.md").read_text("utf-8")
+    table = text[text.index(head) :].split("\n\n")[0].splitlines()[2:]
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in table]
+
+
+def test_the_docs_count_the_verdicts_of_the_ledger(records):
+    counted = Counter(r["verdict"] for r in records)
+    numbered = Counter(r["verdict"] for r in records if r["id"] in NUMBERED)
+    stated = {row[0]: (int(row[1]), int(row[2])) for row in rows_of("| verdict | entries")}
+    assert stated == {verdict: (count, numbered[verdict]) for verdict, count in counted.items()}
+    assert f"{len(records)} entries in all" in (ROOT / "docs" / "ledger.md").read_text("utf-8").replace("\n", " ")
+
+
+def test_the_docs_list_the_planted_slips():
+    stated = [(row[0], row[2].replace(" ", "_")) for row in rows_of("| equation | slip |")]
+    assert stated == [(name, by) for name, _, _, by in PLANTED]
+
+
 # --- errors planted in the transcription --------------------------------------------------------------------
 def put(old, new):
     return lambda form: form.xreplace({sp.sympify(old): sp.sympify(new)})

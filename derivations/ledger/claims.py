@@ -249,15 +249,14 @@ def _judge_contact(forms: Forms) -> Iterator[Evidence]:
     load = values()["F_c"]
     settled = [_settled(float(W_c), load) for start in STARTS for W_c in history(start).W_c[::200]]
     share = float(np.mean([abs(at) < 1e-3 and depth > 0 for at, depth in settled]))
-    yield evidence("numeric", abs(float(forms["share_in_contact"]) - share) < 1e-12, "the layer lowered until "
-                                                                                     "it carries the "
-                   f"load stands deepest on the crest at every moment, under any start: {100 * share:.0f} "
-                   f"%")  # fmt: skip
+    yield evidence("numeric", abs(float(forms["share_in_contact"]) - share) < 1e-12,
+                   "the layer lowered until it carries the load stands deepest on the crest at every moment, under "
+                   f"any start: {100 * share:.0f} %")  # fmt: skip
     depths = [_settled(values()["W"], factor * load)[1] for factor in (0.5, 1.0)]
     power = math.log(depths[1] / depths[0]) / math.log(2)
-    yield evidence("limit", abs(power - 2 / 3) < 0.02, f"the depth grows as the load to the power {power:.3f}, "
-                                                       f"2/3 for a short "
-                   "contact: it ends at no load, not before")  # fmt: skip
+    yield evidence("limit", abs(power - 2 / 3) < 0.02,
+                   f"the depth grows as the load to the power {power:.3f}, 2/3 for a short contact: it ends at no "
+                   "load, not before")  # fmt: skip
 
 
 def _effect_contact() -> str:
@@ -329,9 +328,9 @@ def _judge_beats(forms: Forms) -> Iterator[Evidence]:
     turns = int((np.sign(q[1:]) != np.sign(q[:-1])).sum())
     at = {m: 100, n: 55, Delta_omega: values()["Delta_omega"], omega_q: values()["omega_q"]}
     found = float(forms["beats_in_T_redu"].subs(at))
-    yield evidence("numeric", abs(found - turns / 2) < 0.5, f"Q changes sign {turns} times in T_redu for m = 100, n = "
-                                                            f"55 (steady start): {turns / 2:.1f} beats; stated "
-                                                            f"{found:.2f}")  # fmt: skip
+    yield evidence("numeric", abs(found - turns / 2) < 0.5,
+                   f"Q changes sign {turns} times in T_redu for m = 100, n = 55 (steady start): {turns / 2:.1f} "
+                   f"beats; stated {found:.2f}")  # fmt: skip
     longer = float(forms["beats_in_T_redu"].subs({**at, m: 145})) / found
     yield evidence("limit", abs(longer - 2) < 1e-12, "twice the pulses, twice the beats")
 
@@ -377,8 +376,9 @@ def _judge_add(forms: Forms) -> Iterator[Evidence]:
     nodes = time[1:-1][(size[1:-1] < size[:-2]) & (size[1:-1] <= size[2:])]
     seen = float(np.diff(nodes).mean())
     found = float(forms["T_beat"].subs({omega_q: p["omega_q"], omega_n: p["omega_n"]}))
-    yield evidence("numeric", abs(found / seen - 1) < 1e-4, f"nodes of two added vibrations follow every "
-                                                            f"{1e6 * seen:.1f} us; "
+    yield evidence("numeric", abs(found / seen - 1) < 1e-4,
+                   f"nodes of two added vibrations follow every "
+                   f"{1e6 * seen:.1f} us; "
                    f"stated {1e6 * found:.1f} us")  # fmt: skip
     near = abs(float(forms["T_beat"].subs({omega_q: 1.000001, omega_n: 1})))
     yield evidence("limit", near > 1e6, "grows without bound as the frequencies meet")
@@ -422,7 +422,7 @@ ENTRIES = (
     ),
     _entry(
         "claim-contact", section="5.3", place="Sects. 3.1, 5.3", title="The crest 'is always in contact'",
-                                                                       printed=_CONTACT,
+        printed=_CONTACT,
         verdict="verified", judge=_judge_contact, derive=_derive_contact, effect=_effect_contact,
         reason="Under a constant prepressure the crest always stands in the layer.",
     ),

@@ -172,10 +172,9 @@ def _judge(forms: Forms) -> Iterator[Evidence]:
                                           f"random states, off by {mp.nstr(off, 2)} s/m")  # fmt: skip
     rises = largest(brute_fraction(s, whole=True, steps=4001) - brute_fraction(slower, whole=True, steps=4001)
                     for s, slower in _slower(80))  # fmt: skip
-    yield evidence("domain", all(found <= 0 for found, _ in pairs) and rises <= 0, "never positive; and friction "
-                                                                                   "summed "
-                   f"point by point never grows from a slower rotor to a faster one, by {figure(rises)} at "
-                   "most")  # fmt: skip
+    yield evidence("domain", all(found <= 0 for found, _ in pairs) and rises <= 0,
+                   "never positive; and friction summed point by point never grows from a slower rotor to a faster "
+                   f"one, by {figure(rises)} at most")  # fmt: skip
     yield from _judge_lap(forms)
     yield from _judge_loads(forms)
 
@@ -215,9 +214,9 @@ def _judge_loads(forms: Forms) -> Iterator[Evidence]:
                    f"beyond r_c mu F_c = {figure(most)} N m every start loses at least the stated speed a lap, "
                    f"{figure(least[1.2])} m/s at 1.2 times, which the slowest loses exactly")  # fmt: skip
     back = _lap((-9.0, 9.0), 0.9)
-    yield evidence("continuity", bool(back[0] > 0 > back[1]), "below it a rotor far too slow is sped up and one far "
-                                                              "too "
-                   "fast slowed, so a speed in between repeats")  # fmt: skip
+    yield evidence("continuity", bool(back[0] > 0 > back[1]),
+                   "below it a rotor far too slow is sped up and one far too fast slowed, so a speed in between "
+                   "repeats")  # fmt: skip
 
 
 def _neutral() -> float:

@@ -103,14 +103,14 @@ def _off_responses(form: sp.Basic, names: dict[str, mp.mpf]) -> mp.mpf:
 def _judge_24(forms: Forms) -> Iterator[Evidence]:
     form = forms["Q_q"]
     near = worst(partial(_off_vectors, form))
-    yield evidence("numeric", largest(near.values()) < mp.mpf("0.02"), "off (A8) with the phases as complex vectors, "
-                                                                       f"in D k_c W^2 omega_q, by {shares(near)}; "
-                                                                       "allowed 2 %")  # fmt: skip
+    yield evidence("numeric", largest(near.values()) < mp.mpf("0.02"),
+                   "off (A8) with the phases as complex vectors, "
+                   f"in D k_c W^2 omega_q, by {shares(near)}; "
+                   "allowed 2 %")  # fmt: skip
     off = {r: largest(_off_responses(form, names) for names in anywhere(r, 3, "eq24")) for r in REGIONS}
-    yield evidence("identity", largest(off.values()) < mp.mpf(10) ** -8, "is (A8) for (9) and (10) put right, "
-                                                                         "whatever the supplement's amplitudes and "
-                                                                         f"phases: off by {shares(off)} of its "
-                                                                         "amplitude")  # fmt: skip
+    yield evidence("identity", largest(off.values()) < mp.mpf(10) ** -8,
+                   "is (A8) for (9) and (10) put right, whatever the supplement's amplitudes and phases: off by "
+                   f"{shares(off)} of its amplitude")  # fmt: skip
     found = worst(lambda cycle, region, time: abs(error_24(form, cycle, region, time)))
     yield evidence("error_size", largest(found.values()) < 0.5,
                    f"off the exact determinant, in D k_c W^2 omega_q, by {shares(found)}; allowed 50 %")  # fmt: skip

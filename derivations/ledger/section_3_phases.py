@@ -109,9 +109,9 @@ def _judge_response(name: str, phase: str) -> Callable[[Forms], Iterator[Evidenc
         form = forms[name]
         sums = largest(_off_the_sum(form, phase, names)
                        for region in _FORCED[phase] for names in anywhere(region, 3, f"sum {name}"))  # fmt: skip
-        yield evidence("identity", sums < mp.mpf(10) ** -25, "with the amplitude and the phase of the sum, whatever "
-                                                             "they are, it is the sum of forced and free motion, to "
-                                                             f"{mp.nstr(sums, 2)} of W")  # fmt: skip
+        yield evidence("identity", sums < mp.mpf(10) ** -25,
+                       "with the amplitude and the phase of the sum, whatever they are, it is the sum of forced and "
+                       f"free motion, to {mp.nstr(sums, 2)} of W")  # fmt: skip
         found = worst(_response_error(form, phase))
         yield evidence("error_size", largest(found.values()) < LIMIT,
                        f"off the response chained as complex exponentials, in W, by {shares(found)}; allowed 1 "

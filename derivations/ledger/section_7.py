@@ -111,8 +111,9 @@ def _judge_decay(forms: Forms) -> Iterator[Evidence]:
         fall = speed(peaks[0]) / speed(peaks[1])
         found = evaluate(forms["xi"], {ratio: fall, cycles: mp.mpf(5)})
     del displacement
-    yield evidence("numeric", abs(found - mp.mpf("0.006")) < 1e-12, "gives back 0.006 from two velocity peaks, "
-                                                                    "five periods "
+    yield evidence("numeric", abs(found - mp.mpf("0.006")) < 1e-12,
+                   "gives back 0.006 from two velocity peaks, "
+                   "five periods "
                    "apart, of the oscillator's free motion")  # fmt: skip
     d = sp.Symbol("d", positive=True)
     small = sp.series(forms["xi"].subs(ratio, sp.exp(d)), d, 0, 2)

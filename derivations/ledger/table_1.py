@@ -66,8 +66,8 @@ def _judge_r(forms: Forms) -> Iterator[Evidence]:
     yield evidence("numeric", abs(around - p["l_s"]) < 1.5e-4, f"2 pi R = {1000 * around:.1f} mm, the table's l_s is "
                    f"{1000 * p['l_s']:.1f} mm (pi taken as 3.14)")  # fmt: skip
     turns = p["n_j"] / radius * p["l_s"] / p["n_j"]  # k_c lambda, with nine waves on the perimeter
-    yield evidence("identity", abs(turns - 2 * np.pi) < 0.005, f"k_c = n_j/R times the wavelength is {turns:.4f}, 2 "
-                                                               "pi is needed")  # fmt: skip
+    yield evidence("identity", abs(turns - 2 * np.pi) < 0.005,
+                   f"k_c = n_j/R times the wavelength is {turns:.4f}, 2 pi is needed")  # fmt: skip
 
 
 def _effect_r() -> str:
@@ -147,12 +147,12 @@ def _judge_shear(forms: Forms) -> Iterator[Evidence]:
         principal = (1 + ratio) / modulus
         off[key] = 1 / (2 * _figure_of(form)) / principal - 1
         ratios[key] = modulus / (2 * _figure_of(form)) - 1
-    yield evidence("numeric", largest(abs(o) for o in off.values()) < 1e-12, "energy of pure shear is that of its "
-                                                                         "principal "
-                   "stresses: off by " + ", ".join(f"{key} {100 * o:+.1f} %" for key, o in off.items()))  # fmt: skip
-    yield evidence("domain", all(-1 < nu < 0.5 for nu in ratios.values()), "Poisson's ratio E/(2 G) - 1 lies "
-                                                                           "between -1 "
-                   "and 0.5: " + ", ".join(f"{key} {nu:.3f}" for key, nu in ratios.items()))  # fmt: skip
+    yield evidence("numeric", largest(abs(o) for o in off.values()) < 1e-12,
+                   "energy of pure shear is that of its principal stresses: off by "
+                   + ", ".join(f"{key} {100 * o:+.1f} %" for key, o in off.items()))  # fmt: skip
+    yield evidence("domain", all(-1 < nu < 0.5 for nu in ratios.values()),
+                   "Poisson's ratio E/(2 G) - 1 lies between -1 and 0.5: "
+                   + ", ".join(f"{key} {nu:.3f}" for key, nu in ratios.items()))  # fmt: skip
 
 
 def _effect_shear() -> str:
@@ -182,9 +182,9 @@ def _derive_density() -> Derivation:
 def _judge_density(forms: Forms) -> Iterator[Evidence]:
     found = {key: _figure_of(form) for key, form in forms.items()}
     hertz = resonance_with({key: found[key] for key in ("rho_e", "rho_p")}).real
-    yield evidence("numeric", abs(hertz / _MEASURED_HZ - 1) < 0.05, "with these figures in kg/m^3 the modelled "
-                                                                    f"resonance is {hertz / 1000:.2f} kHz, 39.703 kHz "
-                                                                    "was measured")  # fmt: skip
+    yield evidence("numeric", abs(hertz / _MEASURED_HZ - 1) < 0.05,
+                   f"with these figures in kg/m^3 the modelled resonance is {hertz / 1000:.2f} kHz, 39.703 kHz was "
+                   "measured")  # fmt: skip
     yield evidence("data", found == {"rho_e": 8900.0, "rho_p": 7500.0, "rho_m": 2100.0}
                    and all(1000 < value < 2.2e4 for value in found.values()),
                    "the figures that the motor file takes from the table, between water and osmium")  # fmt: skip
@@ -282,8 +282,9 @@ def _judge_voltage(forms: Forms) -> Iterator[Evidence]:
     amplitude = _figure_of(forms["U_s"])
     wave = amplitude * np.sin(np.linspace(0, 2 * np.pi, 10001))
     swing = float(wave.max() - wave.min())
-    yield evidence("numeric", abs(swing - 400) < 1e-3, f"as the amplitude of eq. 7 it swings by {swing:.0f} V; Sects. "
-                                                       "7.1 and 7.2 drive with 400 V peak to peak")  # fmt: skip
+    yield evidence("numeric", abs(swing - 400) < 1e-3,
+                   f"as the amplitude of eq. 7 it swings by {swing:.0f} V; Sects. 7.1 and 7.2 drive with 400 V peak "
+                   "to peak")  # fmt: skip
     yield evidence("data", amplitude in (200.0, 400.0), "400 V or half of it")
 
 

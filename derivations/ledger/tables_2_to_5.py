@@ -89,8 +89,8 @@ def _judge_2(forms: Forms) -> Iterator[Evidence]:
                                    f"{high:.4f}) at 95 %; residuals drawn anew {resampled['C_f'][0]:.3f} to "
                                    f"{resampled['C_f'][1]:.3f} and {resampled['varsigma'][0]:.4f} to "
                                    f"{resampled['varsigma'][1]:.4f}")  # fmt: skip
-    yield evidence("numeric", reachable_by_rounding(factor, exponent), "some amplitudes that round to Table 2 have "
-                                                                       "exactly this fit (linear program)")  # fmt: skip
+    yield evidence("numeric", reachable_by_rounding(factor, exponent),
+                   "some amplitudes that round to Table 2 have exactly this fit (linear program)")  # fmt: skip
     free = usual()["W_max"] * 1e6
     misses = factor * _FORCE**-exponent * free - _AMPLITUDE
     worst = int(np.abs(misses).argmax())
@@ -206,7 +206,7 @@ def _effect_5() -> str:
 ENTRIES = (
     Entry(
         id="table-2", section="7.1", title="Constants of the amplitude law", place="Table 2 and above",
-                                                                                   printed=_TABLE_2,
+        printed=_TABLE_2,
         units={}, verdict="empirical", judge=_judge_2, derive=_derive_2, effect=_effect_2,
         reason="Within the 95 % intervals of the fit, and exactly the fit of some amplitudes that round to the table.",
     ),
