@@ -24,7 +24,7 @@ _STYLE = """
   --wash: #1d2228; --link: #6cb0ff; --bad: #ff8f85; } }
 * { box-sizing: border-box; }
 body { font: 16px/1.5 system-ui, sans-serif; color: var(--ink); background: var(--page); margin: 0 auto;
-  max-width: 62rem; padding: 1rem; overflow-wrap: anywhere; }
+  max-width: 74rem; padding: 1rem; overflow-wrap: anywhere; }
 a, summary { color: var(--link); } h2 a { text-decoration: none; }
 header p { max-width: 48rem; } h1 { margin-bottom: .2rem; } h2 { margin: 0; font-size: 1.15rem; }
 .bar { position: sticky; top: 0; background: var(--page); border-bottom: 1px solid var(--line); padding: .5rem 0;

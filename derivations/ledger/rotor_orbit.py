@@ -40,7 +40,7 @@ def _forms() -> Forms:
     """Slope of the friction, gain of the lap, and what a load beyond the friction adds to the speed at least."""
     pressed = [sp.Max(0, sp.cos(phi + side * _OPENING, evaluate=False) - sp.cos(theta)) for side in (1, -1)]
     return {
-        "df_dv": -sum(pressed) / (_LOAD * sp.sqrt(R_v**2 - v**2)),
+        "df/dv": -sum(pressed) / (_LOAD * sp.sqrt(R_v**2 - v**2)),
         "gain": sp.exp(r_c**2 * mu * F_c / J * slope_sum),
         "least_change": r_c * (sp.Abs(T_load) - r_c * mu * F_c) * T / J,
     }
@@ -66,12 +66,12 @@ def _derive() -> Derivation:
             step("so with a nonsliding point at each end f falls by the pressure there, df/dv = -2 (p(phi + a) + "
                  "p(phi - a))/(R sin a):", inside, zero=sp.simplify(f.diff(a) * (-1 / (R_v * sp.sin(a))) - inside)),
             step("An end outside the contact, where p = 0, adds nothing, so for |v| < R, whatever the wave,",
-                 sp.Eq(sp.Symbol("f_v"), forms["df_dv"])),
+                 sp.Eq(sp.Symbol("f_v"), forms["df/dv"])),
             step("This is never positive, nor is it where the whole wave touches, with the density below for p. For "
                  "v >= R friction is -1, for v <= -R +1: f never grows with v.",
                  sp.Eq(sp.Symbol("p"), transfer.whole_wave_share().subs(sp.Max(-sp.pi, sp.Min(sp.pi, u)), u).diff(u))),
             step("Eq. 38 for the rim v = r_c omega_p: two rotors a small gap delta apart, c_f = r_c^2 mu F_c/J, follow",
-                 sp.Eq(gap.diff(tau), rate * slope * gap), sp.Eq(sp.Symbol("delta/delta_0"), grown),
+                 sp.Eq(gap.diff(tau), rate * slope * gap), sp.Eq(sp.Symbol(r"\delta/\delta_0"), grown),
                  zero=sp.simplify(grown.diff(tau).doit() - rate * slope * grown)),
             step("Over a lap of the drive cycle the gap is multiplied by the gain, with S the integral of f_v over the "
                  "lap. S <= 0, so the lap's map P(v) of start speeds is monotone with a slope between 0 and 1:",
@@ -157,7 +157,7 @@ def _capacity() -> float:
 
 def _slopes(forms: Forms) -> Iterator[tuple[mp.mpf, mp.mpf]]:
     """The form's slope and that of the closed form, taken numerically, at random states."""
-    form = sp.lambdify((v, R_v, phi, theta), forms["df_dv"], "mpmath")
+    form = sp.lambdify((v, R_v, phi, theta), forms["df/dv"], "mpmath")
     closed = sp.lambdify((transfer.phi, transfer.c, transfer.theta), transfer.friction_fraction(), "mpmath")
     for s in states(60, "orbit"):
         R = mp.mpf("1.3")
@@ -189,7 +189,7 @@ def _slower(count: int) -> Iterator[tuple[Any, Any]]:
 def _judge_lap(forms: Forms) -> Iterator[Evidence]:
     p, wave = values(), _at_table_3()
     seen, speed = _heavy(1e-3)
-    form = sp.lambdify((v, R_v, phi, theta), forms["df_dv"], "numpy")
+    form = sp.lambdify((v, R_v, phi, theta), forms["df/dv"], "numpy")
     slopes = form(np.clip(speed, -wave.R, wave.R) * (1 - 1e-12), wave.R, wave.phi, wave.theta)
     S = wave.step * float(slopes[np.abs(speed) < wave.R].sum())
     known = {r_c: p["r_c"], mu: p["mu"], F_c: p["F_c"], J: 200 * p["J"], slope_sum: S}
@@ -244,7 +244,7 @@ ENTRIES = (
     Entry(
         id="rotor-orbit", section="4.2.3", title="The rotor's periodic orbit exists, is unique and attracts",
         place="presumed by eq. 38, Figs. 18 and 20, not stated", printed={},
-        units={"df_dv": "s/m", "gain": "1", "least_change": "m/s"}, known=_KNOWN, verdict="reconstructed",
+        units={"df/dv": "s/m", "gain": "1", "least_change": "m/s"}, known=_KNOWN, verdict="reconstructed",
         reason="Friction never grows with the rotor's speed, so the lap of a drive cycle brings any two start speeds "
                "nearer: one orbit, reached from every start, unless the load exceeds r_c mu F_c (runaway) or friction "
                "is saturated at every moment of the lap (neutral interval).",
