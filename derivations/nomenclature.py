@@ -72,7 +72,23 @@ q_plus      | 1        | + | \sum Q_q^+ | eq. 43 | integral of the positive part
 q_minus     | 1        | + | \sum\vert Q_q^-\vert  | eq. 43 | integral of the magnitude of its negative part
 p_plus      | 1/s      | + | \sum\vert Q_q^+\vert ^2 | eq. 44 | integral of the square of the positive part
 p_minus     | 1/s      | + | \sum\vert Q_q^-\vert ^2 | eq. 44 | integral of the square of the negative part
-W_full      | m        | + | W_{full} | ours | wave height below which the Hertz width spans the whole wave
+W_full      | m        | + | W_{full} | ours | wave height below which the whole wave touches
+a_A_omega_n | m*s | r | \partial a_A/\partial \omega_n | ours | derivative of a_A by omega_n
+a_A_Delta_omega | m*s | r | \partial a_A/\partial \Delta\omega | ours | derivative of a_A by Delta_omega
+b_A_omega_n | m | r | \partial b_A/\partial \omega_n | ours | derivative of b_A by omega_n
+b_A_Delta_omega | m | r | \partial b_A/\partial \Delta\omega | ours | derivative of b_A by Delta_omega
+a_B_omega_n | m*s | r | \partial a_B/\partial \omega_n | ours | derivative of a_B by omega_n
+a_B_Delta_omega | m*s | r | \partial a_B/\partial \Delta\omega | ours | derivative of a_B by Delta_omega
+b_B_omega_n | m | r | \partial b_B/\partial \omega_n | ours | derivative of b_B by omega_n
+b_B_Delta_omega | m | r | \partial b_B/\partial \Delta\omega | ours | derivative of b_B by Delta_omega
+f_A_re_omega_n | m*s | r | \partial f_{A,re}/\partial \omega_n | ours | derivative of f_A_re by omega_n
+f_A_re_Delta_omega | m*s | r | \partial f_{A,re}/\partial \Delta\omega | ours | derivative of f_A_re by Delta_omega
+f_A_im_omega_n | m*s | r | \partial f_{A,im}/\partial \omega_n | ours | derivative of f_A_im by omega_n
+f_A_im_Delta_omega | m*s | r | \partial f_{A,im}/\partial \Delta\omega | ours | derivative of f_A_im by Delta_omega
+f_B_re_omega_n | m*s | r | \partial f_{B,re}/\partial \omega_n | ours | derivative of f_B_re by omega_n
+f_B_re_Delta_omega | m*s | r | \partial f_{B,re}/\partial \Delta\omega | ours | derivative of f_B_re by Delta_omega
+f_B_im_omega_n | m*s | r | \partial f_{B,im}/\partial \omega_n | ours | derivative of f_B_im by omega_n
+f_B_im_Delta_omega | m*s | r | \partial f_{B,im}/\partial \Delta\omega | ours | derivative of f_B_im by Delta_omega
 engagement_per_height | 1/m      | + | \epsilon' | ours | engagement over wave height
 f_A_re      | m        | r | f_{A,re} | ours | phasor of phase A's free motion at the start of a step, real part
 f_A_im      | m        | r | f_{A,im} | ours | its imaginary part
