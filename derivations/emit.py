@@ -8,12 +8,14 @@ import json
 import os
 import re
 from collections import Counter
+from collections.abc import Iterable
 from pathlib import Path
 
 import casadi as ca
 import mpmath as mp
 import sympy as sp
 
+from derivations import collocation
 from derivations.dimensions import DimensionError, dimension
 from derivations.kernels import Kernel, kernels
 from derivations.nomenclature import CONSTANTS, NOMENCLATURE
@@ -164,6 +166,34 @@ def _quadrature() -> str:
     )
 
 
+def _collocation() -> str:
+    """The rule of the rotor's time steps, to 20 digits."""
+
+    def row(values: Iterable[sp.Expr]) -> str:
+        return "{" + ", ".join(str(sp.N(value, 20)) for value in values) + "}"
+
+    def table(matrix: sp.Matrix) -> str:
+        return "{" + ", ".join(row(matrix.row(i)) for i in range(matrix.rows)) + "}"
+
+    return "\n".join(
+        [
+            f"/* {_NOTE} */",
+            "/* Collocation at Lobatto's nodes on [0, 1]; weights of the values at the nodes in: */",
+            f"#define TRUM_COLLOCATION_NODES {collocation.COUNT}",
+            f"#define TRUM_COLLOCATION_POINTS {row(collocation.nodes())}",
+            "/* the integral up to each node */",
+            f"#define TRUM_COLLOCATION_INTEGRALS {table(collocation.integrals())}",
+            "/* the coefficient of each power */",
+            f"#define TRUM_COLLOCATION_POWERS {table(collocation.powers())}",
+            "/* the coefficient of each shifted Legendre polynomial */",
+            f"#define TRUM_COLLOCATION_LEGENDRE {table(collocation.legendre())}",
+            "/* the value at the first node, without its own */",
+            f"#define TRUM_COLLOCATION_OUTWARD {row(collocation.outward())}",
+            "",
+        ]
+    )
+
+
 def _elementary() -> str:
     """Coefficients of elementary functions over lanes, to 17 digits.
 
@@ -218,6 +248,7 @@ def render() -> dict[str, str]:
     files["trum_lanes.h"] = _lanes(files)
     files["trum_quadrature.h"] = _quadrature()
     files["trum_elementary.h"] = _elementary()
+    files["trum_collocation.h"] = _collocation()
     versions = {"casadi": ca.CasadiMeta.version(), "sympy": sp.__version__}
     files["manifest.json"] = json.dumps({"generator": versions, "kernels": manifest}, indent=1) + "\n"
     return dict(sorted(files.items()))

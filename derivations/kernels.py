@@ -184,8 +184,18 @@ def _rotor() -> list[Kernel]:
         Kernel(
             "trum_rotor_coefficients",
             "What the steps of a point share (eqs. 25, 26, 38)",
-            {**rotor.coefficients(), "W_full": rotor.hertz_full_height()},
-            {"engagement_per_height": "1/m", "push": "m/s^2", "drag": "m/s^2", "W_full": "m"},
+            {
+                **rotor.coefficients(),
+                "W_full_hertz": rotor.hertz_full_height(),
+                "W_full_winkler": rotor.winkler_full_height(),
+            },
+            {
+                "engagement_per_height": "1/m",
+                "push": "m/s^2",
+                "drag": "m/s^2",
+                "W_full_hertz": "m",
+                "W_full_winkler": "m",
+            },
         ),
         Kernel("trum_wave", "Wave height and surface speed (eqs. 11, 16, 20)", rotor.wave(), wave_units),
         Kernel(
@@ -211,9 +221,9 @@ def _rotor() -> list[Kernel]:
         ),
         Kernel(
             "trum_friction",
-            "Net friction fraction and its slope (eqs. 33 to 37)",
+            "Net friction fraction, its slope, pressure where the surface is as fast as the rotor (eqs. 33 to 37)",
             rotor.friction(),
-            {"f": "1", "f_v": "s/m"},
+            {"f": "1", "f_v": "s/m", "p_1": "1", "p_2": "1"},
         ),
     ]
 

@@ -28,6 +28,7 @@ __all__ = [
     "rotation",
     "stall_torque",
     "wave",
+    "winkler_full_height",
 ]
 
 omega_n, Delta_omega, xi, tau = sym("omega_n Delta_omega xi tau")
@@ -122,6 +123,11 @@ def hertz_full_height() -> sp.Expr:
     return hertz_half_angle() ** 2 * W / sp.pi**2
 
 
+def winkler_full_height() -> sp.Expr:
+    """Wave height below which the whole wave touches the Winkler layer: fullness 1 (eq. 31)."""
+    return 1 / (sp.pi * coefficients()["engagement_per_height"])
+
+
 def filling() -> dict[str, sp.Expr]:
     """Engagement of the layer, and how full the contact is: 1 when the whole wave touches, W_c small (eq. 31)."""
     engaged = engagement_per_height * W_c
@@ -189,10 +195,12 @@ def friction() -> dict[str, sp.Expr]:
 
     The surface is faster than the rotor between phi - alpha and phi + alpha, cos alpha = v / R_v.  With C(u) the
     pressure's cumulative share, continued over the crests, f = 2 (C(phi + alpha) - C(phi - alpha)) - 1: f = -1 for a
-    rotor faster than all of the surface, +1 for one slower.
+    rotor faster than all of the surface, +1 for one slower.  p_1 and p_2 are the pressure at the two points over its
+    mean (0 and below: not in contact), whose changes of sign are kinks of f.
     """
     ratio = sp.Max(-1, sp.Min(1, v / (R_v + TINY)))
-    alpha, sine = sp.acos(ratio), sp.sqrt(1 - ratio**2)
+    sine = sp.sqrt(1 - ratio**2)
+    alpha = sp.atan2(sine, ratio)
     shares, pressures = [], []
     for sign in (1, -1):
         u = phi + sign * alpha
@@ -205,8 +213,9 @@ def friction() -> dict[str, sp.Expr]:
         clipped = inside * wrapped + (1 - inside) * side * theta
         sin_clipped = inside * sin_u + (1 - inside) * side * sin_theta
         shares.append(turns + (engagement * sin_clipped + share * clipped) / 2)
-        pressures.append(sp.Max(0, engagement * cos_u + share) / 2)
+        pressures.append(engagement * cos_u + share)
     net = 2 * (shares[0] - shares[1]) - 1
     moving = less(sp.Abs(v), R_v)
-    slope = -2 * moving * (pressures[0] + pressures[1]) / (R_v * sine + TINY)
-    return {"f": net, "f_v": slope}
+    pressed = sum(sp.Max(0, pressure) / 2 for pressure in pressures)
+    slope = -2 * moving * pressed / (R_v * sine + TINY)
+    return {"f": net, "f_v": slope, "p_1": pressures[0], "p_2": pressures[1]}

@@ -99,7 +99,7 @@ enum { trum_rotation_out_e_re, trum_rotation_out_e_im, trum_rotation_out_d_re, t
 /* What the steps of a point share (eqs. 25, 26, 38) */
 int trum_rotor_coefficients(const double** arg, double** res, long long int* iw, double* w, int mem);
 enum { trum_rotor_coefficients_in_E_eq, trum_rotor_coefficients_in_E_m, trum_rotor_coefficients_in_F_c, trum_rotor_coefficients_in_J, trum_rotor_coefficients_in_T_load, trum_rotor_coefficients_in_b_m, trum_rotor_coefficients_in_k_N, trum_rotor_coefficients_in_k_c, trum_rotor_coefficients_in_mu, trum_rotor_coefficients_in_mu_e, trum_rotor_coefficients_in_mu_m, trum_rotor_coefficients_in_n_j, trum_rotor_coefficients_in_r_c, trum_rotor_coefficients_in_r_t, trum_rotor_coefficients_n_arg };
-enum { trum_rotor_coefficients_out_engagement_per_height, trum_rotor_coefficients_out_push, trum_rotor_coefficients_out_drag, trum_rotor_coefficients_out_W_full, trum_rotor_coefficients_n_res };
+enum { trum_rotor_coefficients_out_engagement_per_height, trum_rotor_coefficients_out_push, trum_rotor_coefficients_out_drag, trum_rotor_coefficients_out_W_full_hertz, trum_rotor_coefficients_out_W_full_winkler, trum_rotor_coefficients_n_res };
 
 /* Wave height and surface speed (eqs. 11, 16, 20) */
 int trum_wave(const double** arg, double** res, long long int* iw, double* w, int mem);
@@ -126,10 +126,10 @@ int trum_stall_torque(const double** arg, double** res, long long int* iw, doubl
 enum { trum_stall_torque_in_F_c, trum_stall_torque_in_f, trum_stall_torque_in_mu, trum_stall_torque_in_r_c, trum_stall_torque_n_arg };
 enum { trum_stall_torque_out_torque, trum_stall_torque_n_res };
 
-/* Net friction fraction and its slope (eqs. 33 to 37) */
+/* Net friction fraction, its slope, pressure where the surface is as fast as the rotor (eqs. 33 to 37) */
 int trum_friction(const double** arg, double** res, long long int* iw, double* w, int mem);
 enum { trum_friction_in_R_v, trum_friction_in_cos_phi, trum_friction_in_engagement, trum_friction_in_phi, trum_friction_in_share, trum_friction_in_sin_phi, trum_friction_in_sin_theta, trum_friction_in_theta, trum_friction_in_v, trum_friction_n_arg };
-enum { trum_friction_out_f, trum_friction_out_f_v, trum_friction_n_res };
+enum { trum_friction_out_f, trum_friction_out_f_v, trum_friction_out_p_1, trum_friction_out_p_2, trum_friction_n_res };
 
 /* name, number of inputs and outputs, their names */
 #define TRUM_KERNELS(X) \
@@ -151,13 +151,13 @@ enum { trum_friction_out_f, trum_friction_out_f_v, trum_friction_n_res };
   X(trum_measures, 5, 4, "T p_minus p_plus q_minus q_plus", "q_ratio q_square_ratio q_average q_volatility") \
   X(trum_phasor, 4, 2, "a b omega_n xi", "re im") \
   X(trum_rotation, 4, 4, "Delta_omega omega_n tau xi", "e_re e_im d_re d_im") \
-  X(trum_rotor_coefficients, 14, 4, "E_eq E_m F_c J T_load b_m k_N k_c mu mu_e mu_m n_j r_c r_t", "engagement_per_height push drag W_full") \
+  X(trum_rotor_coefficients, 14, 5, "E_eq E_m F_c J T_load b_m k_N k_c mu mu_e mu_m n_j r_c r_t", "engagement_per_height push drag W_full_hertz W_full_winkler") \
   X(trum_wave, 19, 5, "D Delta_omega W d_im d_re e_im e_re f_A_im f_A_re f_B_im f_B_re g_A g_B k_c omega_n p_im p_re s xi", "W_c R_v phi cos_phi sin_phi") \
   X(trum_filling, 2, 2, "W_c engagement_per_height", "engagement fullness") \
   X(trum_contact_winkler, 2, 3, "fullness fullness_root", "theta sin_theta share") \
   X(trum_contact_hertz, 2, 4, "W_c W_full", "theta sin_theta share engagement") \
   X(trum_stall_torque, 4, 1, "F_c f mu r_c", "torque") \
-  X(trum_friction, 9, 2, "R_v cos_phi engagement phi share sin_phi sin_theta theta v", "f f_v")
+  X(trum_friction, 9, 4, "R_v cos_phi engagement phi share sin_phi sin_theta theta v", "f f_v p_1 p_2")
 
 /* gates of the phases in the regions of a cycle */
 #define TRUM_REGIONS 3

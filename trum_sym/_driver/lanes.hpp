@@ -2,6 +2,17 @@
 // alone and in the same order whatever the width (one register of the instruction set: GCC breaks wider ones up), so a result does not depend on the width or on its neighbours.
 // Include inside a namespace of its own, with LANES defined.
 
+// plain numbers keep their own functions
+using ::acos;
+using ::atan2;
+using ::cos;
+using ::exp;
+using ::fabs;
+using ::fmax;
+using ::fmin;
+using ::sin;
+using ::sqrt;
+
 typedef double Vector __attribute__((vector_size(8 * LANES)));
 typedef long long Bits __attribute__((vector_size(8 * LANES)));
 
@@ -25,26 +36,36 @@ inline Lane& operator+=(Lane& a, Lane b) { return a = a + b; }
 inline Lane one_where(Bits mask) { return (Vector)(mask & (Bits)Lane(1.0).v); }
 inline Lane operator<(Lane a, Lane b) { return one_where(a.v < b.v); }
 
-inline Bits select_bits(Bits mask, Bits a, Bits b) { return (mask & a) | (~mask & b); }
-inline Lane select(Bits mask, Lane a, Lane b) { return (Vector)((mask & (Bits)a.v) | (~mask & (Bits)b.v)); }
+inline Lane select(Bits mask, Lane a, Lane b) { return mask ? a.v : b.v; }
 
 inline Lane fabs(Lane a) { return (Vector)((Bits)a.v & ~(Bits)Lane(-0.0).v); }
-inline Lane fmin(Lane a, Lane b) { return select(a.v < b.v, a, b); }
-inline Lane fmax(Lane a, Lane b) { return select(a.v > b.v, a, b); }
 #if defined(__AVX512F__)
 static_assert(LANES == 8, "one register of lanes");
 inline Lane sqrt(Lane a) { return (Vector)_mm512_sqrt_pd((__m512d)a.v); }
+inline Lane fmin(Lane a, Lane b) { return (Vector)_mm512_min_pd((__m512d)a.v, (__m512d)b.v); }
+inline Lane fmax(Lane a, Lane b) { return (Vector)_mm512_max_pd((__m512d)a.v, (__m512d)b.v); }
+// 1/a to the last digits, without the divider's wait.
+inline Lane inverse_of(Lane a) {
+  const Lane r = (Vector)_mm512_rcp14_pd((__m512d)a.v), s = r + r * (Lane(1.0) - a * r);
+  return s + s * (Lane(1.0) - a * s);
+}
 inline bool any(Bits mask) { return _mm512_test_epi64_mask((__m512i)mask, (__m512i)mask) != 0; }
 #elif defined(__AVX2__)
 static_assert(LANES == 4, "one register of lanes");
 inline Lane sqrt(Lane a) { return (Vector)_mm256_sqrt_pd((__m256d)a.v); }
+inline Lane fmin(Lane a, Lane b) { return (Vector)_mm256_min_pd((__m256d)a.v, (__m256d)b.v); }
+inline Lane fmax(Lane a, Lane b) { return (Vector)_mm256_max_pd((__m256d)a.v, (__m256d)b.v); }
+inline Lane inverse_of(Lane a) { return Lane(1.0) / a; }
 inline bool any(Bits mask) { return _mm256_movemask_pd((__m256d)mask) != 0; }
 #else
+inline Lane fmin(Lane a, Lane b) { return select(a.v < b.v, a, b); }
+inline Lane fmax(Lane a, Lane b) { return select(a.v > b.v, a, b); }
 inline Lane sqrt(Lane a) {
   Lane root;
   for (int i = 0; i < LANES; ++i) root.v[i] = __builtin_sqrt(a.v[i]);
   return root;
 }
+inline Lane inverse_of(Lane a) { return Lane(1.0) / a; }
 inline bool any(Bits mask) {
   long long found = 0;
   for (int i = 0; i < LANES; ++i) found |= mask[i];
@@ -52,11 +73,16 @@ inline bool any(Bits mask) {
 }
 #endif
 
+// Even and odd powers apart: two short chains of operations instead of a long one.
 template <int n>
 inline Lane polynomial(const double (&c)[n], Lane x) {
-  Lane sum = c[n - 1];
-  for (int k = n - 2; k >= 0; --k) sum = sum * x + c[k];
-  return sum;
+  const Lane q = x * x;
+  Lane first = c[n - 1], second = c[n - 2];
+  for (int k = n - 3; k >= 0; k -= 2) {
+    first = first * q + c[k];
+    if (k > 0) second = second * q + c[k - 1];
+  }
+  return n % 2 == 1 ? first + x * second : second + x * first;
 }
 
 // sin and cos of moderate arguments: quarter turns off in two parts, then the polynomial of the quadrant.
@@ -86,11 +112,10 @@ inline Lane cos(Lane x) {
 
 inline Lane atan2(Lane y, Lane x) {
   static constexpr double coefficients[] = TRUM_ATAN_COEFFICIENTS;
-  const Lane ax = fabs(x), ay = fabs(y);
+  const Lane ax = fabs(x), ay = fabs(y), low = fmin(ax, ay), high = fmax(ax, ay);
   const Bits steep = ay.v > ax.v;
-  const Lane t = fmin(ax, ay) / (fmax(ax, ay) + Lane(1e-300));
-  const Bits upper = t.v > 0.41421356237309504880 - Vector{};
-  const Lane u = select(upper, (t - Lane(1.0)) / (t + Lane(1.0)), t);
+  const Bits upper = low.v > (high * Lane(0.41421356237309504880)).v;
+  const Lane u = select(upper, low - high, low) / (select(upper, low + high, high) + Lane(1e-300));
   Lane angle = u * polynomial(coefficients, u * u);
   angle = select(upper, angle + Lane(0.78539816339744830962), angle);
   angle = select(steep, Lane(1.57079632679489661923) - angle, angle);
@@ -109,10 +134,26 @@ inline Lane exp(Lane x) {
   return (Vector)((Bits)polynomial(coefficients, r).v + ((Bits)shifted.v << 52));
 }
 
-// Cube root of a positive number to 1e-4, enough for the first guess that it serves.
-inline Lane cube_root_guess(Lane t) {
+// Cube root of a positive number to 1e-4: a first guess is all that it serves as.
+inline Lane cube_root_of(Lane t) {
   const Bits high = (Bits)t.v >> 32;
   const Bits third = ((high * 0x55555556LL) >> 32) + 0x2A9F7893LL;
   const Lane r = (Vector)(third << 32), cube = r * r * r;
   return r * (cube + t + t) / (cube + cube + t);
 }
+
+// What trum_orbit.h asks of numbers and of their truth values.
+inline Bits less_than(Lane a, Lane b) { return a.v < b.v; }
+inline Bits at_most(Lane a, Lane b) { return a.v <= b.v; }
+inline Bits no(Bits a) { return ~a; }
+inline Bits is(int a) { return a ? ~Bits{} : Bits{}; }
+inline int in_lane(Bits a, int i) { return a[i] != 0; }
+inline Lane sel(Bits m, Lane a, Lane b) { return select(m, a, b); }
+inline Bits sel_mask(Bits m, Bits a, Bits b) { return (m & a) | (~m & b); }
+inline Lane least(Lane a, Lane b) { return fmin(a, b); }
+inline Lane most(Lane a, Lane b) { return fmax(a, b); }
+inline Lane size_of(Lane a) { return fabs(a); }
+inline Lane root_of(Lane a) { return sqrt(a); }
+inline double get(const Lane* x, int i) { return x->v[i]; }
+inline void put(Lane* x, int i, double value) { x->v[i] = value; }
+inline void put_mask(Bits* x, int i, int value) { (*x)[i] = value ? -1 : 0; }

@@ -78,34 +78,22 @@ void cycle_response_loop(char** args, const npy_intp* dimensions, const npy_intp
 constexpr char orbit_in[] =
     "omega_n Delta_omega xi psi s m n a_A b_A a_B b_B W D k_c engagement_per_height W_full hertz push drag tolerance";
 constexpr char orbit_out[] = "mean low high variance contact held start level error flags";
-constexpr int n_orbit_in = sizeof(trum::OrbitInput) / sizeof(double);
-constexpr int n_orbit_out = sizeof(trum::OrbitOutput) / sizeof(double);
+constexpr int n_orbit_in = 20, n_orbit_out = 10, hertz_in = 16;
 const trum::OrbitCode* orbit_code = &trum::orbit_baseline;
 
-trum::OrbitInput orbit_input(char** args, const npy_intp* steps, npy_intp i) {
-  const auto values = gather<n_orbit_in>(args, steps, i);
-  trum::OrbitInput point;
-  std::memcpy(&point, values.data(), sizeof point);
-  return point;
-}
-
-// Neighbours with the same pulses share lanes; a block is small enough to keep its inputs in cache.
+// Blocks of points of one contact law, small enough to keep their inputs in cache.
 void rotor_orbit_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
   constexpr npy_intp most = 256;
-  std::array<trum::OrbitInput, most> in;
-  std::array<trum::OrbitOutput, most> out;
+  std::array<std::array<double, n_orbit_in>, most> in;
+  std::array<std::array<double, n_orbit_out>, most> out;
   for (npy_intp i = 0; i < dimensions[0];) {
     npy_intp count = 0;
     for (; i + count < dimensions[0] && count < most; ++count) {
-      in[count] = orbit_input(args, steps, i + count);
-      if (in[count].m != in[0].m || in[count].n != in[0].n || in[count].hertz != in[0].hertz) break;
+      in[count] = gather<n_orbit_in>(args, steps, i + count);
+      if (in[count][hertz_in] != in[0][hertz_in]) break;
     }
-    orbit_code->orbits(in.data(), out.data(), static_cast<int>(count));
-    for (npy_intp k = 0; k < count; ++k) {
-      std::array<double, n_orbit_out> values;
-      std::memcpy(values.data(), &out[k], sizeof out[k]);
-      scatter(values, args + n_orbit_in, steps + n_orbit_in, i + k);
-    }
+    orbit_code->orbits(in[0].data(), out[0].data(), static_cast<long>(count));
+    for (npy_intp k = 0; k < count; ++k) scatter(out[k], args + n_orbit_in, steps + n_orbit_in, i + k);
     i += count;
   }
 }
@@ -114,21 +102,20 @@ void rotor_orbit_loop(char** args, const npy_intp* dimensions, const npy_intp* s
 constexpr char history_in[] =
     "omega_n Delta_omega xi psi s m n a_A b_A a_B b_B W D k_c engagement_per_height W_full hertz push drag tolerance "
     "low high start level times";
-constexpr char history_out[] = "speed distance friction";
+constexpr char history_out[] = "speed distance";
 constexpr char history_signature[] =
-    "(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(k)->(k),(k),(k)";
-constexpr int n_history_in = n_orbit_in + 5;
+    "(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(k)->(k),(k)";
+constexpr int n_history_in = n_orbit_in + 5, n_history_out = 2;
 void rotor_history_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
   const npy_intp k = dimensions[1];
-  const npy_intp* core = steps + n_history_in + 3;  // strides of shape, speed, distance, friction
-  std::vector<double> out(static_cast<std::size_t>(3 * k));
+  const npy_intp* core = steps + n_history_in + n_history_out;  // strides of times, speed, distance
+  std::vector<double> out(static_cast<std::size_t>(n_history_out * k));
   for (npy_intp i = 0; i < dimensions[0]; ++i) {
-    const trum::OrbitInput point = orbit_input(args, steps, i);
+    const auto point = gather<n_orbit_in>(args, steps, i);
     const auto from = gather<4>(args + n_orbit_in, steps + n_orbit_in, i);
-    trum::OrbitOutput orbit{};
-    orbit.low = from[0], orbit.high = from[1], orbit.start = from[2], orbit.level = from[3];
-    orbit_code->history(&point, &orbit, out.data(), out.data() + k, out.data() + 2 * k, k);
-    for (int o = 0; o < 3; ++o) {
+    const double orbit[n_orbit_out] = {0.0, from[0], from[1], 0.0, 0.0, 0.0, from[2], from[3], 0.0, 0.0};
+    orbit_code->history(point.data(), orbit, out.data(), out.data() + k, k);
+    for (int o = 0; o < n_history_out; ++o) {
       char* to = args[n_history_in + o] + i * steps[n_history_in + o];
       for (npy_intp j = 0; j < k; ++j) *reinterpret_cast<double*>(to + j * core[1 + o]) = out[o * k + j];
     }
@@ -138,7 +125,7 @@ void rotor_history_loop(char** args, const npy_intp* dimensions, const npy_intp*
 // Which instruction set the orbits run on: the best that this CPU has, until a test asks for another.
 bool supported(const trum::OrbitCode& code) {
 #if defined(__x86_64__)
-  if (&code == &trum::orbit_avx2) return __builtin_cpu_supports("avx2");
+  if (&code == &trum::orbit_avx2) return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
   if (&code == &trum::orbit_avx512)
     return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
 #endif
@@ -228,7 +215,7 @@ PyMODINIT_FUNC PyInit__kernels() {
     return nullptr;
   if (!add(module, signatures, "rotor_orbit", loop_rotor_orbit, n_orbit_in, n_orbit_out, orbit_in, orbit_out))
     return nullptr;
-  if (!add(module, signatures, "rotor_history", loop_rotor_history, n_history_in, 3, history_in, history_out,
+  if (!add(module, signatures, "rotor_history", loop_rotor_history, n_history_in, n_history_out, history_in, history_out,
            history_signature))
     return nullptr;
   for (const trum::OrbitCode* code : orbit_codes)
