@@ -100,37 +100,15 @@ typedef struct {
   trum_record* record;
 } trum_lanes;
 
-#ifndef TRUM_LEVEL
-#ifndef TRUM_NEWTON_SHARE
-#define TRUM_NEWTON_SHARE 0.05
-#endif
-#define TRUM_LEVEL 0.05
-#ifndef TRUM_ERROR_SHARE
-#define TRUM_ERROR_SHARE 0.2
-#endif
-#ifndef TRUM_EVENT_SHARE
-#define TRUM_EVENT_SHARE 4.0
-#endif
-#ifndef TRUM_TURN
-#define TRUM_TURN 0.4
-#endif
-#ifndef TRUM_SEES
-#define TRUM_SEES 2e-4
-#endif
-#ifndef TRUM_SAFETY
-#define TRUM_SAFETY 0.8
-#endif
-#ifndef TRUM_GROW
-#define TRUM_GROW 1.5
-#endif
-#ifndef TRUM_LONGEST
-#define TRUM_LONGEST (1.0 / 24.0)
-#endif
-#ifndef TRUM_KINK_SHARE
-#define TRUM_KINK_SHARE 100.0
-#endif
-#endif
-static const double trum_longest = TRUM_LONGEST, trum_first = 1.0 / 16.0, trum_shortest = 1e-9; /* drive periods */
+/* Steps, in drive periods: the longest, a lap's first, the shortest that is ever rejected, and the shortest that has to
+ * see the wave turn by less than this cosine from node to node. */
+static const double trum_longest = 1.0 / 24.0, trum_first = 1.0 / 24.0, trum_shortest = 1e-9;
+static const double trum_sees = 2e-4, trum_cosine = 0.4;
+/* A step's length follows the fourth root of its error, with a margin, and grows by no more than this. */
+static const double trum_margin = 0.8, trum_grows = 1.5;
+/* Shares that make the figures meet the tolerance: error of a step per drive period, of the quadrature's estimate, of
+ * an event's place beside a square root and at a kink, of Newton's last change squared.  Measured over the domain. */
+static const double trum_level = 0.05, trum_estimate = 0.2, trum_event = 4.0, trum_kink = 100.0, trum_newton = 0.05;
 
 static void trum_turn(const trum_lanes* l, real tau, real* turn) {
   const real* arg[trum_rotation_n_arg];
@@ -419,7 +397,7 @@ static real trum_quadrature_error(const real* G) {
   }
   whole = l[0] + l[1] + N_(1e-300);
   second = l[2] / whole, third = cube_root_of(l[3] / whole + N_(1e-300));
-  return N_(TRUM_ERROR_SHARE) * most(l[2] * second * root_of(second), l[3] * third * third);
+  return N_(trum_estimate) * most(l[2] * second * root_of(second), l[3] * third * third);
 }
 
 /* Tries a step on all lanes; returns those which took it. */
@@ -431,9 +409,6 @@ static mask trum_step(trum_lanes* l) {
   const mask held = at_most(l->push, N_(0));
   mask open = l->active, wrong, accepted;
   int i, j, k, tries;
-#ifdef TRUM_COUNT
-  ++TRUM_COUNT[0];
-#endif
   for (j = 0; j < NODES; ++j) {
     const real sigma = N_(c[j]);
     z[j] = sigma * (N_(1) + l->bend * (N_(1) - sigma));
@@ -449,9 +424,6 @@ static mask trum_step(trum_lanes* l) {
   }
   for (tries = 0; tries < 12 && any(open); ++tries) {
     real change = N_(0), slope[NODES];
-#ifdef TRUM_COUNT
-    ++TRUM_COUNT[1];
-#endif
     slope[0] = N_(0);
     for (j = 1; j < NODES; ++j) {
       real f_now, f_v_now, larger, smaller;
@@ -548,9 +520,6 @@ static mask trum_step(trum_lanes* l) {
       target = sel(mine, N_(-1), target);
     }
     redo = redo | distant | off_target;
-#ifdef TRUM_TRACE2
-    TRUM_TRACE2;
-#endif
 
     error = trum_quadrature_error(G);
     if (any(held & l->active)) { /* a held lap also measures the contact */
@@ -570,15 +539,15 @@ static mask trum_step(trum_lanes* l) {
       mask blind = is(0);
       real cosine = l->cos_phi, sine = l->sin_phi;
       for (j = 1; j < NODES; ++j) {
-        const mask jumps = less_than(cosine * at[j].cos_phi + sine * at[j].sin_phi, N_(TRUM_TURN));
+        const mask jumps = less_than(cosine * at[j].cos_phi + sine * at[j].sin_phi, N_(trum_cosine));
         blind = blind | (jumps & less_than(N_(0), most(e[j][FULL], e[j - 1][FULL])));
         cosine = at[j].cos_phi, sine = at[j].sin_phi;
       }
-      blind = blind & less_than(N_(TRUM_SEES) * l->period, l->h);
+      blind = blind & less_than(N_(trum_sees) * l->period, l->h);
       ratio = sel(blind, most(ratio, N_(40)), ratio);
     }
     wrong = no(at_most(ratio, N_(1))) & no(tiny);
-    factor = least(N_(TRUM_GROW), most(N_(0.15), N_(TRUM_SAFETY) * inverse_of(root_of(root_of(most(ratio, N_(1e-5)))))));
+    factor = least(N_(trum_grows), most(N_(0.15), N_(trum_margin) * inverse_of(root_of(root_of(most(ratio, N_(1e-5)))))));
     accepted = l->active & no(redo) & no(wrong);
     {
       const mask shrink = wrong & no(redo);
@@ -589,10 +558,6 @@ static mask trum_step(trum_lanes* l) {
     }
     l->tries = sel(redo, l->tries + N_(1), sel(accepted, N_(0), l->tries));
 
-#ifdef TRUM_COUNT
-    if (any(accepted)) ++TRUM_COUNT[2];
-    else if (any(redo)) ++TRUM_COUNT[3];
-#endif
     if (any(accepted)) {
       real S[NODES], K[NODES], rate[NODES], sum_f = N_(0), sum_angle = N_(0), sum_x = N_(0), sum_xx = N_(0);
       real sum_S = N_(0), sum_xS = N_(0), angle[NODES];
@@ -630,9 +595,6 @@ static mask trum_step(trum_lanes* l) {
       r->x = sel(accepted, r->x + sum_x, r->x), r->xx = sel(accepted, r->xx + sum_xx, r->xx);
       r->S = sel(accepted, r->S + sum_S, r->S), r->xS = sel(accepted, r->xS + sum_xS, r->xS);
       r->error = sel(accepted, r->error + error, r->error);
-#ifdef TRUM_TRACE
-      TRUM_TRACE(l, z, x, T, f, e, sum_f, sum_angle, error);
-#endif
       if (l->record && in_lane(accepted, 0)) trum_write(l->record, l, rate);
       l->x = sel(accepted, x[EDGE], l->x), l->S = sel(accepted, S[EDGE], l->S);
       l->f = sel(accepted, f[EDGE], l->f), l->f_v = sel(accepted, f_v[EDGE], l->f_v);
@@ -700,9 +662,9 @@ static void trum_start_lap(trum_lanes* l, int i, trum_job* job) {
   allowed = job->level * reach / job->in->m;
   put(&l->push, i, held ? 0.0 : push), put(&l->drag, i, held ? 0.0 : job->in->drag);
   put(&l->v0, i, job->v0), put(&l->per_allowed, i, 1.0 / allowed);
-  put(&l->event_error, i, TRUM_EVENT_SHARE * cbrt(allowed * allowed * period));
-  put(&l->kink_error, i, TRUM_KINK_SHARE * allowed);
-  put(&l->newton_error, i, held ? 0.0 : allowed * push * sqrt(TRUM_NEWTON_SHARE * job->in->m / job->level));
+  put(&l->event_error, i, trum_event * cbrt(allowed * allowed * period));
+  put(&l->kink_error, i, trum_kink * allowed);
+  put(&l->newton_error, i, held ? 0.0 : allowed * push * sqrt(trum_newton * job->in->m / job->level));
   put(&l->patience, i, trum_most_tries * job->in->m);
   put(&l->natural, i, trum_first * period);
   put(&l->x, i, 0.0), put(&l->S, i, 1.0), put(&l->f, i, 0.0), put(&l->f_v, i, 0.0), put(&l->angle0, i, 0.0);
@@ -711,9 +673,6 @@ static void trum_start_lap(trum_lanes* l, int i, trum_job* job) {
   put(&l->lap.low, i, 0.0), put(&l->lap.high, i, 0.0), put(&l->lap.S_low, i, 1.0), put(&l->lap.S_high, i, 1.0);
   put(&l->lap.friction, i, 0.0), put(&l->lap.angle, i, 0.0);
   put(&l->lap.full, i, 0.0), put(&l->lap.fastest, i, 0.0), put(&l->lap.error, i, 0.0);
-#ifdef TRUM_COUNT
-  ++TRUM_COUNT[4 + job->stage];
-#endif
   put_mask(&l->cold, i, 1), put_mask(&l->lost, i, 0), put_mask(&l->active, i, 1);
   job->region = -1;
   trum_next_region(l, i, job);
@@ -754,7 +713,7 @@ static void trum_load(trum_lanes* l, int i, trum_job* job, const trum_orbit_in* 
   }
   job->in = in, job->out = out;
   job->stage = HELD, job->laps = job->finer = 0, job->v0 = 0.0, job->low = -HUGE_VAL, job->high = HUGE_VAL;
-  job->scale = 0.0, job->level = TRUM_LEVEL * in->tolerance;
+  job->scale = 0.0, job->level = trum_level * in->tolerance;
   out->mean = out->low = out->high = out->variance = out->start = out->level = out->error = NAN;
   out->contact = out->held = NAN, out->flags = 0;
   trum_start_lap(l, i, job);
@@ -763,7 +722,7 @@ static void trum_load(trum_lanes* l, int i, trum_job* job, const trum_orbit_in* 
 /* The rough level that makes one fine lap enough. */
 static double trum_rough(double tolerance) {
   const double rough = 0.03 * sqrt(tolerance);
-  return TRUM_LEVEL * (rough > tolerance ? rough : tolerance);
+  return trum_level * (rough > tolerance ? rough : tolerance);
 }
 
 /* A lap is over: the next one, or 0 when the point is done.  Gain falls as the start rises: Newton in a bracket. */
@@ -791,7 +750,7 @@ static int trum_judge(trum_lanes* l, int i, trum_job* job) {
     const double gain = get(&l->x, i), growth = get(&l->S, i), pull = 1.0 - growth > 1e-14 ? 1.0 - growth : 1e-14;
     const double low = get(&r->low, i), high = get(&r->high, i), bound = 1.5 * get(&r->fastest, i);
     const double top = fabs(job->v0 + low) > fabs(job->v0 + high) ? fabs(job->v0 + low) : fabs(job->v0 + high);
-    const double fine = TRUM_LEVEL * in->tolerance;
+    const double fine = trum_level * in->tolerance;
     const int accurate = job->level <= fine * 1.0001, last = ++job->laps >= trum_most_laps;
     double next = job->v0 + gain / pull, away, noise;
     int close;
