@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import trum_sym as ts
-from trum_sym import rotor
+from trum_sym import batch
 
 
 @pytest.fixture
@@ -24,7 +24,7 @@ def figures(point):
 def test_threads_do_not_change_a_bit(trum60, drive, monkeypatch):
     found = {}
     for workers in (1, 2, 3):
-        monkeypatch.setattr(rotor.os, "cpu_count", lambda workers=workers: workers)
+        monkeypatch.setattr(batch.os, "cpu_count", lambda workers=workers: workers)
         found[workers] = figures(ts.evaluate(trum60, drive))
     assert np.array_equal(found[1], found[2])
     assert np.array_equal(found[1], found[3])
@@ -48,7 +48,7 @@ def test_progress_is_shown_on_request(trum60, drive, capsys):
 
 
 def test_an_interruption_leaves_the_other_blocks_alone(trum60, drive, monkeypatch):
-    original, begun, lock = rotor.call, [], threading.Lock()
+    original, begun, lock = batch.call, [], threading.Lock()
 
     def interrupted(kernel, values):
         if kernel == "rotor_orbit":
@@ -58,9 +58,9 @@ def test_an_interruption_leaves_the_other_blocks_alone(trum60, drive, monkeypatc
                 raise KeyboardInterrupt
         return original(kernel, values)
 
-    monkeypatch.setattr(rotor, "call", interrupted)
-    monkeypatch.setattr(rotor, "_BLOCK", 16)  # 38 blocks
-    monkeypatch.setattr(rotor.os, "cpu_count", lambda: 2)
+    monkeypatch.setattr(batch, "call", interrupted)
+    monkeypatch.setattr(batch, "_BLOCK", 16)  # 38 blocks
+    monkeypatch.setattr(batch.os, "cpu_count", lambda: 2)
     with pytest.raises(KeyboardInterrupt):
         ts.evaluate(trum60, drive, progress=True)
     assert len(begun) < 20

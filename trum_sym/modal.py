@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from trum_sym.batch import call_in_blocks
 from trum_sym.drive import Drive
 from trum_sym.errors import ParameterError
 from trum_sym.kernels import call
@@ -87,5 +88,5 @@ def cycle_sums(values: dict[str, ArrayLike], panels_per_period: float = PANELS_P
     The sums are integrals over time, by 12-point Gauss-Legendre quadrature cut at every sign change of Q;
     ``panels_per_period`` panels cover a period of the faster of drive and resonance.
     """
-    sums = call("cycle_sums", {**values, "panels": panels_per_period})
+    sums = call_in_blocks("cycle_sums", {**values, "panels": panels_per_period})
     return call("trum_measures", {**sums, **call("trum_drive", values)})

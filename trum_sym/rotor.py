@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import os
-import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
-from trum_sym.kernels import call, signature
+from trum_sym.batch import call_in_blocks
+from trum_sym.kernels import call
 from trum_sym.validate import Array, ArrayLike
 
 __all__ = ["Orbit", "encoder_deviation", "history", "orbit_values", "solve_orbit"]
 
-_BLOCK = 256
 _CONVERGED, _FULL_CONTACT, _RUNAWAY = 1, 2, 4
 
 
@@ -60,60 +58,7 @@ def orbit_values(
     return {**modal, "D": stator["D"], "k_c": stator["k_c"], **shared, **of_contact, "tolerance": tolerance}
 
 
-def _batch(values: Mapping[str, ArrayLike], progress: bool) -> dict[str, Array]:
-    """Call the driver with blocks of points, on all cores; between blocks it can be interrupted."""
-    inputs, outputs = signature("rotor_orbit")
-    columns = np.broadcast_arrays(*(np.asarray(values[name], np.float64) for name in inputs))
-    shape, size = columns[0].shape, columns[0].size
-    flat = [column.ravel() if column.strides != (0,) * column.ndim else column.reshape(-1)[:1] for column in columns]
-    results = np.empty((len(outputs), size))
-
-    def run(begin: int) -> None:
-        block = {
-            name: column if column.size == 1 else column[begin : begin + _BLOCK]
-            for name, column in zip(inputs, flat, strict=True)
-        }
-        end = min(begin + _BLOCK, size)
-        found = call("rotor_orbit", block)
-        for row, name in zip(results, outputs, strict=True):
-            row[begin:end] = found[name]
-
-    starts = range(0, size, _BLOCK)
-    workers = min(len(starts), os.cpu_count() or 1)
-    if workers > 1:
-        _in_threads(run, starts, workers, progress)
-    else:
-        for begin in starts:
-            run(begin)
-    return {name: row.reshape(shape) for name, row in zip(outputs, results, strict=True)}
-
-
-def _in_threads(run: Callable[[int], None], starts: range, workers: int, progress: bool) -> None:
-    from concurrent.futures import ThreadPoolExecutor, as_completed  # not waited for by a single point
-
-    with ThreadPoolExecutor(workers) as pool:
-        try:
-            tasks = [pool.submit(run, begin) for begin in starts]
-            if progress:
-                import click
-
-                with click.progressbar(
-                    length=len(tasks), label="orbits", file=sys.stderr, show_pos=False, update_min_steps=1
-                ) as bar:
-                    for task in as_completed(tasks):
-                        task.result()
-                        bar.update(1)
-            else:
-                for task in tasks:
-                    task.result()
-        except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)  # what has begun ends by itself, within a block
-            raise
-
-
-def solve_orbit(
-    values: Mapping[str, ArrayLike], stator: Mapping[str, ArrayLike], progress: bool = False
-) -> Orbit:
+def solve_orbit(values: Mapping[str, ArrayLike], stator: Mapping[str, ArrayLike], progress: bool = False) -> Orbit:
     """The periodic orbit of every point.
 
     Parameters
@@ -125,7 +70,7 @@ def solve_orbit(
     progress : bool
         Whether to show a bar on the standard error while many points are computed.
     """
-    raw = _batch(values, progress)
+    raw = call_in_blocks("rotor_orbit", values, "orbits" if progress else None)
     radius = np.asarray(stator["r_c"])
     flags = raw["flags"].astype(int)
     stall = np.asarray(call("trum_stall_torque", {**stator, "f": raw["held"]})["torque"])
