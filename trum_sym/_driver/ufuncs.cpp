@@ -10,8 +10,8 @@
 #include <numpy/arrayobject.h>
 #include <numpy/ufuncobject.h>
 
-#include "cycle.hpp"
 #include "orbit.hpp"
+#include "trum_cycle.h"
 
 namespace {
 
@@ -45,7 +45,7 @@ constexpr char half_angle_out[] = "theta";
 void half_angle_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
   for (npy_intp i = 0; i < dimensions[0]; ++i) {
     const auto v = gather<5>(args, steps, i);
-    scatter<1>({trum::contact_half_angle(v[0], v[1], v[2], v[3], v[4])}, args + 5, steps + 5, i);
+    scatter<1>({trum_half_angle(v[0], v[1], v[2], v[3], v[4])}, args + 5, steps + 5, i);
   }
 }
 
@@ -54,8 +54,9 @@ constexpr char cycle_sums_out[] = "q_plus q_minus p_plus p_minus";
 void cycle_sums_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
   for (npy_intp i = 0; i < dimensions[0]; ++i) {
     const auto v = gather<12>(args, steps, i);
-    trum::Cycle cycle(v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8], v[9], v[10], 1.0, 1.0, 1.0);
-    const trum::Sums sums = trum::SignedQuadrature(cycle, v[11]).run();
+    trum_cycle cycle = {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8], v[9], v[10], 1.0, 1.0, 1.0,
+                        {}, {}, {}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+    const trum_sums sums = trum_cycle_sums(&cycle, v[11]);
     scatter<4>({sums.q_plus, sums.q_minus, sums.p_plus, sums.p_minus}, args + 12, steps + 12, i);
   }
 }
@@ -65,12 +66,14 @@ constexpr char cycle_response_out[] = "w_A w_B v_A v_B Q";
 void cycle_response_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
   for (npy_intp i = 0; i < dimensions[0]; ++i) {
     const auto v = gather<15>(args, steps, i);
-    trum::Cycle cycle(v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8], v[9], v[10], v[11], v[12], v[13], v[14]);
+    trum_cycle cycle = {v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8], v[9], v[10], v[11], v[12], v[13], v[14],
+                        {}, {}, {}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+    trum_cycle_regions(&cycle);
     double tau = v[0];
     int region = 0;
     while (region < TRUM_REGIONS - 1 && tau >= cycle.duration[region]) tau -= cycle.duration[region++];
-    cycle.enter(region);
-    cycle.at(tau);
+    trum_cycle_enter(&cycle, region);
+    trum_cycle_at(&cycle, tau);
     scatter<5>({cycle.w_A, cycle.w_B, cycle.v_A, cycle.v_B, cycle.Q}, args + 15, steps + 15, i);
   }
 }
