@@ -147,15 +147,15 @@ static inline void trum_add(trum_sums* sums, trum_real integral, trum_real squar
 
 /* Gauss-Legendre over [from, to], where Q keeps its sign. */
 static inline void trum_piece(trum_cycle* c, trum_sums* sums, trum_real from, trum_real to) {
-  static const trum_real nodes[] = TRUM_GAUSS_NODES, weights[] = TRUM_GAUSS_WEIGHTS;
+  static const double nodes[] = TRUM_GAUSS_NODES, weights[] = TRUM_GAUSS_WEIGHTS;
   const trum_real half = (trum_real)0.5 * (to - from), middle = (trum_real)0.5 * (to + from);
   trum_real integral = 0, square = 0;
   int i;
   if (!(to > from)) return;
   for (i = 0; i < TRUM_GAUSS_POINTS; ++i) {
-    const trum_real Q = trum_sample_at(c, middle + half * nodes[i]).Q;
-    integral += weights[i] * Q;
-    square += weights[i] * Q * Q;
+    const trum_real Q = trum_sample_at(c, middle + half * (trum_real)nodes[i]).Q;
+    integral += (trum_real)weights[i] * Q;
+    square += (trum_real)weights[i] * Q * Q;
   }
   trum_add(sums, half * integral, half * square);
 }
@@ -181,16 +181,16 @@ static inline int trum_towards_zero(const trum_sample* p) { return p->Q >= 0 ? p
  * every crossing, so that each piece is smooth and of one sign. */
 static inline void trum_panel(trum_cycle* c, trum_sums* sums, const trum_sample* left, const trum_sample* right,
                               trum_real from, trum_real to) {
-  static const trum_real nodes[] = TRUM_GAUSS_NODES, weights[] = TRUM_GAUSS_WEIGHTS;
+  static const double nodes[] = TRUM_GAUSS_NODES, weights[] = TRUM_GAUSS_WEIGHTS;
   const trum_real half = (trum_real)0.5 * (to - from), middle = (trum_real)0.5 * (to + from);
   trum_sample s[TRUM_GAUSS_POINTS + 2];
   trum_real integral = 0, square = 0, start = from;
   int i, k, count, pieces = 0;
   s[0] = *left, s[TRUM_GAUSS_POINTS + 1] = *right;
   for (i = 0; i < TRUM_GAUSS_POINTS; ++i) {
-    s[i + 1] = trum_sample_at(c, middle + half * nodes[i]);
-    integral += weights[i] * s[i + 1].Q;
-    square += weights[i] * s[i + 1].Q * s[i + 1].Q;
+    s[i + 1] = trum_sample_at(c, middle + half * (trum_real)nodes[i]);
+    integral += (trum_real)weights[i] * s[i + 1].Q;
+    square += (trum_real)weights[i] * s[i + 1].Q * s[i + 1].Q;
   }
   for (i = 0; i <= TRUM_GAUSS_POINTS; ++i) {
     const trum_sample *p = &s[i], *q = &s[i + 1];
