@@ -22,13 +22,16 @@ across, down, factor = int(sys.argv[1]), int(sys.argv[2]), float(sys.argv[3])
 motor = ts.load_motor("trum60")
 motor = motor.with_values({"rotor_inertia": motor.rotor_inertia.value * factor})
 ts.evaluate(motor)
-scale = 1 if sys.platform == "darwin" else 1024
-before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * scale
+def most():  # Linux: ru_maxrss would keep the peak of the process that started this one
+    if sys.platform == "linux":
+        return 1024 * int(open("/proc/self/status").read().split("VmHWM:")[1].split()[0])
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1 if sys.platform == "darwin" else 1024)
+before = most()
 drive = ts.Drive(prepressure=np.linspace(120, 220, across), frequency_difference=np.linspace(1000, 5000, down)[:, None])
 begin = time.perf_counter()
 point = ts.evaluate(motor, drive)
 seconds = time.perf_counter() - begin
-peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * scale
+peak = most()
 print(json.dumps([seconds, peak, peak - before, float(point.converged.mean())]))
 """
 

@@ -162,15 +162,22 @@ def _pairwise(expr: sp.Expr) -> sp.Expr:
 def _numpy(chain: list[Kernel], values: dict[str, np.ndarray]) -> Callable[[], np.ndarray]:
     """The derivations' expressions, printed for NumPy, over the batch."""
     modules = [{"less": lambda x, y: np.less(x, y).astype(float)}, "numpy"]
-    functions = [sp.lambdify(k.inputs, [_pairwise(e) for e in _expressions(k)], modules, cse=True) for k in chain]
+    calls = [
+        (
+            [symbol.name for symbol in kernel.inputs],
+            list(kernel.outputs),
+            sp.lambdify(kernel.inputs, [_pairwise(expr) for expr in _expressions(kernel)], modules, cse=True),
+        )
+        for kernel in chain
+    ]
 
     def run() -> np.ndarray:
         now = dict(values)
-        for kernel, function in zip(chain, functions, strict=True):
+        for inputs, outputs, function in calls:
             for root, of in ROOT.items():
-                if of in now:
+                if root in inputs:
                     now[root] = np.cbrt(now[of])
-            now.update(zip(kernel.outputs, function(*(now[s.name] for s in kernel.inputs)), strict=True))
+            now.update(zip(outputs, function(*(now[name] for name in inputs)), strict=True))
         return np.asarray(now[RESULT])
 
     return run

@@ -55,7 +55,12 @@ def check_dimensions(kernel: Kernel) -> dict[str, str]:
         if actual != parse_unit(kernel.units[name]).dimension:
             raise DimensionError(f"{kernel.name}.{name} has dimension {actual}, not that of {kernel.units[name]}")
         found[name] = "consistent"
-    return found
+    for direction, rates in kernel.along.items():
+        for symbol, rate in rates.items():
+            unit = f"s*{NOMENCLATURE[symbol.name].unit}/rad"
+            if dimension(rate) != parse_unit(unit).dimension:
+                raise DimensionError(f"{kernel.name}: the rate of {symbol} along {direction} is not in {unit}")
+    return dict.fromkeys(kernel.results, "consistent") if kernel.along else found
 
 
 def casadi_function(kernel: Kernel) -> ca.Function:
@@ -64,9 +69,17 @@ def casadi_function(kernel: Kernel) -> ca.Function:
     arguments = list(symbols.values())
     constants = {symbol: ca.SX(value) for symbol, value in CONSTANTS.items()}
     memo: dict[sp.Basic, ca.SX] = {}
-    results = [to_casadi(sp.sympify(expr), {**symbols, **constants}, memo) for expr in kernel.outputs.values()]
+    known = {**symbols, **constants}
+    results = [to_casadi(sp.sympify(expr), known, memo) for expr in kernel.outputs.values()]
+    if kernel.along:
+        values, variables = ca.vertcat(*results), ca.vertcat(*arguments)
+        directions = [
+            ca.vertcat(*(to_casadi(sp.sympify(rates.get(s, sp.Integer(0))), known, memo) for s in kernel.inputs))
+            for rates in kernel.along.values()
+        ]
+        results = [part for seed in directions for part in ca.vertsplit(ca.jtimes(values, variables, seed))]
     names = [symbol.name for symbol in kernel.inputs]
-    outputs = [f"out_{name}" if name in names else name for name in kernel.outputs]
+    outputs = [f"out_{name}" if name in names else name for name in kernel.results]
     return ca.Function(kernel.name, arguments, ca.cse(results), names, outputs)
 
 
@@ -89,7 +102,7 @@ def _c_file(kernel: Kernel, function: ca.Function) -> str:
         f"{kernel.title}.",
         "",
         *(f"in  {i}: {s.name} [{NOMENCLATURE[s.name].unit}]" for i, s in enumerate(kernel.inputs)),
-        *(f"out {i}: {name} [{kernel.units[name]}]" for i, name in enumerate(kernel.outputs)),
+        *(f"out {i}: {name} [{unit}]" for i, (name, unit) in enumerate(kernel.results.items())),
         "",
         f"{sum(counts.values())} operations: " + ", ".join(f"{count} {name}" for name, count in counts.items()),
     ]
@@ -110,6 +123,8 @@ def _quiet(code: str) -> str:
 
 def _source_hash(kernel: Kernel) -> str:
     text = "\n".join(f"{name} = {sp.srepr(expr)}" for name, expr in kernel.outputs.items())
+    for direction, rates in kernel.along.items():
+        text += "".join(f"\n{direction}: {symbol} {sp.srepr(rate)}" for symbol, rate in rates.items())
     return hashlib.sha256(text.encode()).hexdigest()
 
 
@@ -123,7 +138,7 @@ def _header() -> str:
     rows = []
     for kernel in kernels():
         inputs = [symbol.name for symbol in kernel.inputs]
-        outputs = list(kernel.outputs)
+        outputs = list(kernel.results)
         lines.append(f"/* {kernel.title} */")
         lines.append(f"int {kernel.name}({signature});")
         lines.append(f"enum {{ {', '.join(f'{kernel.name}_in_{name}' for name in inputs)}, {kernel.name}_n_arg }};")
@@ -151,6 +166,8 @@ LANE_KERNELS = (
     "trum_contact_winkler",
     "trum_contact_hertz",
     "trum_friction",
+    "trum_wave_slopes",
+    "trum_friction_slopes",
 )
 
 
@@ -252,7 +269,7 @@ def render() -> dict[str, str]:
                     for s in kernel.inputs
                 ],
                 "outputs": [
-                    {"name": name, "unit": kernel.units[name], "dimension": checked[name]} for name in kernel.outputs
+                    {"name": name, "unit": unit, "dimension": checked[name]} for name, unit in kernel.results.items()
                 ],
                 "operations": operations(function),
                 "source_sha256": _source_hash(kernel),

@@ -7,13 +7,13 @@ expressions contain, sorted by name, so that nothing is listed twice.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 
 import sympy as sp
 
 from derivations import amplitude, beam, contact, determinant, phases, rotor, section
-from derivations.nomenclature import CONSTANTS, sym
+from derivations.nomenclature import CONSTANTS, NOMENCLATURE, sym
 
 __all__ = ["Kernel", "kernels"]
 
@@ -34,6 +34,9 @@ class Kernel:
         Their SI units.
     inconsistent : tuple of str
         Outputs that the paper prints with inconsistent dimensions, kept to show what they give.
+    along : mapping of str to mapping of Symbol to Expr
+        Directions by name, each with the rates at which symbols of the outputs change along it (the others stay).  A
+        kernel with directions computes the outputs' derivatives along them, and not the outputs.
     """
 
     name: str
@@ -41,11 +44,24 @@ class Kernel:
     outputs: Mapping[str, sp.Expr]
     units: Mapping[str, str]
     inconsistent: tuple[str, ...] = ()
+    along: Mapping[str, Mapping[sp.Symbol, sp.Expr]] = field(default_factory=dict)
+
+    @property
+    def results(self) -> dict[str, str]:
+        """Names of what the kernel computes, with units."""
+        if not self.along:
+            return {name: self.units[name] for name in self.outputs}
+        return {
+            f"{name}_{direction}": f"s*{self.units[name]}/rad"  # directions are angular frequencies
+            for direction in self.along
+            for name in self.outputs
+        }
 
     @property
     def inputs(self) -> tuple[sp.Symbol, ...]:
         """The free symbols, sorted by name, without the constants."""
-        found = set().union(*(sp.sympify(expr).free_symbols for expr in self.outputs.values()))
+        rates = [sp.sympify(rate) for direction in self.along.values() for rate in direction.values()]
+        found = set().union(*(sp.sympify(expr).free_symbols for expr in [*self.outputs.values(), *rates]))
         return tuple(sorted(found - set(CONSTANTS), key=lambda symbol: symbol.name))
 
 
@@ -174,6 +190,66 @@ def _measures() -> Kernel:
     )
 
 
+FREQUENCIES = ("omega_n", "Delta_omega")
+
+
+def _frequencies(*following: str) -> dict[str, dict[sp.Symbol, sp.Expr]]:
+    """Directions along which one frequency changes, and with it the symbols that are said to follow."""
+    directions = {}
+    for frequency in FREQUENCIES:
+        rates = {symbol: sym(f"{symbol.name}_{frequency}")[0] for symbol in sym(" ".join(following))} if following else {}
+        directions[frequency] = {sym(frequency)[0]: sp.Integer(1), **rates}
+    return directions
+
+
+def _slopes() -> list[Kernel]:
+    """How phases and wave change with the frequencies, at a fixed share of a drive period."""
+    before = {p: sym(f"a_{p} b_{p}") for p in phases.PHASES}
+    phasors = {}
+    a, b = sym("a b")
+    for p in phases.PHASES:
+        for region, state in zip(phases.REGIONS, phases.propagate_cycle(p, before[p]), strict=False):
+            at = {a: state[0], b: state[1]}
+            phasors |= {f"{part}_{p}_{region}": z.subs(at) for part, z in zip(("re", "im"), rotor.phasor(), strict=True)}
+    starts = {"periodic": phases.periodic_start, "rest": phases.rest_start}
+    tau, omega_n, Delta_omega = sym("tau omega_n Delta_omega")
+    in_time = _frequencies("f_A_re", "f_A_im", "f_B_re", "f_B_im")
+    for rates in in_time.values():
+        rates[tau] = -tau / (omega_n + Delta_omega)
+    return [
+        *(
+            Kernel(
+                f"trum_start_{name}_slopes",
+                f"How the free motion before t1 follows the frequencies, start {name}",
+                {f"{letter}_{p}": value for p in phases.PHASES for letter, value in zip("ab", start(p), strict=True)},
+                {f"{letter}_{p}": unit for p in phases.PHASES for letter, unit in (("a", "m"), ("b", "m/s"))},
+                along=_frequencies(),
+            )
+            for name, start in starts.items()
+        ),
+        Kernel(
+            "trum_regions_slopes",
+            "How the free motion's phasors at the start of the regions follow the frequencies",
+            phasors,
+            dict.fromkeys(phasors, "m"),
+            along=_frequencies("a_A", "b_A", "a_B", "b_B"),
+        ),
+        Kernel(
+            "trum_wave_slopes",
+            "How the wave follows the frequencies, at a fixed share of a drive period",
+            rotor.wave_in_time(),
+            {"W_c": "m", "R_v": "m/s", "phi": "rad"},
+            along=in_time,
+        ),
+        Kernel(
+            "trum_friction_slopes",
+            "How friction and contact change with the angle phi and the logarithm of the engagement",
+            rotor.friction_slopes(),
+            {"f_phi": "1/rad", "f_E": "1", "theta_E": "rad", "E_height": "1"},
+        ),
+    ]
+
+
 def _rotor() -> list[Kernel]:
     phasor = dict(zip(("re", "im"), rotor.phasor(), strict=True))
     rotation = dict(zip(("e_re", "e_im", "d_re", "d_im"), rotor.rotation(), strict=True))
@@ -231,4 +307,4 @@ def _rotor() -> list[Kernel]:
 @cache
 def kernels() -> tuple[Kernel, ...]:
     """All kernels, in the order of the manifest."""
-    return tuple(_section() + _resonance() + _amplitude() + _contact() + _cycle() + _rotor())
+    return tuple(_section() + _resonance() + _amplitude() + _contact() + _cycle() + _rotor() + _slopes())

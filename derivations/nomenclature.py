@@ -1,15 +1,18 @@
-"""Every symbol of the equations: its assumptions, SI unit and meaning.
+"""Every symbol of the equations: its assumptions, SI unit, LaTeX, meaning and where the paper defines it.
 
-Motor parameters take name and unit from :class:`trum_sym.motor.Motor`; the rest stands here.
+Motor parameters take name and unit from :class:`trum_sym.motor.Motor`; the rest stands here, once.  Symbols that
+only one derivation works with are made there.  ``CLASHES`` lists the letters that the paper uses for several things.
 """
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, fields
 
 import sympy as sp
 
 from trum_sym.motor import Motor
+from trum_sym.motor_file import load_motor
 from trum_sym.units import Dimension, parse_unit
 
 __all__ = ["CLASHES", "CONSTANTS", "NOMENCLATURE", "TINY", "Entry", "latex", "sym"]
@@ -69,7 +72,23 @@ q_plus      | 1        | + | \sum Q_q^+ | eq. 43 | integral of the positive part
 q_minus     | 1        | + | \sum\vert Q_q^-\vert  | eq. 43 | integral of the magnitude of its negative part
 p_plus      | 1/s      | + | \sum\vert Q_q^+\vert ^2 | eq. 44 | integral of the square of the positive part
 p_minus     | 1/s      | + | \sum\vert Q_q^-\vert ^2 | eq. 44 | integral of the square of the negative part
-W_full      | m        | + | W_{full} | ours | wave height below which the Hertz width spans the whole wave
+W_full      | m        | + | W_{full} | ours | wave height below which the whole wave touches
+a_A_omega_n | m*s | r | \partial a_A/\partial \omega_n | ours | derivative of a_A by omega_n
+a_A_Delta_omega | m*s | r | \partial a_A/\partial \Delta\omega | ours | derivative of a_A by Delta_omega
+b_A_omega_n | m | r | \partial b_A/\partial \omega_n | ours | derivative of b_A by omega_n
+b_A_Delta_omega | m | r | \partial b_A/\partial \Delta\omega | ours | derivative of b_A by Delta_omega
+a_B_omega_n | m*s | r | \partial a_B/\partial \omega_n | ours | derivative of a_B by omega_n
+a_B_Delta_omega | m*s | r | \partial a_B/\partial \Delta\omega | ours | derivative of a_B by Delta_omega
+b_B_omega_n | m | r | \partial b_B/\partial \omega_n | ours | derivative of b_B by omega_n
+b_B_Delta_omega | m | r | \partial b_B/\partial \Delta\omega | ours | derivative of b_B by Delta_omega
+f_A_re_omega_n | m*s | r | \partial f_{A,re}/\partial \omega_n | ours | derivative of f_A_re by omega_n
+f_A_re_Delta_omega | m*s | r | \partial f_{A,re}/\partial \Delta\omega | ours | derivative of f_A_re by Delta_omega
+f_A_im_omega_n | m*s | r | \partial f_{A,im}/\partial \omega_n | ours | derivative of f_A_im by omega_n
+f_A_im_Delta_omega | m*s | r | \partial f_{A,im}/\partial \Delta\omega | ours | derivative of f_A_im by Delta_omega
+f_B_re_omega_n | m*s | r | \partial f_{B,re}/\partial \omega_n | ours | derivative of f_B_re by omega_n
+f_B_re_Delta_omega | m*s | r | \partial f_{B,re}/\partial \Delta\omega | ours | derivative of f_B_re by Delta_omega
+f_B_im_omega_n | m*s | r | \partial f_{B,im}/\partial \omega_n | ours | derivative of f_B_im by omega_n
+f_B_im_Delta_omega | m*s | r | \partial f_{B,im}/\partial \Delta\omega | ours | derivative of f_B_im by Delta_omega
 engagement_per_height | 1/m      | + | \epsilon' | ours | engagement over wave height
 f_A_re      | m        | r | f_{A,re} | ours | phasor of phase A's free motion at the start of a step, real part
 f_A_im      | m        | r | f_{A,im} | ours | its imaginary part
@@ -82,7 +101,7 @@ e_im        | 1        | r | e_{im} | ours | its imaginary part
 d_re        | 1        | r | d_{re} | ours | turn of the drive within a step, real part
 d_im        | 1        | r | d_{im} | ours | its imaginary part
 W_c         | m        | + | W_c | ours | height of the wave at its crest
-engagement  | 1        | + | \epsilon | ours | the layer's force at full wave over the prepressure, 2 n_j k_N W_c / (k_c F_c)
+engagement | 1 | + | \epsilon | ours | the layer's force at full wave over the prepressure, 2 n_j k_N W_c / (k_c F_c)
 share       | 1        | r | \sigma_p | ours | constant part of the pressure's share per angle
 sin_theta   | 1        | r | \sin\vartheta | ours | sine of the contact half-angle
 fullness    | 1        | + | \tau_c | ours | how full the contact is, 1 when the whole wave touches
@@ -157,9 +176,41 @@ A_v         | m/s      | + | A_v | eq. 17 | amplitude of the tangential velocity
 Psi_v       | rad      | r | \Psi_v | eq. 17 | phase angle of the tangential velocity
 M_a         | m/s      | r | M_a | eq. 18 | sine's part of the tangential velocity over D k_c
 M_b         | m/s      | r | M_b | eq. 19 | cosine's part of the tangential velocity over D k_c
+N_a         | 1/s      | r | N_a | eq. 18 | M_a between t_1 and t_2, where eq. 17 takes W_maxf out of it
+N_b         | 1/s      | r | N_b | eq. 19 | M_b between t_1 and t_2
 x_max       | m        | r | x_{max} | eq. 20 | position of the crest
 zeta_zmax   | m        | + | \zeta_{zmax} | eq. 21 | displacement of the crest
 v_xmax      | m/s      | r | v_{xmax} | eq. 22 | tangential velocity of the crest
+A_ell       | m^2      | r | A_{ell} | eq. 23 | coefficient of zeta_x^2 in the conic
+B_ell       | m^2      | r | B_{ell} | eq. 23 | coefficient of zeta_x zeta_z in the conic
+C_ell       | m^2      | r | C_{ell} | eq. 23 | coefficient of zeta_z^2 in the conic
+F_ell       | m^4      | r | F_{ell} | eq. 23 | right side of the conic
+p_A         | 1        | r | P_{Aredu}/W_{maxf} | eq. 23 | modal response of phase A over W_maxf, in T_redu
+p_B         | 1        | r | P_{Bredu}/W_{maxf} | eq. 23 | modal response of phase B over W_maxf, in T_redu
+P_A         | m        | r | P_A | eq. 23 | modal response of phase A
+P_B         | m        | r | P_B | eq. 23 | modal response of phase B
+rho_k       | m        | + | \rho_k | eq. 25 | equivalent curvature diameter of the crest
+C_E         | 1/Pa     | + | C_E | eq. 26 | contact compliance of stator and layer
+x_xm        | m        | r | x_{xm} | eq. 27 | right end of the contact
+x_vm        | m        | r | x_{vm} | eq. 28 | printed for x_xm; defined nowhere
+delta_0     | m        | r | \delta_0 | eq. 28 | displacement at the ends of the contact
+v_xm        | m/s      | r | v_{xm} | eq. 29 | tangential velocity at the end of the contact
+phi_vm1     | m        | r | \varphi_{vm1} | eq. 33 | position of an extremum of the tangential velocity
+phi_vm2     | m        | r | \varphi_{vm2} | eq. 35 | position of the other extremum
+x_px        | m        | r | x_{px} | eq. 34 | position of a nonsliding point
+v_xp        | m/s      | r | v_{xp} | Sect. 4.2 | tangential velocity of the nonsliding point, the rotor's surface speed
+v_xx        | m/s      | r | v_{xx} | Sect. 4.2 | tangential velocity of a point of the stator's surface
+f_t         | N        | r | f_t | Sect. 4.2 | friction of the driving zone
+f_b         | N        | r | f_b | Sect. 4.2 | friction of the braking zone
+f_nall      | N        | r | f_{nall} | eq. 38 | resultant of the friction
+M_n         | N*m      | r | M_n | eq. 38 | driving torque
+v_s         | rad/s    | r | v_s | eq. 39 | mean speed
+I           | 1        | + | I | eq. 39 | number of samples
+S_k         | rad/s    | r | S_k | eq. 40 | standard deviation of the speed
+S_s         | rad/s    | r | S_s | eq. 41 | printed for S_k
+Q_aver      | 1/s      | r | Q_{aver} | eq. 43 | speed determinant
+X           | 1        | + | X | eq. A14 | forward over backward, of Q
+Y           | 1        | + | Y | eq. A16 | the same of Q squared
 W_a         | m        | + | W_a | eq. A1 | amplitude of phase A
 W_b         | m        | + | W_b | eq. A1 | amplitude of phase B
 omega_a     | rad/s    | + | \omega_a | eq. A1 | angular frequency of phase A
@@ -195,6 +246,13 @@ CLASHES: dict[str, tuple[str, ...]] = {
     "Q": ("particle point (Sect. 3.1)", "direction determinant Q_q (eq. 24), also called Q_redu and Q_qredu"),
     "M": ("modal mass M_1 (eq. 7)", "M_a, M_b in eqs. 17 to 19", "torque M_n (eq. 38)"),
     "P": ("load P(x,t), written p in eq. 3", "P_A, P_B, modal responses (eqs. 23, A11)"),
+    "p": ("load per length of the beam (eq. 3)", "pressure of the layer (eqs. 30 to 32, 36)"),
+    "I": ("second moments I_z, I_e, I_p (eq. 2)", "number of samples (eqs. 39, 41)"),
+    r"\mu": ("Poisson's ratios mu_e, mu_m (eq. 26, Table 1)", "friction coefficient (eq. 36)"),
+    "v": ("tangential velocities, m/s (eqs. 16 to 38)", "speeds v_i, v_s of the motor, angle per time (eqs. 39 to 41)"),
+    "S": ("standard deviation S_k (eq. 40)", "printed S_s in eq. 41"),
+    "f": ("friction f_t, f_b, f_n, f_nall (eqs. 36, 38)", "factor f(Y) of Q_vib (eqs. A16, A17)"),
+    "x": ("place along the circumference", "place of the contact's end, x_xm in eq. 27, x_vm in eq. 28"),
     "T": ("beat periods T_redu ... (eq. 15)", "regions T_reduT ... (Sect. 3.2)", "torque T_load (eq. 38)"),
 }  # fmt: skip
 
@@ -210,11 +268,14 @@ def _table_row(line: str, table: dict[str, Entry]) -> tuple[str, Entry]:
 
 def _entries() -> dict[str, Entry]:
     table: dict[str, Entry] = {}
+    motor = load_motor("trum60")
     for field in fields(Motor):
         spec = field.metadata.get("spec")
         if spec is not None:
             symbol = _symbol(spec.symbol, positive=spec.domain.low >= 0)
-            table[spec.symbol] = Entry(symbol, spec.unit, field.name.replace("_", " "), sp.latex(symbol), "Table 1")
+            given = getattr(motor, field.name)
+            where = "motor file" if given is None else given.source
+            table[spec.symbol] = Entry(symbol, spec.unit, field.name.replace("_", " "), sp.latex(symbol), where)
     for line in (_REST + _PAPER).strip().splitlines():
         if not line:
             continue
@@ -239,6 +300,10 @@ def sym(names: str) -> tuple[sp.Symbol, ...]:
     return tuple(NOMENCLATURE[name].symbol for name in names.split())
 
 
+_INTERVAL = re.compile(r"\\text\{for\}\\: t \\geq (t_\d) \\wedge t \\leq (t_\d)")
+
+
 def latex(expr: sp.Basic) -> str:
-    """LaTeX with the nomenclature's names."""
-    return str(sp.latex(expr, symbol_names=_LATEX, fold_short_frac=False, ln_notation=True))
+    """LaTeX with the nomenclature's names, intervals as the paper writes them."""
+    text = str(sp.latex(expr, symbol_names=_LATEX, fold_short_frac=False, ln_notation=True))
+    return _INTERVAL.sub(r"t \\in [\1, \2]", text)

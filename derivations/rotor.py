@@ -22,12 +22,14 @@ __all__ = [
     "contact_winkler",
     "filling",
     "friction",
+    "friction_slopes",
     "hertz_full_height",
     "less",
     "phasor",
     "rotation",
     "stall_torque",
     "wave",
+    "wave_in_time",
     "winkler_full_height",
 ]
 
@@ -189,19 +191,15 @@ def contact_hertz() -> dict[str, sp.Expr]:
     return {"theta": angle, "sin_theta": sp.sin(angle), "share": -scale * sp.cos(angle), "engagement": scale}
 
 
-@cache
-def friction() -> dict[str, sp.Expr]:
-    """Net friction fraction f of mu F_c at rim speed v, and df/dv (eqs. 33 to 37 in one form).
+def _points() -> list[tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr, sp.Expr]]:
+    """The two points where the surface is as fast as the rotor, phi + alpha and phi - alpha.
 
-    The surface is faster than the rotor between phi - alpha and phi + alpha, cos alpha = v / R_v.  With C(u) the
-    pressure's cumulative share, continued over the crests, f = 2 (C(phi + alpha) - C(phi - alpha)) - 1: f = -1 for a
-    rotor faster than all of the surface, +1 for one slower.  p_1 and p_2 are the pressure at the two points over its
-    mean (0 and below: not in contact), whose changes of sign are kinks of f.
+    For each: turns of the circle; u and sin u, both held at the contact's edge outside it; whether it is inside; the
+    pressure over its mean.
     """
-    ratio = sp.Max(-1, sp.Min(1, v / (R_v + TINY)))
-    sine = sp.sqrt(1 - ratio**2)
+    ratio, sine = _speeds()
     alpha = sp.atan2(sine, ratio)
-    shares, pressures = [], []
+    found = []
     for sign in (1, -1):
         u = phi + sign * alpha
         turns = less(sp.pi, u) - less(u, -sp.pi)
@@ -212,10 +210,57 @@ def friction() -> dict[str, sp.Expr]:
         side = 2 * less(0, wrapped) - 1
         clipped = inside * wrapped + (1 - inside) * side * theta
         sin_clipped = inside * sin_u + (1 - inside) * side * sin_theta
-        shares.append(turns + (engagement * sin_clipped + share * clipped) / 2)
-        pressures.append(engagement * cos_u + share)
+        found.append((turns, clipped, sin_clipped, inside, engagement * cos_u + share))
+    return found
+
+
+def _speeds() -> tuple[sp.Expr, sp.Expr]:
+    """Cosine and sine of alpha: the rotor's speed over the surface's greatest, held at 1."""
+    ratio = sp.Max(-1, sp.Min(1, v / (R_v + TINY)))
+    return ratio, sp.sqrt(1 - ratio**2)
+
+
+@cache
+def friction() -> dict[str, sp.Expr]:
+    """Net friction fraction f of mu F_c at rim speed v, and df/dv (eqs. 33 to 37 in one form).
+
+    The surface is faster than the rotor between phi - alpha and phi + alpha, cos alpha = v / R_v.  With C(u) the
+    pressure's cumulative share, continued over the crests, f = 2 (C(phi + alpha) - C(phi - alpha)) - 1: f = -1 for a
+    rotor faster than all of the surface, +1 for one slower.  p_1 and p_2 are the pressure at the two points over its
+    mean (0 and below: not in contact), whose changes of sign are kinks of f.
+    """
+    points = _points()
+    shares = [turns + (engagement * sin_u + share * u) / 2 for turns, u, sin_u, _, _ in points]
+    pressures = [pressure for *_, pressure in points]
     net = 2 * (shares[0] - shares[1]) - 1
     moving = less(sp.Abs(v), R_v)
     pressed = sum(sp.Max(0, pressure) / 2 for pressure in pressures)
-    slope = -2 * moving * pressed / (R_v * sine + TINY)
+    slope = -2 * moving * pressed / (R_v * _speeds()[1] + TINY)
     return {"f": net, "f_v": slope, "p_1": pressures[0], "p_2": pressures[1]}
+
+
+@cache
+def friction_slopes() -> dict[str, sp.Expr]:
+    """How f changes with the angle phi, and with the logarithm of the engagement E.
+
+    The pressure is E cos u + share inside theta, with the load balance E (sin theta - theta cos theta) = 1 and zero
+    pressure at the edges, so moving those adds nothing: d share / d ln E = share - 1/theta, and d theta / d ln E =
+    -1 / (E theta sin theta).  A whole wave in contact keeps theta = pi and share = 1/pi, and the same form holds.
+    E_height is d ln E / d ln W_c for the paper's Hertz width, where theta falls as the root of W_c; it is 1 for the layer.
+    """
+    points = _points()
+    shares = [inside * (engagement * sin_u + (share - 1 / theta) * u) / 2 for _, u, sin_u, inside, _ in points]
+    pressures = [sp.Max(0, pressure) for *_, pressure in points]
+    partly = less(theta, sp.pi)
+    return {
+        "f_phi": pressures[0] - pressures[1],
+        "f_E": 2 * (shares[0] - shares[1]),
+        "theta_E": -partly / (engagement * theta * sin_theta + TINY),
+        "E_height": engagement * theta**2 * sin_theta / 2,
+    }
+
+
+def wave_in_time() -> dict[str, sp.Expr]:
+    """The wave a time tau after phasors f and p, all of it as a function of the frequencies and of tau."""
+    turned = dict(zip((e_re, e_im, d_re, d_im), rotation(), strict=True))
+    return {name: expr.subs(turned) for name, expr in wave().items() if name in ("W_c", "R_v", "phi")}

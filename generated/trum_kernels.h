@@ -138,6 +138,31 @@ int trum_friction(const trum_real** arg, trum_real** res, long long int* iw, tru
 enum { trum_friction_in_R_v, trum_friction_in_cos_phi, trum_friction_in_engagement, trum_friction_in_phi, trum_friction_in_share, trum_friction_in_sin_phi, trum_friction_in_sin_theta, trum_friction_in_theta, trum_friction_in_v, trum_friction_n_arg };
 enum { trum_friction_out_f, trum_friction_out_f_v, trum_friction_out_p_1, trum_friction_out_p_2, trum_friction_n_res };
 
+/* How the free motion before t1 follows the frequencies, start periodic */
+int trum_start_periodic_slopes(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_start_periodic_slopes_in_Delta_omega, trum_start_periodic_slopes_in_W, trum_start_periodic_slopes_in_m, trum_start_periodic_slopes_in_n, trum_start_periodic_slopes_in_omega_n, trum_start_periodic_slopes_in_psi, trum_start_periodic_slopes_in_s, trum_start_periodic_slopes_in_xi, trum_start_periodic_slopes_n_arg };
+enum { trum_start_periodic_slopes_out_a_A_omega_n, trum_start_periodic_slopes_out_b_A_omega_n, trum_start_periodic_slopes_out_a_B_omega_n, trum_start_periodic_slopes_out_b_B_omega_n, trum_start_periodic_slopes_out_a_A_Delta_omega, trum_start_periodic_slopes_out_b_A_Delta_omega, trum_start_periodic_slopes_out_a_B_Delta_omega, trum_start_periodic_slopes_out_b_B_Delta_omega, trum_start_periodic_slopes_n_res };
+
+/* How the free motion before t1 follows the frequencies, start rest */
+int trum_start_rest_slopes(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_start_rest_slopes_in_Delta_omega, trum_start_rest_slopes_in_W, trum_start_rest_slopes_in_omega_n, trum_start_rest_slopes_in_psi, trum_start_rest_slopes_in_s, trum_start_rest_slopes_n_arg };
+enum { trum_start_rest_slopes_out_a_A_omega_n, trum_start_rest_slopes_out_b_A_omega_n, trum_start_rest_slopes_out_a_B_omega_n, trum_start_rest_slopes_out_b_B_omega_n, trum_start_rest_slopes_out_a_A_Delta_omega, trum_start_rest_slopes_out_b_A_Delta_omega, trum_start_rest_slopes_out_a_B_Delta_omega, trum_start_rest_slopes_out_b_B_Delta_omega, trum_start_rest_slopes_n_res };
+
+/* How the free motion's phasors at the start of the regions follow the frequencies */
+int trum_regions_slopes(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_regions_slopes_in_Delta_omega, trum_regions_slopes_in_W, trum_regions_slopes_in_a_A, trum_regions_slopes_in_a_A_Delta_omega, trum_regions_slopes_in_a_A_omega_n, trum_regions_slopes_in_a_B, trum_regions_slopes_in_a_B_Delta_omega, trum_regions_slopes_in_a_B_omega_n, trum_regions_slopes_in_b_A, trum_regions_slopes_in_b_A_Delta_omega, trum_regions_slopes_in_b_A_omega_n, trum_regions_slopes_in_b_B, trum_regions_slopes_in_b_B_Delta_omega, trum_regions_slopes_in_b_B_omega_n, trum_regions_slopes_in_m, trum_regions_slopes_in_n, trum_regions_slopes_in_omega_n, trum_regions_slopes_in_psi, trum_regions_slopes_in_s, trum_regions_slopes_in_xi, trum_regions_slopes_n_arg };
+enum { trum_regions_slopes_out_re_A_redu_omega_n, trum_regions_slopes_out_im_A_redu_omega_n, trum_regions_slopes_out_re_A_addredu_omega_n, trum_regions_slopes_out_im_A_addredu_omega_n, trum_regions_slopes_out_re_A_add_omega_n, trum_regions_slopes_out_im_A_add_omega_n, trum_regions_slopes_out_re_B_redu_omega_n, trum_regions_slopes_out_im_B_redu_omega_n, trum_regions_slopes_out_re_B_addredu_omega_n, trum_regions_slopes_out_im_B_addredu_omega_n, trum_regions_slopes_out_re_B_add_omega_n, trum_regions_slopes_out_im_B_add_omega_n, trum_regions_slopes_out_re_A_redu_Delta_omega, trum_regions_slopes_out_im_A_redu_Delta_omega, trum_regions_slopes_out_re_A_addredu_Delta_omega, trum_regions_slopes_out_im_A_addredu_Delta_omega, trum_regions_slopes_out_re_A_add_Delta_omega, trum_regions_slopes_out_im_A_add_Delta_omega, trum_regions_slopes_out_re_B_redu_Delta_omega, trum_regions_slopes_out_im_B_redu_Delta_omega, trum_regions_slopes_out_re_B_addredu_Delta_omega, trum_regions_slopes_out_im_B_addredu_Delta_omega, trum_regions_slopes_out_re_B_add_Delta_omega, trum_regions_slopes_out_im_B_add_Delta_omega, trum_regions_slopes_n_res };
+
+/* How the wave follows the frequencies, at a fixed share of a drive period */
+int trum_wave_slopes(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_wave_slopes_in_D, trum_wave_slopes_in_Delta_omega, trum_wave_slopes_in_W, trum_wave_slopes_in_f_A_im, trum_wave_slopes_in_f_A_im_Delta_omega, trum_wave_slopes_in_f_A_im_omega_n, trum_wave_slopes_in_f_A_re, trum_wave_slopes_in_f_A_re_Delta_omega, trum_wave_slopes_in_f_A_re_omega_n, trum_wave_slopes_in_f_B_im, trum_wave_slopes_in_f_B_im_Delta_omega, trum_wave_slopes_in_f_B_im_omega_n, trum_wave_slopes_in_f_B_re, trum_wave_slopes_in_f_B_re_Delta_omega, trum_wave_slopes_in_f_B_re_omega_n, trum_wave_slopes_in_g_A, trum_wave_slopes_in_g_B, trum_wave_slopes_in_k_c, trum_wave_slopes_in_omega_n, trum_wave_slopes_in_p_im, trum_wave_slopes_in_p_re, trum_wave_slopes_in_s, trum_wave_slopes_in_tau, trum_wave_slopes_in_xi, trum_wave_slopes_n_arg };
+enum { trum_wave_slopes_out_W_c_omega_n, trum_wave_slopes_out_R_v_omega_n, trum_wave_slopes_out_phi_omega_n, trum_wave_slopes_out_W_c_Delta_omega, trum_wave_slopes_out_R_v_Delta_omega, trum_wave_slopes_out_phi_Delta_omega, trum_wave_slopes_n_res };
+
+/* How friction and contact change with the angle phi and the logarithm of the engagement */
+int trum_friction_slopes(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_friction_slopes_in_R_v, trum_friction_slopes_in_cos_phi, trum_friction_slopes_in_engagement, trum_friction_slopes_in_phi, trum_friction_slopes_in_share, trum_friction_slopes_in_sin_phi, trum_friction_slopes_in_sin_theta, trum_friction_slopes_in_theta, trum_friction_slopes_in_v, trum_friction_slopes_n_arg };
+enum { trum_friction_slopes_out_f_phi, trum_friction_slopes_out_f_E, trum_friction_slopes_out_theta_E, trum_friction_slopes_out_E_height, trum_friction_slopes_n_res };
+
 /* name, number of inputs and outputs, their names */
 #define TRUM_KERNELS(X) \
   X(trum_neutral_axis, 7, 1, "E_e E_p b_e b_p h_e h_p h_t", "D") \
@@ -164,7 +189,12 @@ enum { trum_friction_out_f, trum_friction_out_f_v, trum_friction_out_p_1, trum_f
   X(trum_contact_winkler, 2, 3, "fullness fullness_root", "theta sin_theta share") \
   X(trum_contact_hertz, 2, 4, "W_c W_full", "theta sin_theta share engagement") \
   X(trum_stall_torque, 4, 1, "F_c f mu r_c", "torque") \
-  X(trum_friction, 9, 4, "R_v cos_phi engagement phi share sin_phi sin_theta theta v", "f f_v p_1 p_2")
+  X(trum_friction, 9, 4, "R_v cos_phi engagement phi share sin_phi sin_theta theta v", "f f_v p_1 p_2") \
+  X(trum_start_periodic_slopes, 8, 8, "Delta_omega W m n omega_n psi s xi", "a_A_omega_n b_A_omega_n a_B_omega_n b_B_omega_n a_A_Delta_omega b_A_Delta_omega a_B_Delta_omega b_B_Delta_omega") \
+  X(trum_start_rest_slopes, 5, 8, "Delta_omega W omega_n psi s", "a_A_omega_n b_A_omega_n a_B_omega_n b_B_omega_n a_A_Delta_omega b_A_Delta_omega a_B_Delta_omega b_B_Delta_omega") \
+  X(trum_regions_slopes, 20, 24, "Delta_omega W a_A a_A_Delta_omega a_A_omega_n a_B a_B_Delta_omega a_B_omega_n b_A b_A_Delta_omega b_A_omega_n b_B b_B_Delta_omega b_B_omega_n m n omega_n psi s xi", "re_A_redu_omega_n im_A_redu_omega_n re_A_addredu_omega_n im_A_addredu_omega_n re_A_add_omega_n im_A_add_omega_n re_B_redu_omega_n im_B_redu_omega_n re_B_addredu_omega_n im_B_addredu_omega_n re_B_add_omega_n im_B_add_omega_n re_A_redu_Delta_omega im_A_redu_Delta_omega re_A_addredu_Delta_omega im_A_addredu_Delta_omega re_A_add_Delta_omega im_A_add_Delta_omega re_B_redu_Delta_omega im_B_redu_Delta_omega re_B_addredu_Delta_omega im_B_addredu_Delta_omega re_B_add_Delta_omega im_B_add_Delta_omega") \
+  X(trum_wave_slopes, 24, 6, "D Delta_omega W f_A_im f_A_im_Delta_omega f_A_im_omega_n f_A_re f_A_re_Delta_omega f_A_re_omega_n f_B_im f_B_im_Delta_omega f_B_im_omega_n f_B_re f_B_re_Delta_omega f_B_re_omega_n g_A g_B k_c omega_n p_im p_re s tau xi", "W_c_omega_n R_v_omega_n phi_omega_n W_c_Delta_omega R_v_Delta_omega phi_Delta_omega") \
+  X(trum_friction_slopes, 9, 4, "R_v cos_phi engagement phi share sin_phi sin_theta theta v", "f_phi f_E theta_E E_height")
 
 /* gates of the phases in the regions of a cycle */
 #define TRUM_REGIONS 3

@@ -13,6 +13,7 @@ enum {
   trum_at_E,
   trum_at_E_e,
   trum_at_E_eq,
+  trum_at_E_height,
   trum_at_E_m,
   trum_at_E_p,
   trum_at_F_c,
@@ -39,25 +40,33 @@ enum {
   trum_at_W_maxf,
   trum_at_a,
   trum_at_a_A,
+  trum_at_a_A_Delta_omega,
   trum_at_a_A_add,
   trum_at_a_A_addredu,
   trum_at_a_A_end,
+  trum_at_a_A_omega_n,
   trum_at_a_A_redu,
   trum_at_a_B,
+  trum_at_a_B_Delta_omega,
   trum_at_a_B_add,
   trum_at_a_B_addredu,
   trum_at_a_B_end,
+  trum_at_a_B_omega_n,
   trum_at_a_B_redu,
   trum_at_b,
   trum_at_b_A,
+  trum_at_b_A_Delta_omega,
   trum_at_b_A_add,
   trum_at_b_A_addredu,
   trum_at_b_A_end,
+  trum_at_b_A_omega_n,
   trum_at_b_A_redu,
   trum_at_b_B,
+  trum_at_b_B_Delta_omega,
   trum_at_b_B_add,
   trum_at_b_B_addredu,
   trum_at_b_B_end,
+  trum_at_b_B_omega_n,
   trum_at_b_B_redu,
   trum_at_b_e,
   trum_at_b_m,
@@ -77,10 +86,20 @@ enum {
   trum_at_euler,
   trum_at_f,
   trum_at_f_A_im,
+  trum_at_f_A_im_Delta_omega,
+  trum_at_f_A_im_omega_n,
   trum_at_f_A_re,
+  trum_at_f_A_re_Delta_omega,
+  trum_at_f_A_re_omega_n,
   trum_at_f_B_im,
+  trum_at_f_B_im_Delta_omega,
+  trum_at_f_B_im_omega_n,
   trum_at_f_B_re,
+  trum_at_f_B_re_Delta_omega,
+  trum_at_f_B_re_omega_n,
+  trum_at_f_E,
   trum_at_f_n,
+  trum_at_f_phi,
   trum_at_f_v,
   trum_at_fullness,
   trum_at_fullness_root,
@@ -92,6 +111,12 @@ enum {
   trum_at_h_t,
   trum_at_harmonic,
   trum_at_im,
+  trum_at_im_A_add,
+  trum_at_im_A_addredu,
+  trum_at_im_A_redu,
+  trum_at_im_B_add,
+  trum_at_im_B_addredu,
+  trum_at_im_B_redu,
   trum_at_k_N,
   trum_at_k_c,
   trum_at_k_dx,
@@ -128,6 +153,12 @@ enum {
   trum_at_r_c,
   trum_at_r_t,
   trum_at_re,
+  trum_at_re_A_add,
+  trum_at_re_A_addredu,
+  trum_at_re_A_redu,
+  trum_at_re_B_add,
+  trum_at_re_B_addredu,
+  trum_at_re_B_redu,
   trum_at_repetition,
   trum_at_residual,
   trum_at_rho,
@@ -143,6 +174,7 @@ enum {
   trum_at_smeared,
   trum_at_tau,
   trum_at_theta,
+  trum_at_theta_E,
   trum_at_time_add,
   trum_at_time_addredu,
   trum_at_time_redu,
@@ -306,6 +338,36 @@ static inline void trum_call_friction(trum_real* v) {
   const trum_real* arg[trum_friction_n_arg] = {v + trum_at_R_v, v + trum_at_cos_phi, v + trum_at_engagement, v + trum_at_phi, v + trum_at_share, v + trum_at_sin_phi, v + trum_at_sin_theta, v + trum_at_theta, v + trum_at_v};
   trum_real* res[trum_friction_n_res] = {v + trum_at_f, v + trum_at_f_v, v + trum_at_p_1, v + trum_at_p_2};
   trum_friction(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_start_periodic_slopes(trum_real* v) {
+  const trum_real* arg[trum_start_periodic_slopes_n_arg] = {v + trum_at_Delta_omega, v + trum_at_W, v + trum_at_m, v + trum_at_n, v + trum_at_omega_n, v + trum_at_psi, v + trum_at_s, v + trum_at_xi};
+  trum_real* res[trum_start_periodic_slopes_n_res] = {v + trum_at_a_A, v + trum_at_b_A, v + trum_at_a_B, v + trum_at_b_B};
+  trum_start_periodic_slopes(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_start_rest_slopes(trum_real* v) {
+  const trum_real* arg[trum_start_rest_slopes_n_arg] = {v + trum_at_Delta_omega, v + trum_at_W, v + trum_at_omega_n, v + trum_at_psi, v + trum_at_s};
+  trum_real* res[trum_start_rest_slopes_n_res] = {v + trum_at_a_A, v + trum_at_b_A, v + trum_at_a_B, v + trum_at_b_B};
+  trum_start_rest_slopes(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_regions_slopes(trum_real* v) {
+  const trum_real* arg[trum_regions_slopes_n_arg] = {v + trum_at_Delta_omega, v + trum_at_W, v + trum_at_a_A, v + trum_at_a_A_Delta_omega, v + trum_at_a_A_omega_n, v + trum_at_a_B, v + trum_at_a_B_Delta_omega, v + trum_at_a_B_omega_n, v + trum_at_b_A, v + trum_at_b_A_Delta_omega, v + trum_at_b_A_omega_n, v + trum_at_b_B, v + trum_at_b_B_Delta_omega, v + trum_at_b_B_omega_n, v + trum_at_m, v + trum_at_n, v + trum_at_omega_n, v + trum_at_psi, v + trum_at_s, v + trum_at_xi};
+  trum_real* res[trum_regions_slopes_n_res] = {v + trum_at_re_A_redu, v + trum_at_im_A_redu, v + trum_at_re_A_addredu, v + trum_at_im_A_addredu, v + trum_at_re_A_add, v + trum_at_im_A_add, v + trum_at_re_B_redu, v + trum_at_im_B_redu, v + trum_at_re_B_addredu, v + trum_at_im_B_addredu, v + trum_at_re_B_add, v + trum_at_im_B_add};
+  trum_regions_slopes(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_wave_slopes(trum_real* v) {
+  const trum_real* arg[trum_wave_slopes_n_arg] = {v + trum_at_D, v + trum_at_Delta_omega, v + trum_at_W, v + trum_at_f_A_im, v + trum_at_f_A_im_Delta_omega, v + trum_at_f_A_im_omega_n, v + trum_at_f_A_re, v + trum_at_f_A_re_Delta_omega, v + trum_at_f_A_re_omega_n, v + trum_at_f_B_im, v + trum_at_f_B_im_Delta_omega, v + trum_at_f_B_im_omega_n, v + trum_at_f_B_re, v + trum_at_f_B_re_Delta_omega, v + trum_at_f_B_re_omega_n, v + trum_at_g_A, v + trum_at_g_B, v + trum_at_k_c, v + trum_at_omega_n, v + trum_at_p_im, v + trum_at_p_re, v + trum_at_s, v + trum_at_tau, v + trum_at_xi};
+  trum_real* res[trum_wave_slopes_n_res] = {v + trum_at_W_c, v + trum_at_R_v, v + trum_at_phi};
+  trum_wave_slopes(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_friction_slopes(trum_real* v) {
+  const trum_real* arg[trum_friction_slopes_n_arg] = {v + trum_at_R_v, v + trum_at_cos_phi, v + trum_at_engagement, v + trum_at_phi, v + trum_at_share, v + trum_at_sin_phi, v + trum_at_sin_theta, v + trum_at_theta, v + trum_at_v};
+  trum_real* res[trum_friction_slopes_n_res] = {v + trum_at_f_phi, v + trum_at_f_E, v + trum_at_theta_E, v + trum_at_E_height};
+  trum_friction_slopes(arg, res, 0, 0, 0);
 }
 
 #endif

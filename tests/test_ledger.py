@@ -6,16 +6,18 @@ import json
 import os
 import subprocess
 import sys
+from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 
+import mpmath as mp
 import pytest
 import sympy as sp
 
-from derivations.ledger import ENTRIES, entry
+from derivations.ledger import ENTRIES, entry, judge
 from derivations.ledger.command import as_json, prove, verify
 from derivations.ledger.model import Derivation, Entry, Evidence, Step, confirm
-from derivations.ledger.mutate import mutants, try_mutants
+from derivations.ledger.mutate import equivalent, mutants, try_misreadings, try_mutants
 from derivations.nomenclature import CLASHES, NOMENCLATURE, sym
 
 ROOT = Path(__file__).parent.parent
@@ -111,6 +113,25 @@ def test_an_erratum_needs_a_repair_that_passes_and_the_stated_kinds():
     assert not confirm(toy(**{**wrong, "found_by": ("identity",)}, repair=lambda f: {"x": f["x"] / 2})).confirmed
 
 
+def rows_of(head):
+    text = (ROOT / "docs" / "ledger.md").read_text("utf-8")
+    table = text[text.index(head) :].split("\n\n")[0].splitlines()[2:]
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in table]
+
+
+def test_the_docs_count_the_verdicts_of_the_ledger(records):
+    counted = Counter(r["verdict"] for r in records)
+    numbered = Counter(r["verdict"] for r in records if r["id"] in NUMBERED)
+    stated = {row[0]: (int(row[1]), int(row[2])) for row in rows_of("| verdict | entries")}
+    assert stated == {verdict: (count, numbered[verdict]) for verdict, count in counted.items()}
+    assert f"{len(records)} entries in all" in (ROOT / "docs" / "ledger.md").read_text("utf-8").replace("\n", " ")
+
+
+def test_the_docs_list_the_planted_slips():
+    stated = [(row[0], row[2].replace(" ", "_")) for row in rows_of("| equation | slip |")]
+    assert stated == [(name, by) for name, _, _, by in PLANTED]
+
+
 # --- errors planted in the transcription --------------------------------------------------------------------
 def put(old, new):
     return lambda form: form.xreplace({sp.sympify(old): sp.sympify(new)})
@@ -118,6 +139,7 @@ def put(old, new):
 
 h_p, h_e, k_c, omega_q, omega_n, W_a, D, rho, xi = sym("h_p h_e k_c omega_q omega_n W_a D rho xi")
 omega_a, omega_b, U_s, A_A, kappa, w_A, w_B = sym("omega_a omega_b U_s A_A kappa w_A w_B")
+Psi_Badd, t, t_1 = sym("Psi_Badd t t_1")
 
 PLANTED = [
     ("1", "D", put(h_p**2, h_p * h_e), "numeric"),
@@ -134,19 +156,57 @@ PLANTED = [
     ("20", "x_max", put(w_A / w_B, w_B / w_A), "identity"),
     ("22", "v_xmax", put(w_A, -w_A), "numeric"),
     ("23", "B_ell", lambda f: f / 2, "numeric"),
+    ("24", "Q_q", put(omega_q / 2 - omega_n / 2, omega_n / 2 - omega_q / 2), "numeric"),
+    ("24", "Q_q", put(Psi_Badd, -Psi_Badd), "identity"),
     ("A4", "reduced", lambda f: -f, "numeric"),
     ("A6", "Q_q", put(omega_b - omega_a, omega_a - omega_b), "numeric"),
     ("A9", "T_q", lambda f: f / 2, "numeric"),
 ]
 
 
-@pytest.mark.parametrize(("name", "form", "slip", "by"), PLANTED, ids=[p[0] for p in PLANTED])
+@pytest.mark.parametrize(("name", "form", "slip", "by"), PLANTED, ids=[f"{p[0]}-{p[3]}" for p in PLANTED])
 def test_a_slip_planted_in_the_transcription_is_noticed(name, form, slip, by):
     honest = entry(name)
     changed = slip(honest.printed[form])
     assert changed != honest.printed[form]
     result = confirm(replace(honest, printed={**honest.printed, form: changed}))
     assert any(by in problem for problem in result.problems), result.problems
+
+
+def test_the_beat_of_eq_24s_first_row_may_be_written_either_way_round():
+    """sin((omega_q - omega_n)(t - t_1) + pi/2) is a cosine: this slip changes nothing, so nothing may notice it."""
+    honest = entry("24")
+    row = honest.printed["Q_q"].args[0][0]
+    slipped = put(omega_q - omega_n, omega_n - omega_q)(row)
+    assert row.has((omega_q - omega_n) * (t - t_1))
+    assert slipped != row
+    assert sp.simplify(slipped - row.doit()) == 0
+    assert equivalent(put(omega_q - omega_n, omega_n - omega_q)(honest.printed["Q_q"]), honest.printed["Q_q"])
+
+
+WITH_A_LOOP = [str(n) for n in range(1, 25)] + [f"A{n}" for n in range(1, 10)]
+
+
+@pytest.mark.parametrize("name", WITH_A_LOOP)
+def test_one_value_that_is_not_a_number_is_noticed(monkeypatch, name):
+    """Every second evaluation of an expression gives NaN, which max(0, nan) would drop."""
+    judged = entry(name)
+    forms = judged.subject()
+    assert judged.rejects(forms) is None  # and what is cached is computed
+    calls = Counter()
+    sound = judge.compiled
+
+    def failing(symbols, expr):
+        calls[expr] += 1
+        return (lambda *_: mp.nan) if calls[expr] == 2 else sound(symbols, expr)
+
+    monkeypatch.setattr(judge, "compiled", failing)
+    found = judged.rejects(forms)
+    assert found is not None or max(calls.values(), default=0) < 2
+    assert (max(calls.values(), default=0) >= 2) == (name not in ONE_EVALUATION)
+
+
+ONE_EVALUATION = {"15"}  # its judge turns vectors of its own
 
 
 # --- mutants ------------------------------------------------------------------------------------------------
@@ -164,12 +224,35 @@ def test_mutants_are_the_slips_that_happen_in_print():
 def test_no_mutant_survives(name):
     outcomes = try_mutants(entry(name))
     assert outcomes
-    assert [f"{o.mutant.name}: {o.mutant.slip}" for o in outcomes if o.rejected_by is None and not o.equivalent] == []
+    assert [f"{o.mutant.name}: {o.mutant.slip}" for o in outcomes if o.survives] == []
+
+
+@pytest.mark.parametrize("name", ["5", "10", "15", "20", "31", "A13", "table-1-isotropy"])
+def test_no_misreading_of_a_misprint_survives(name):
+    outcomes = try_misreadings(entry(name))
+    assert [f"{o.mutant.name}: {o.mutant.slip}" for o in outcomes if o.survives] == []
+
+
+def test_a_repair_that_ignores_the_print_discards_its_misreadings():
+    honest = entry("20")
+    deaf = replace(honest, repair=lambda _: honest.subject())
+    assert any(o.discarded for o in try_misreadings(deaf))
+    assert not any(o.discarded for o in try_misreadings(honest))
 
 
 def test_an_idle_judge_lets_mutants_survive():
     idle = replace(entry("12"), judge=lambda _: [])
-    assert any(o.rejected_by is None and not o.equivalent for o in try_mutants(idle))
+    assert any(o.survives for o in try_mutants(idle))
+
+
+def test_a_surviving_mutant_is_1_and_is_named(capsys, monkeypatch):
+    idle = replace(entry("12"), judge=lambda _: [])
+    monkeypatch.setattr("derivations.ledger.command.entry", lambda _: idle)
+    assert verify("12", **options(mutants=True)) == 1
+    assert "surviving (12) A_Q: " in capsys.readouterr().out
+    monkeypatch.undo()
+    assert verify("12", **options(mutants=True)) == 0
+    assert "29 mutants of what stands: 29 rejected" in capsys.readouterr().out
 
 
 # --- symbols and command line -------------------------------------------------------------------------------

@@ -10,12 +10,12 @@ from scipy.optimize import curve_fit
 from derivations.ledger import entry
 from derivations.ledger.history import STARTS, history, values
 from derivations.ledger.model import confirm
-from derivations.ledger.names import name
 from derivations.ledger.section_2_amplitude import TABLE_2, power_law
 from derivations.ledger.section_6 import cycle_totals
 from derivations.ledger.section_7 import rounds_to
 from derivations.ledger.table_1 import resonance_with
 from derivations.ledger.tables_2_to_5 import reachable_by_rounding, resampled_interval
+from derivations.nomenclature import sym
 
 FORCE, AMPLITUDE = np.array(sorted(TABLE_2), float), np.array([TABLE_2[f] for f in sorted(TABLE_2)])
 
@@ -103,7 +103,7 @@ def test_3_for_2_in_the_derivative_of_appendix_c():
 
 
 def test_a_flipped_sign_in_the_speed_determinant():
-    X = name("X")[0]
+    X = sym("X")[0]
     assert planted("A14", lambda form: form.subs(X - 1, X + 1) if form.has(X) else form) == "numeric"
     q_minus = next(s for s in entry("43").printed["Q_aver"].free_symbols if s.name == "q_minus")
     assert planted("43", lambda form: form.subs(q_minus, -q_minus)) == "numeric"
@@ -115,7 +115,7 @@ def test_a_lost_square_in_the_volatility_determinant():
 
 
 def test_the_mean_speed_without_its_division():
-    count = name("I")[0]
+    count = sym("I")[0]
     assert planted("39", lambda form: form * count / (count + 1)) in ("dimension", "numeric")
 
 

@@ -12,7 +12,7 @@ from scipy import integrate, optimize
 from derivations import ellipse, line_contact, transfer
 from derivations.ledger import entry
 from derivations.ledger.model import confirm
-from derivations.ledger.names import name
+from derivations.nomenclature import sym
 
 phi, c, theta, u = transfer.phi, transfer.c, transfer.theta, transfer.u
 FRACTION = sp.lambdify((phi, c, theta), transfer.friction_fraction(), "numpy")
@@ -147,7 +147,7 @@ def planted(label, change):
 
 
 def test_a_lost_square_in_the_curvature_is_a_dimension_error():
-    zeta_zmax = name("zeta_zmax")[0]
+    zeta_zmax = sym("zeta_zmax")[0]
     assert planted("25", lambda form: form * zeta_zmax) == "dimension"
     assert planted("25", lambda form: form / 2) == "numeric"  # radius for diameter
 
@@ -168,7 +168,7 @@ def test_one_crest_forgotten_in_the_balance():
 
 def test_the_load_added_in_the_torque_balance():
     balance = dict(entry("38").printed)
-    T_load = name("T_load")[0]
+    T_load = sym("T_load")[0]
     balance["balance"] = balance["balance"].subs(T_load, -T_load)
     assert entry("38").rejects(balance).kind == "numeric"
 

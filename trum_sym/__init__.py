@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from trum_sym.motor import Motor, Parameter
     from trum_sym.motor_file import load_motor
     from trum_sym.operating_point import OperatingPoint, evaluate
+    from trum_sym.slopes import sensitivities
 
 __all__ = [
     "ConvergenceError",
@@ -32,6 +33,7 @@ __all__ = [
     "ValidityWarning",
     "evaluate",
     "load_motor",
+    "sensitivities",
     "simulate",
 ]
 
@@ -46,6 +48,7 @@ _HOME = {
     "ValidityWarning": "errors",
     "evaluate": "operating_point",
     "load_motor": "motor_file",
+    "sensitivities": "slopes",
     "simulate": "histories",
 }
 

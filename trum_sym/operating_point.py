@@ -24,11 +24,12 @@ from trum_sym.stator import (
     Foundation,
     Levels,
     Resonance,
+    Stator,
     solve_stator,
 )
 from trum_sym.validate import Array, ArrayLike, Domain, broadcast_shape, number
 
-__all__ = ["OperatingPoint", "evaluate"]
+__all__ = ["Case", "OperatingPoint", "evaluate", "prepare"]
 
 _ENCODER_SAMPLES = 64  # per drive period, of the path that the encoder differences
 
@@ -138,27 +139,9 @@ def evaluate(
     ConvergenceError
         If the forced amplitude and the resonance do not settle.
     """
-    for name, value, allowed in (
-        ("contact", contact, CONTACTS),
-        ("resonance", resonance, RESONANCES),
-        ("foundation", foundation, FOUNDATIONS),
-        ("amplitude", amplitude, AMPLITUDES),
-    ):
-        choice(name, value, allowed)
-    drive = Drive() if drive is None else drive
-    if not isinstance(motor, Motor):
-        raise ParameterError("motor", motor, "a Motor, as load_motor returns it")
-    if not isinstance(drive, Drive):
-        raise ParameterError("drive", drive, "a Drive")
-    inputs = {**drive.numbers(), **{name: p.value for name, p in motor.parameters()}}
-    if sampling_period is not None:
-        inputs["sampling_period"] = number("sampling_period", sampling_period, Domain(low=0.0), "s")
-    shape = broadcast_shape(inputs)
-    number("tolerance", tolerance, Domain(low=1e-9, low_open=False, high=1e-2, high_open=False), "1")
-    check_steady_state(motor.damping_ratio.value, drive)
-    stator = solve_stator(motor, drive, Levels(contact, resonance, foundation, amplitude))
-    values = modal_values(stator.omega_n, motor.damping_ratio.value, drive)
-    timing = call("trum_drive", values)
+    case = prepare(motor, drive, Levels(contact, resonance, foundation, amplitude), tolerance, sampling_period)
+    drive, stator, arguments, symbols = case.drive, case.stator, case.arguments, case.symbols
+    timing = call("trum_drive", case.values)
     turn = 2 * np.pi
     figures: dict[str, ArrayLike] = {
         "prepressure": drive.prepressure,
@@ -169,10 +152,8 @@ def evaluate(
         "amplitude": stator.W,
         "neutral_axis": stator.D,
         "wavenumber": stator.k_c,
-        **cycle_sums(values),
+        **cycle_sums(case.values),
     }
-    symbols = {**motor.symbols(), **stator.values, "F_c": drive.prepressure, "T_load": drive.load_torque}
-    arguments = orbit_values(scaled(values, stator.W), symbols, contact, tolerance)
     orbit = solve_orbit(arguments, symbols)
     deviation = np.sqrt(orbit.variance)
     if sampling_period is not None:
@@ -187,9 +168,58 @@ def evaluate(
         stall_torque=orbit.stall_torque,
         contact_fraction=orbit.contact_fraction,
     )
+    shape = case.shape
     shaped: dict[str, Any] = {name: _shaped(value, shape) for name, value in figures.items()}
     converged = np.broadcast_to(orbit.converged, shape) if shape else bool(orbit.converged)
     return OperatingPoint(motor=motor.name, start=drive.start, contact=contact, converged=converged, **shaped)
+
+
+@dataclass(frozen=True)
+class Case:
+    """A checked motor and drive, and what the orbit's driver is told of them."""
+
+    motor: Motor
+    drive: Drive
+    shape: tuple[int, ...]
+    stator: Stator
+    values: dict[str, ArrayLike]  # of the phases, for an amplitude of 1
+    symbols: dict[str, ArrayLike]
+    arguments: dict[str, ArrayLike]
+
+
+def prepare(
+    motor: Motor, drive: Drive | None, levels: Levels, tolerance: float, sampling_period: ArrayLike | None = None
+) -> Case:
+    """Check the input of :func:`evaluate` and solve the stator.
+
+    Raises
+    ------
+    ParameterError, ConvergenceError
+        As :func:`evaluate` does.
+    """
+    for name, value, allowed in (
+        ("contact", levels.contact, CONTACTS),
+        ("resonance", levels.resonance, RESONANCES),
+        ("foundation", levels.foundation, FOUNDATIONS),
+        ("amplitude", levels.amplitude, AMPLITUDES),
+    ):
+        choice(name, value, allowed)
+    drive = Drive() if drive is None else drive
+    if not isinstance(motor, Motor):
+        raise ParameterError("motor", motor, "a Motor, as load_motor returns it")
+    if not isinstance(drive, Drive):
+        raise ParameterError("drive", drive, "a Drive")
+    inputs = {**drive.numbers(), **{name: p.value for name, p in motor.parameters()}}
+    if sampling_period is not None:
+        inputs["sampling_period"] = number("sampling_period", sampling_period, Domain(low=0.0), "s")
+    shape = broadcast_shape(inputs)
+    number("tolerance", tolerance, Domain(low=1e-9, low_open=False, high=1e-2, high_open=False), "1")
+    check_steady_state(motor.damping_ratio.value, drive)
+    stator = solve_stator(motor, drive, levels)
+    values = modal_values(stator.omega_n, motor.damping_ratio.value, drive)
+    symbols = {**motor.symbols(), **stator.values, "F_c": drive.prepressure, "T_load": drive.load_torque}
+    arguments = orbit_values(scaled(values, stator.W), symbols, levels.contact, tolerance)
+    return Case(motor, drive, shape, stator, values, symbols, arguments)
 
 
 def _encoder(arguments: Mapping[str, ArrayLike], orbit: Orbit, cycle_time: ArrayLike, period: ArrayLike) -> Array:

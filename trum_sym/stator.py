@@ -77,7 +77,7 @@ def _warn_outside_fit(motor: Motor, drive: Drive) -> None:
             f"prepressure: {worst:g} N lies outside {np.min(low):g} to {np.max(high):g} N, "
             "where eq. 8's amplitude was measured"
         )
-        warnings.warn(message, ValidityWarning, stacklevel=4)
+        warnings.warn(message, ValidityWarning, stacklevel=5)
 
 
 def _check_size(name: str, value: ArrayLike) -> None:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 
 import mpmath as mp
 import sympy as sp
 
 from derivations import determinant
-from derivations.ledger.judge import agrees, error_size, evaluate, identical, points, vanishes
+from derivations.ledger.exact import vertical_displacement
+from derivations.ledger.judge import agrees, error_size, evaluate, identical, largest, points, vanishes, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
 from derivations.ledger.operating import operating_point
 from derivations.nomenclature import sym
@@ -101,7 +103,7 @@ def _judge_a2(forms: Forms) -> Iterator[Evidence]:
     def displacement(name: str, point: dict[sp.Symbol, mp.mpf]) -> mp.mpf:
         v = _numbers(point)
         a, b = _responses(v, v["t"])
-        vertical = lambda u: a * mp.sin(v["k_c"] * u) + b * mp.cos(v["k_c"] * u)  # noqa: E731
+        vertical = partial(vertical_displacement, a, b, v["k_c"])
         return vertical(v["x"]) if name == "zeta_z" else v["D"] * mp.diff(vertical, v["x"])
 
     yield agrees(
@@ -136,7 +138,7 @@ def _judge_a3(forms: Forms) -> Iterator[Evidence]:
     plain = {"angle": sides["angle"].subs(phi_q, sp.atan2(xi_z, xi_x))}
     worst = mp.mpf(0)
     for point in points(sym("W_a W_b omega_a omega_b varphi_b t"), 8, "A3", _RANGES):
-        worst = max(worst, abs(evaluate(plain["angle"].subs(_MOTION), point)))
+        worst = worse(worst, abs(evaluate(plain["angle"].subs(_MOTION), point)))
     yield evidence("numeric", worst < mp.mpf(10) ** -20,
                    f"holds for the direction of the path's point in all quadrants, to {mp.nstr(worst, 2)}")  # fmt: skip
     flat = form.subs({xi_z: 0, phi_q: 0})
@@ -153,34 +155,40 @@ def _derive_a4() -> Derivation:
     square = 1 / (1 + (xi_z / xi_x) ** 2)
     return Derivation(
         (
-            step("The left side of (A3), differentiated, is the angle's rate over cos(phi_q)^2; the right side by the quotient "
-                 "rule:", slope, zero=sp.expand(slope + _RATE)),
+            step("The left side of (A3), differentiated, is the angle's rate over cos(phi_q)^2; the right side by the "
+                 "quotient rule:", slope, zero=sp.expand(slope + _RATE)),
             step("So the rate is", forms["rate"], zero=sp.simplify(forms["rate"] - slope * sp.cos(phi_q) ** 2)),
             step("With cos^2 = 1/(1 + tan^2):", forms["reduced"],
                  zero=sp.simplify((forms["rate"]).subs(sp.cos(phi_q) ** 2, square) - forms["reduced"])),
-            step("The print has both differences the other way round: it is minus the angle's rate, positive for a clockwise "
-                 "turn (x to the right, z up). That suits (A5), which takes clockwise as positive."),
+            step("The print has both differences the other way round: it is minus the angle's rate, positive for a "
+                 "clockwise turn (x to the right, z up). That suits (A5), which takes clockwise as positive."),
         ),
         forms,
     )  # fmt: skip
+
+
+def _path(v: dict[str, mp.mpf], time: mp.mpf) -> mp.mpc:
+    """Place of a point that runs as ``_MOTION`` says, x + i z."""
+    return mp.mpc(v["W_a"] * mp.cos(v["omega_a"] * time), v["W_b"] * mp.sin(v["omega_b"] * time + v["varphi_b"]))
+
+
+def _turned(place: Callable[[mp.mpf], mp.mpc], here: mp.mpc, time: mp.mpf) -> mp.mpf:
+    """Angle from a direction; counted from the present one it has no cut nearby."""
+    return mp.arg(place(time) / here)
 
 
 def _judge_a4(forms: Forms) -> Iterator[Evidence]:
     worst = mp.mpf(0)
     for point in points(sym("W_a W_b omega_a omega_b varphi_b t"), 6, "A4", _RANGES):
         v = _numbers(point)
-        place = lambda u, v=v: mp.mpc(
-            v["W_a"] * mp.cos(v["omega_a"] * u), v["W_b"] * mp.sin(v["omega_b"] * u + v["varphi_b"])
-        )  # noqa: E731, E501
-        here = place(v["t"])
-        rate = mp.diff(
-            lambda u, f=place, h=here: mp.arg(f(u) / h), v["t"]
-        )  # no cut: counted from the present direction
+        place = partial(_path, v)
+        rate = mp.diff(partial(_turned, place, place(v["t"])), v["t"])
         for form in forms.values():
             put = form.subs(phi_q, sp.atan2(xi_z, xi_x)).subs(_MOTION).doit()
-            worst = max(worst, abs(evaluate(put, point) / rate - 1))
+            worst = worse(worst, abs(evaluate(put, point) / rate - 1))
     yield evidence("numeric", worst < mp.mpf(10) ** -12,
-                   f"off the rate of the path's direction, taken numerically, by {mp.nstr(worst, 3)} relative")  # fmt: skip
+                   f"off the rate of the path's direction, taken numerically, by {mp.nstr(worst, 3)} "
+                   "relative")  # fmt: skip
     circle = {xi_x: sp.cos(omega_a * t), xi_z: sp.sin(omega_a * t)}
     value = sp.simplify(forms["reduced"].subs(circle).doit())
     yield evidence("limit", value == omega_a, f"a counterclockwise unit circle turns with {value}")
@@ -188,8 +196,8 @@ def _judge_a4(forms: Forms) -> Iterator[Evidence]:
 
 def _effect_a4() -> str:
     return (
-        "The sign: as printed the angle of a counterclockwise circle would fall. Nothing else of the paper changes, since (A5) "
-        "takes clockwise as positive, and so Q = -(xi_x^2 + xi_z^2) d(phi_q)/dt."
+        "The sign: as printed the angle of a counterclockwise circle would fall. Nothing else of the paper changes, "
+        "since (A5) takes clockwise as positive, and so Q = -(xi_x^2 + xi_z^2) d(phi_q)/dt."
     )
 
 
@@ -197,7 +205,8 @@ def _derive_a5() -> Derivation:
     turning = -(xi_x**2 + xi_z**2) * _corrected_a4()["reduced"]
     return Derivation(
         (
-            step("The denominator of (A4) is positive, so its numerator decides on the sense; clockwise is to be positive:",
+            step("The denominator of (A4) is positive, so its numerator decides on the sense; clockwise is to be "
+                 "positive:",
                  _A5["Q_q"], zero=sp.simplify(_A5["Q_q"] - turning)),
         ),
         {"Q_q": _A5["Q_q"]},
@@ -210,9 +219,7 @@ def _judge_a5(forms: Forms) -> Iterator[Evidence]:
     def area(_: str, point: dict[sp.Symbol, mp.mpf]) -> mp.mpf:
         """Minus twice the area that the path's point sweeps per time."""
         v = _numbers(point)
-        place = lambda u: mp.mpc(
-            v["W_a"] * mp.cos(v["omega_a"] * u), v["W_b"] * mp.sin(v["omega_b"] * u + v["varphi_b"])
-        )  # noqa: E731, E501
+        place = partial(_path, v)
         return -mp.im(mp.conj(place(v["t"])) * mp.diff(place, v["t"]))
 
     symbols = sym("W_a W_b omega_a omega_b varphi_b t")
@@ -274,11 +281,11 @@ def _judge_a6(forms: Forms) -> Iterator[Evidence]:
 def _derive_a7() -> Derivation:
     return Derivation(
         (
-            step("(A6) has one term of the size omega_b - omega_a and one of the size omega_b + omega_a. The first may be "
-                 "dropped because", sp.Gt(omega_b + omega_a, sp.Abs(omega_b - omega_a)),
+            step("(A6) has one term of the size omega_b - omega_a and one of the size omega_b + omega_a. The first "
+                 "may be dropped because", sp.Gt(omega_b + omega_a, sp.Abs(omega_b - omega_a)),
                  zero=(omega_b + omega_a) ** 2 - (omega_b - omega_a) ** 2 - 4 * omega_a * omega_b),
-            step("which holds by far at 40 kHz with differences of 3 kHz. Phases are known up to whole turns, so no comparison "
-                 "of their sizes can say anything."),
+            step("which holds by far at 40 kHz with differences of 3 kHz. Phases are known up to whole turns, so no "
+                 "comparison of their sizes can say anything."),
         ),
         {"much_greater": sp.Gt(omega_b + omega_a, sp.Abs(omega_b - omega_a))},
     )  # fmt: skip
@@ -292,7 +299,7 @@ def _judge_a7(forms: Forms) -> Iterator[Evidence]:
             evaluate(side, {s: point[s] for s in side.free_symbols}) for side in (relation.gts, relation.lts)
         )
         ratios.append(large / abs(small) if small else mp.inf)
-    least = min(ratios)
+    least = -largest(-ratio for ratio in ratios)
     yield evidence(
         "numeric", least > 10, f"the greater side is {mp.nstr(least, 3)} times the smaller one at least; asked: 10"
     )
@@ -318,8 +325,8 @@ def _derive_a8() -> Derivation:
     return Derivation(
         (
             step("Of (A6) only the slow term stays:", _A8["Q_q"]),
-            step("What is dropped has the share |omega_b - omega_a|/(omega_b + omega_a) of it and averages to zero over a "
-                 "period of the sum frequency:", dropped,
+            step("What is dropped has the share |omega_b - omega_a|/(omega_b + omega_a) of it and averages to zero "
+                 "over a period of the sum frequency:", dropped,
                  zero=dropped - sp.expand(D * k_c * W_a * W_b / 2 * (omega_b - omega_a) * sp.sin(_SUM))),
         ),
         {"Q_q": _A8["Q_q"]},
@@ -331,7 +338,7 @@ def _judge_a8(forms: Forms) -> Iterator[Evidence]:
         most = mp.mpf(0)
         for point in points(_SYMBOLS, 12, "A8", _RANGES):
             scale = evaluate(D * k_c * W_a * W_b * (omega_a + omega_b) / 2, point)
-            most = max(most, abs(evaluate(forms["Q_q"] - _exact(), point)) / scale)
+            most = worse(most, abs(evaluate(forms["Q_q"] - _exact(), point)) / scale)
         return _share(), float(most)
 
     yield error_size("Q_q, in D k_c W_a W_b times the mean frequency,", sizes, 0.12)
@@ -361,9 +368,12 @@ def _judge_a9(forms: Forms) -> Iterator[Evidence]:
     worst = mp.mpf(0)
     for point in points(sym("omega_a omega_b varphi_a varphi_b W_a W_b D k_c t"), 6, "A9", _RANGES):
         period = evaluate(form, {s: point[s] for s in form.free_symbols})
-        wave = lambda u, p=point: evaluate(sp.sin(_DIFFERENCE), {**{s: p[s] for s in _DIFFERENCE.free_symbols}, t: u})  # noqa: E731
-        whole, part = wave(point[t] + period) - wave(point[t]), wave(point[t] + period / 2) + wave(point[t])
-        worst = max(worst, abs(whole), abs(part))
+        angle = {s: point[s] for s in _DIFFERENCE.free_symbols}
+        now, later, half = (
+            evaluate(sp.sin(_DIFFERENCE), {**angle, t: point[t] + part}) for part in (0, period, period / 2)
+        )
+        whole, part = later - now, half + now
+        worst = worse(worse(worst, abs(whole)), abs(part))
     yield evidence("numeric", worst < mp.mpf(10) ** -20, "the shortest period: the sign turns after half of it")
     swapped = form.subs({omega_a: omega_b, omega_b: omega_a}, simultaneous=True)
     yield evidence("domain", vanishes(swapped - form) and bool(form.subs({omega_a: 3, omega_b: 2}) > 0),
@@ -377,20 +387,21 @@ def _none() -> str:
 
 def _effect_a8() -> str:
     return (
-        f"The dropped term is {100 * _share():.3g} % of the kept one's amplitude with a free and a forced phase 3000 Hz apart. "
-        "The drift of the amplitudes, which (A6) takes as constant, costs more: see (24)."
+        f"The dropped term is {100 * _share():.3g} % of the kept one's amplitude with a free and a forced phase 3000 "
+        "Hz apart. The drift of the amplitudes, which (A6) takes as constant, costs more: see (24)."
     )
 
 
 def _effect_a9() -> str:
     q = operating_point()
-    return f"{mp.nstr(1000 * 2 * mp.pi / q['Delta_omega'], 4)} ms at 3000 Hz. Decay and the third region are not in it (15)."
+    beat = mp.nstr(1000 * 2 * mp.pi / q["Delta_omega"], 4)
+    return f"{beat} ms at 3000 Hz. Decay and the third region are not in it (15)."
 
 
 def _effect_a7() -> str:
     return (
-        f"None on (A8): with frequencies the ratio is {1 / _share():.4g} at the operating point. With the phases of T_redu, "
-        "0 and pi/2, the printed statement compares equal numbers."
+        f"None on (A8): with frequencies the ratio is {1 / _share():.4g} at the operating point. With the phases of "
+        "T_redu, 0 and pi/2, the printed statement compares equal numbers."
     )
 
 

@@ -10,18 +10,18 @@ import sympy as sp
 
 from derivations import ellipse
 from derivations.ledger.history import STARTS, history, values
-from derivations.ledger.judge import Point, agrees, evaluate, identical, points
+from derivations.ledger.judge import Point, agrees, evaluate, figure, identical, points, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, Picture, evidence, step
-from derivations.ledger.names import KNOWN, figure, name, worse
 from derivations.ledger.section_6 import cycle_totals
 from derivations.nomenclature import sym
+from trum_sym.units import Dimension
 
 __all__ = ["ENTRIES", "differs_by_start"]
 
 D, k_c, x, t, T = sym("D k_c x t T")
 q_plus, q_minus, p_plus, p_minus = sym("q_plus q_minus p_plus p_minus")
-W_a, W_b, omega_a, omega_b, varphi_a, varphi_b = name("W_a W_b omega_a omega_b varphi_a varphi_b")
-P_A, P_B, zeta_x, zeta_z, X, Y, Q_aver = name("P_A P_B zeta_x zeta_z X Y Q_aver")
+W_a, W_b, omega_a, omega_b, varphi_a, varphi_b = sym("W_a W_b omega_a omega_b varphi_a varphi_b")
+P_A, P_B, zeta_x, zeta_z, X, Y, Q_aver = sym("P_A P_B zeta_x zeta_z X Y Q_aver")
 
 _RANGES = {
     "W_a": (3e-6, 9e-6), "W_b": (3e-6, 9e-6), "omega_a": (2.3e5, 2.6e5), "omega_b": (2.4e5, 2.8e5),
@@ -222,11 +222,10 @@ def _effect_a13() -> str:
     decayed = p["W"] * float(sp.exp(-p["xi"] * p["omega_n"] * h.time[redu][-1]))
     area = float(sp.pi) * p["D"] * p["k_c"]
     return (
-        "Drawn as an ellipse it has no area. The path encloses pi D k_c W^2 = "
-        f"{figure(area * p['W'] ** 2 * 1e12)} um^2 in the steady wave of Table 3; at the end of T_redu, after a steady "
-        f"start, W_a has fallen to {figure(1e6 * decayed)} um and the phases have drifted by {figure(angle)} "
-        f"rad, so it "
-        f"encloses {figure(area * p['W'] * decayed * abs(float(sp.cos(angle))) * 1e12)} um^2."
+        f"Drawn as an ellipse it has no area. The path encloses pi D k_c W^2 = {figure(area * p['W'] ** 2 * 1e12)} "
+        "um^2 in the steady wave of Table 3; at the end of T_redu, after a steady start, W_a has fallen to "
+        f"{figure(1e6 * decayed)} um and the phases have drifted by {figure(angle)} rad, so it encloses "
+        f"{figure(area * p['W'] * decayed * abs(float(sp.cos(angle))) * 1e12)} um^2."
     )
 
 
@@ -318,9 +317,8 @@ def _effect_a15() -> str:
     ratio = known[q_plus] / known[q_minus]
     slope = 2 / ((ratio + 1) ** 2 * p["T"])
     return (
-        f"{figure(slope)} 1/s for each unit of X at Table 3. T is taken as constant; from 2800 to 3300 Hz it "
-        f"changes by "
-        f"{100 * (_cycle_time(3300) / _cycle_time(2800) - 1):.2f} %, and Q_aver with it."
+        f"{figure(slope)} 1/s for each unit of X at Table 3. T is taken as constant; from 2800 to 3300 Hz it changes "
+        f"by {100 * (_cycle_time(3300) / _cycle_time(2800) - 1):.2f} %, and Q_aver with it."
     )
 
 
@@ -407,9 +405,8 @@ def _derive_a17() -> Derivation:
                  zero=sp.simplify(branch_above.diff(above) ** 2 - 1 / (above**2 * ((1 + above) ** 2 - 1)))),
             step("Below 1, with Y = 1 - e and so df/dY = -df/de:", sp.Eq(sp.Symbol("f"), branch_below),
                  zero=sp.simplify(branch_below.diff(below) ** 2 - 1 / (below**2 * (1 - (1 - below) ** 2)))),
-            step("Both have the sign of 1 - Y. The printed -2/(Y - 1) is the derivative of (Y + 1)/(Y - 1) "
-                 "short of its "
-                 "square, and without the root's:", form,
+            step("Both have the sign of 1 - Y. The printed -2/(Y - 1) is the derivative of (Y + 1)/(Y - 1) short of "
+                 "its square, and without the root's:", form,
                  zero=sp.simplify(((Y + 1) / (Y - 1)).diff(Y) + 2 / (Y - 1) ** 2)),
         ),
         {"df/dY": form},
@@ -446,45 +443,45 @@ ENTRIES = (
     Entry(
         id="A10", section="B", title="Responses of the two phases", place=_B, printed=_A10,
         units={"w_A": "m", "w_B": "m"}, verdict="definition", judge=_judge_a10, derive=_derive_a10, effect=_effect_a10,
-        known=KNOWN, reason="Two standing waves a quarter wave apart, of constant amplitude.",
+        reason="Two standing waves a quarter wave apart, of constant amplitude.",
     ),
     Entry(
         id="A11", section="B", title="Displacements of a surface point, P_A and P_B", place=_B, printed=_A11,
         units={"zeta_z": "m", "zeta_x": "m", "P_A": "m", "P_B": "m"}, verdict="verified", judge=_judge_a11,
-        derive=_derive_a11, effect=_effect_a11, known=KNOWN, reason="Superposition, and D times the slope.",
+        derive=_derive_a11, effect=_effect_a11, reason="Superposition, and D times the slope.",
     ),
     Entry(
         id="A12", section="B", title="Displacements times P_A and P_B", place=_B, printed=_A12, units={},
-        verdict="verified", judge=_judge_a12, derive=_derive_a12, effect=_effect_a12, known=KNOWN,
+        verdict="verified", judge=_judge_a12, derive=_derive_a12, effect=_effect_a12,
         reason="Holds for any responses.",
     ),
     Entry(
         id="A13", section="B", title="General equation of the ellipse", place=_B, printed=_A13, units={},
-        verdict="erratum", judge=_judge_a13, derive=_derive_a13, effect=_effect_a13, known={**KNOWN, delta: KNOWN[X]},
+        verdict="erratum", judge=_judge_a13, derive=_derive_a13, effect=_effect_a13, known={delta: Dimension()},
         repair=lambda _: _derive_a13().forms, found_by=("domain",), picture=_picture_a13,
         reason="An identity, but no ellipse: a perfect square whose coefficients turn with the vibration. The path's "
-        "conic has the amplitudes and the slow phase difference for coefficients.",
+               "conic has the amplitudes and the slow phase difference for coefficients.",
     ),
     Entry(
         id="A14", section="C.1", title="Speed determinant in X", place=_C1, printed=_A14,
         units={"Q_aver": "1/s", "X": "1"}, verdict="verified", judge=_judge_a14, derive=_derive_a14, effect=_effect_a14,
-        known=KNOWN, reason="Eq. 43 in the ratio of the sums.",
+        reason="Eq. 43 in the ratio of the sums.",
     ),
     Entry(
         id="A15", section="C.1", title="Its derivative", place=_C1, printed=_A15, units={"dQ_aver/dX": "1/s"},
-        verdict="verified", judge=_judge_a15, derive=_derive_a15, effect=_effect_a15, known=KNOWN,
+        verdict="verified", judge=_judge_a15, derive=_derive_a15, effect=_effect_a15,
         reason="Positive for every X > 0, at constant T.",
     ),
     Entry(
         id="A16", section="C.2", title="Volatility determinant in Y", place=_C2, printed=_A16,
         units={"Q_vib": "1/s", "Y": "1"}, verdict="erratum", judge=_judge_a16, derive=_derive_a16, effect=_effect_a16,
-        known=KNOWN, repair=lambda forms: {**forms, "Q_vib": forms["Q_vib"].subs(_f_printed, _f)},
+        repair=lambda forms: {**forms, "Q_vib": forms["Q_vib"].subs(_f_printed, _f)},
         found_by=("domain", "numeric"),
         reason="f(Y) is imaginary for Y < 1, for which the text states a monotonicity; needs |Y - 1|.",
     ),
     Entry(
         id="A17", section="C.2", title="Derivative of f", place=_C2, printed=_A17, units={"df/dY": "1"},
-        verdict="erratum", judge=_judge_a17, derive=_derive_a17, effect=_effect_a17, known=KNOWN,
+        verdict="erratum", judge=_judge_a17, derive=_derive_a17, effect=_effect_a17,
         repair=lambda forms: {"df/dY": forms["df/dY"] / (2 * sp.sqrt(sp.Abs(Y**2 - 1)))},
         found_by=("numeric", "identity"), picture=_picture_a17,
         reason="Not the derivative of f: short of a square, and of the root's inner derivative. The sign is right.",

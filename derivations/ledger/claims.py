@@ -15,15 +15,15 @@ import sympy as sp
 
 from derivations import transfer
 from derivations.ledger.history import STARTS, history, values
+from derivations.ledger.judge import figure, largest, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
-from derivations.ledger.names import KNOWN, figure, name, worse
 from derivations.ledger.operating import stator
 from derivations.nomenclature import sym
 
 __all__ = ["ENTRIES"]
 
 m, n, Delta_omega, omega_q, omega_n, k_N, k_c, n_j, F_c, T = sym("m n Delta_omega omega_q omega_n k_N k_c n_j F_c T")
-X, Y = name("X Y")
+X, Y = sym("X Y")
 _HALF = sp.Rational(1, 2)
 
 
@@ -54,16 +54,13 @@ def _derive_half() -> Derivation:
     found = _forward_shares()
     return Derivation(
         (
-            step("With constant amplitudes Q runs as the sine of the phases' difference (A8), which changes "
-                 "sign every half "
-                 "beat: forward and backward take half each.", slow,
+            step("With constant amplitudes Q runs as the sine of the phases' difference (A8), which changes sign "
+                 "every half beat: forward and backward take half each.", slow,
                  zero=sp.expand_trig(slow.subs(step_, step_ + sp.pi) + slow)),
-            step("A decaying amplitude scales Q but does not move its zeros, so in T_redu that stays so; "
-                 "measured on the "
-                 f"exact Q over whole beats, {found['share_redu']:.3f}."),
-            step("In T_addredu phase A vibrates at two frequencies, its own free one and the drive's, while B "
-                 "is free: the "
-                 "part at equal frequencies adds a constant to the sine and shifts its zeros; "
+            step("A decaying amplitude scales Q but does not move its zeros, so in T_redu that stays so; measured on "
+                 f"the exact Q over whole beats, {found['share_redu']:.3f}."),
+            step("In T_addredu phase A vibrates at two frequencies, its own free one and the drive's, while B is "
+                 "free: the part at equal frequencies adds a constant to the sine and shifts its zeros; "
                  f"{found['share_addredu']:.3f}."),
         ),
         {key: sp.Float(f"{value:.3f}") for key, value in found.items()},
@@ -83,6 +80,11 @@ def _phasor_shares() -> dict[str, float]:
     phase_a = forced + (at_switch - 1) * free
     addredu = (1j * free * np.conj(phase_a))[whole].imag > 0
     return {"share_redu": float(redu.mean()), "share_addredu": float(addredu.mean())}
+
+
+def _repair_half(forms: Forms) -> Forms:
+    """The measured share in place of one half."""
+    return {**forms, "share_addredu": forms["share_addredu"] * 2 * sp.Float(_forward_shares()["share_addredu"])}
 
 
 def _judge_half(forms: Forms) -> Iterator[Evidence]:
@@ -123,9 +125,8 @@ def _derive_crest() -> Derivation:
             step("The crest is where the slope d(zeta_z)/dx vanishes (eq. 20); the vertical velocity there is "
                  "w_A' sin(k_c x_max) + w_B' cos(k_c x_max):", vA * sine + vB * cosine,
                  zero=sp.expand(vA * sine + vB * cosine - rate)),
-            step("the rate of the crest's height, which is 0 only if the height does not change: in a steady "
-                 "wave, not in "
-                 "a beat.", rate),
+            step("the rate of the crest's height, which is 0 only if the height does not change: in a steady wave, "
+                 "not in a beat.", rate),
         ),
         {"zeta_z_rate": rate},
     )  # fmt: skip
@@ -136,7 +137,7 @@ def _judge_crest(forms: Forms) -> Iterator[Evidence]:
     worst = 0.0
     for A, B, vA, vB in ((4e-6, 3e-6, 0.5, -0.2), (-2e-6, 5e-6, 0.9, 0.4), (1e-6, -6e-6, -1.1, 0.3)):
         h = 1e-9
-        height = [max(math.hypot(A + side * h * vA, B + side * h * vB), 0) for side in (-1, 1)]
+        height = [math.hypot(A + side * h * vA, B + side * h * vB) for side in (-1, 1)]
         found = complex(form.subs(dict(zip(_RATE, (A, B, vA, vB), strict=True))))
         worst = worse(worst, abs(found - (height[1] - height[0]) / (2 * h)))
     yield evidence("numeric", worst < 1e-6, f"the crest's height by differences in time: off by {worst:.2g} m/s")
@@ -148,9 +149,8 @@ def _effect_crest() -> str:
     h = history()
     p = values()
     return (
-        f"At Table 3 (periodic) the crest moves vertically at up to {1e3 * float(np.abs(h.W_c_rate).max()):.0f} "
-        f"mm/s and "
-        f"{1e3 * float(np.sqrt((h.W_c_rate**2).mean())):.0f} mm/s rms, where the largest tangential velocity is "
+        f"At Table 3 (periodic) the crest moves vertically at up to {1e3 * float(np.abs(h.W_c_rate).max()):.0f} mm/s "
+        f"and {1e3 * float(np.sqrt((h.W_c_rate**2).mean())):.0f} mm/s rms, where the largest tangential velocity is "
         f"{1e3 * p['D'] * p['k_c'] * float(np.hypot(h.v_A, h.v_B).max()):.0f} mm/s. The condition printed beside it, "
         "d(zeta_z)/dx = 0, is the right one."
     )
@@ -186,7 +186,7 @@ def _judge_power(forms: Forms) -> Iterator[Evidence]:
     rates = [p["omega_q"] * sizes[i] * np.array([math.cos(0.3), -math.sin(0.3)]) for i in (0, 1)]
     Q = np.array([p["D"] * p["k_c"] * (r[0] * w[1] - r[1] * w[0]) for w, r in zip(wave, rates, strict=True)])
     grows = [float(np.log(f[1] / f[0]) / math.log(2)) for f in (Q, crest)]
-    off = max(abs(float(form) - found) for form, found in zip(forms.values(), grows, strict=True))
+    off = largest(abs(float(form) - found) for form, found in zip(forms.values(), grows, strict=True))
     yield evidence(
         "numeric", off < 1e-9, f"twice the amplitude: Q grows by 2^{grows[0]:.0f}, the speed by 2^{grows[1]:.0f}"
     )
@@ -249,15 +249,14 @@ def _judge_contact(forms: Forms) -> Iterator[Evidence]:
     load = values()["F_c"]
     settled = [_settled(float(W_c), load) for start in STARTS for W_c in history(start).W_c[::200]]
     share = float(np.mean([abs(at) < 1e-3 and depth > 0 for at, depth in settled]))
-    yield evidence("numeric", abs(float(forms["share_in_contact"]) - share) < 1e-12, "the layer lowered until "
-                                                                                     "it carries the "
-                   f"load stands deepest on the crest at every moment, under any start: {100 * share:.0f} "
-                   f"%")  # fmt: skip
+    yield evidence("numeric", abs(float(forms["share_in_contact"]) - share) < 1e-12,
+                   "the layer lowered until it carries the load stands deepest on the crest at every moment, under "
+                   f"any start: {100 * share:.0f} %")  # fmt: skip
     depths = [_settled(values()["W"], factor * load)[1] for factor in (0.5, 1.0)]
     power = math.log(depths[1] / depths[0]) / math.log(2)
-    yield evidence("limit", abs(power - 2 / 3) < 0.02, f"the depth grows as the load to the power {power:.3f}, "
-                                                       f"2/3 for a short "
-                   "contact: it ends at no load, not before")  # fmt: skip
+    yield evidence("limit", abs(power - 2 / 3) < 0.02,
+                   f"the depth grows as the load to the power {power:.3f}, 2/3 for a short contact: it ends at no "
+                   "load, not before")  # fmt: skip
 
 
 def _effect_contact() -> str:
@@ -293,7 +292,7 @@ def _derive_constant() -> Derivation:
 def _judge_constant(forms: Forms) -> Iterator[Evidence]:
     stated = float(forms["T_over_T"])
     over_f, over_p = (_period(180, 3300) / _period(180, 2800), _period(210, 3000) / _period(160, 3000))
-    worst = max(abs(stated / found - 1) for found in (over_f, over_p))
+    worst = largest(abs(stated / found - 1) for found in (over_f, over_p))
     yield evidence(
         "error_size", worst < 0.02, f"T at 3300 over 2800 Hz is {over_f:.5f}, at 210 over 160 N {over_p:.5f}"
     )
@@ -329,9 +328,9 @@ def _judge_beats(forms: Forms) -> Iterator[Evidence]:
     turns = int((np.sign(q[1:]) != np.sign(q[:-1])).sum())
     at = {m: 100, n: 55, Delta_omega: values()["Delta_omega"], omega_q: values()["omega_q"]}
     found = float(forms["beats_in_T_redu"].subs(at))
-    yield evidence("numeric", abs(found - turns / 2) < 0.5, f"Q changes sign {turns} times in T_redu for m = "
-                                                            f"100, n = 55 "
-                   f"(steady start): {turns / 2:.1f} beats; stated {found:.2f}")  # fmt: skip
+    yield evidence("numeric", abs(found - turns / 2) < 0.5,
+                   f"Q changes sign {turns} times in T_redu for m = 100, n = 55 (steady start): {turns / 2:.1f} "
+                   f"beats; stated {found:.2f}")  # fmt: skip
     longer = float(forms["beats_in_T_redu"].subs({**at, m: 145})) / found
     yield evidence("limit", abs(longer - 2) < 1e-12, "twice the pulses, twice the beats")
 
@@ -365,6 +364,11 @@ def _derive_add() -> Derivation:
     )  # fmt: skip
 
 
+def _repair_add(forms: Forms) -> Forms:
+    """Half the difference of the frequencies in place of half their sum, as the envelope's magnitude has it."""
+    return {"T_beat": forms["T_beat"] * (omega_q + omega_n) / (2 * (omega_q - omega_n))}
+
+
 def _judge_add(forms: Forms) -> Iterator[Evidence]:
     p = values()
     time = np.linspace(0, 1e-3, 400001)
@@ -372,8 +376,9 @@ def _judge_add(forms: Forms) -> Iterator[Evidence]:
     nodes = time[1:-1][(size[1:-1] < size[:-2]) & (size[1:-1] <= size[2:])]
     seen = float(np.diff(nodes).mean())
     found = float(forms["T_beat"].subs({omega_q: p["omega_q"], omega_n: p["omega_n"]}))
-    yield evidence("numeric", abs(found / seen - 1) < 1e-4, f"nodes of two added vibrations follow every "
-                                                            f"{1e6 * seen:.1f} us; "
+    yield evidence("numeric", abs(found / seen - 1) < 1e-4,
+                   f"nodes of two added vibrations follow every "
+                   f"{1e6 * seen:.1f} us; "
                    f"stated {1e6 * found:.1f} us")  # fmt: skip
     near = abs(float(forms["T_beat"].subs({omega_q: 1.000001, omega_n: 1})))
     yield evidence("limit", near > 1e6, "grows without bound as the frequencies meet")
@@ -388,15 +393,15 @@ def _effect_add() -> str:
 
 
 def _entry(identifier: str, **fields: Any) -> Entry:  # noqa: ANN401
-    return Entry(id=identifier, **{"units": {}, "known": KNOWN, **fields})
+    return Entry(id=identifier, **{"units": {}, **fields})
 
 
 ENTRIES = (
     _entry(
-        "claim-half-beat", section="3.5", place="Sect. 3.5, Appendix A", title="'The time for both phases is "
-                                                                               "half of the beat "
-        "period'", printed=_SHARES, verdict="erratum", judge=_judge_half, derive=_derive_half, effect=_effect_half,
-        repair=lambda forms: {**forms, "share_addredu": sp.Float(f"{_forward_shares()['share_addredu']:.3f}")},
+        "claim-half-beat", section="3.5", place="Sect. 3.5, Appendix A", printed=_SHARES, verdict="erratum",
+        title="'The time for both phases is half of the beat period'",
+        judge=_judge_half, derive=_derive_half, effect=_effect_half,
+        repair=_repair_half,
         found_by=("numeric", "limit"),
         reason="True for constant amplitudes and, nearly, in T_redu; in T_addredu one third turns forward, two "
                "thirds backward.",
@@ -405,7 +410,7 @@ ENTRIES = (
         "claim-crest", section="3.4", place="Sect. 3.4", title="'At the wave peak the vertical velocity is zero'",
         printed=_CREST, verdict="erratum", judge=_judge_crest, derive=_derive_crest, effect=_effect_crest,
         repair=lambda _: _derive_crest().forms, found_by=("numeric",), units={},
-        known=KNOWN | transfer.DIMENSIONS,
+        known=transfer.DIMENSIONS,
         reason="The slope is zero at the crest; the vertical velocity is the rate of its height, zero in a "
                "steady wave only.",
     ),
@@ -416,8 +421,8 @@ ENTRIES = (
         reason="The surface speed grows as the amplitude, Q as its square; it gives the direction, not the speed.",
     ),
     _entry(
-        "claim-contact", section="5.3", place="Sects. 3.1, 5.3", title="The crest 'is always in "
-                                                                       "contact'", printed=_CONTACT,
+        "claim-contact", section="5.3", place="Sects. 3.1, 5.3", title="The crest 'is always in contact'",
+        printed=_CONTACT,
         verdict="verified", judge=_judge_contact, derive=_derive_contact, effect=_effect_contact,
         reason="Under a constant prepressure the crest always stands in the layer.",
     ),
@@ -435,7 +440,7 @@ ENTRIES = (
     _entry(
         "claim-add-beat", section="5.2.3", place="Sect. 5.2.3", title="Beat period in T_addT", printed=_ADD,
         units={"T_beat": "s"}, verdict="erratum", judge=_judge_add, derive=_derive_add, effect=_effect_add,
-        repair=lambda _: _derive_add().forms, found_by=("numeric", "limit"),
+        repair=_repair_add, found_by=("numeric", "limit"),
         reason="4 pi/(omega_q + omega_n) is the period of the vibration itself, not of its envelope.",
     ),
 )  # fmt: skip

@@ -12,13 +12,12 @@ import sympy as sp
 
 from derivations.ledger.appendix_b_c import differs_by_start
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
-from derivations.ledger.names import KNOWN, name
 from derivations.nomenclature import sym
 
 __all__ = ["ENTRIES"]
 
 (T,) = sym("T")
-(X,) = name("X")
+(X,) = sym("X")
 
 
 # --- monotonicity of Appendix C.2 ---------------------------------------------------------------------------
@@ -56,9 +55,9 @@ def _judge_signs(forms: Forms) -> Iterator[Evidence]:
 
 def _effect_signs() -> str:
     return (
-        "f falls and z falls for X, Y > 1, so Q_vib does fall as both grow, as the text concludes; with the "
-        "stated rising z "
-        "the product of a falling and a rising factor would have no definite trend. Q_aver depends on X, not on Y."
+        "f falls and z falls for X, Y > 1, so Q_vib does fall as both grow, as the text concludes; with the stated "
+        "rising z the product of a falling and a rising factor would have no definite trend. Q_aver depends on X, not "
+        "on Y."
     )
 
 
@@ -84,12 +83,10 @@ def _derive_trend() -> Derivation:
     a = sp.Symbol("a", positive=True)
     return Derivation(
         (
-            step("X and Y pass 1 together when backward turning takes over, and rise together. Above 1 both "
-                 "factors are "
-                 "positive and fall: Q_vib falls."),
-            step("Below 1 z is negative and falls, f is positive and rises (A17 put right): their product falls "
-                 "as well; "
-                 "only its magnitude rises. For X = Y = 1 - a:",
+            step("X and Y pass 1 together when backward turning takes over, and rise together. Above 1 both factors "
+                 "are positive and fall: Q_vib falls."),
+            step("Below 1 z is negative and falls, f is positive and rises (A17 put right): their product falls as "
+                 "well; only its magnitude rises. For X = Y = 1 - a:",
                  -(2 - a) / a * sp.sqrt((2 - a) / a),
                  zero=sp.simplify((((2 - a) / a) ** 3).diff(a) + 6 * (2 - a) ** 2 / a**4)),
         ),
@@ -116,7 +113,7 @@ def _effect_trend() -> str:
 
 
 def _entry(identifier: str, **fields: Any) -> Entry:  # noqa: ANN401
-    return Entry(id=identifier, **{"units": {}, "known": KNOWN, **fields})
+    return Entry(id=identifier, **{"units": {}, **fields})
 
 
 ENTRIES = (

@@ -5,12 +5,16 @@ from __future__ import annotations
 import json
 import sys
 import time
+from collections import Counter
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
 from typing import Any
 
 from derivations.emit import GENERATED
 from derivations.ledger import ENTRIES, entry
 from derivations.ledger.model import Entry, confirm
-from derivations.ledger.mutate import MUTATED, try_mutants
+from derivations.ledger.mutate import MUTATED, Outcome, try_misreadings, try_mutants
 from derivations.ledger.report import record
 from trum_sym.ledger import table, written_out
 
@@ -39,27 +43,51 @@ def as_json(records: list[dict[str, Any]]) -> str:
     return json.dumps(records, indent=1, ensure_ascii=False) + "\n"
 
 
+def _slips(name: str) -> tuple[list[Outcome], list[Outcome], float]:
+    """What became of the mutants and misreadings of an entry, their forms left out, and the seconds it took."""
+    start, candidate = time.perf_counter(), entry(name)
+    found = [
+        [replace(outcome, mutant=replace(outcome.mutant, forms={})) for outcome in attempt(candidate)]
+        for attempt in (try_mutants, try_misreadings)
+    ]
+    return found[0], found[1], time.perf_counter() - start
+
+
+def _all_slips(names: list[str]) -> Iterator[tuple[list[Outcome], list[Outcome], float]]:
+    """The same for several entries, in their order, on all processors."""
+    if len(names) < 2:
+        yield from map(_slips, names)
+        return
+    with ProcessPoolExecutor() as pool:
+        yield from pool.map(_slips, names)
+
+
+def _tally(what: str, outcomes: list[tuple[str, Outcome]]) -> int:
+    """Print the counts and every survivor; returns the number of survivors."""
+    kinds = Counter(o.rejected_by.kind for _, o in outcomes if o.rejected_by is not None)
+    survivors = [(name, o.mutant) for name, o in outcomes if o.survives]
+    equivalent = sum(o.equivalent for _, o in outcomes)
+    discarded = sum(o.discarded for _, o in outcomes)
+    by_kind = ", ".join(f"{count} by {kind}" for kind, count in kinds.most_common())
+    print(
+        f"{len(outcomes)} {what}: {kinds.total()} rejected ({by_kind}), {equivalent} proved equivalent, "
+        f"{discarded} in what the correction discards, {len(survivors)} surviving"
+    )
+    for name, mutant in survivors:
+        print(f"surviving ({name}) {mutant.name}: {mutant.slip}")
+    return len(survivors)
+
+
 def check_mutants(entries: tuple[Entry, ...]) -> int:
-    """Try all mutants; prints the counts and every survivor, returns 1 if one is neither rejected nor equivalent."""
-    total = rejected = equivalent = 0
-    by_kind: dict[str, int] = {}
-    survivors = []
-    for candidate in (e for e in entries if e.verdict in MUTATED):
-        start = time.perf_counter()
-        outcomes = try_mutants(candidate)
-        for outcome in outcomes:
-            if outcome.rejected_by is not None:
-                rejected += 1
-                by_kind[outcome.rejected_by.kind] = by_kind.get(outcome.rejected_by.kind, 0) + 1
-            elif outcome.equivalent:
-                equivalent += 1
-            else:
-                survivors.append(f"({candidate.id}) {outcome.mutant.name}: {outcome.mutant.slip}")
-        total += len(outcomes)
-        _progress(f"({candidate.id}) {len(outcomes)} mutants, {time.perf_counter() - start:.1f} s")
-    kinds = ", ".join(f"{count} by {kind}" for kind, count in sorted(by_kind.items(), key=lambda item: -item[1]))
-    print(f"{total} mutants: {rejected} rejected ({kinds}), {equivalent} proved equivalent, {len(survivors)} surviving")
-    print("".join(f"surviving {line}\n" for line in survivors), end="")
+    """Try all mutants and misreadings, on all processors; returns 1 if one goes unnoticed that changes something."""
+    names = [e.id for e in entries if e.verdict in MUTATED]
+    standing: list[tuple[str, Outcome]] = []
+    printed: list[tuple[str, Outcome]] = []
+    for name, (mutated, misread, seconds) in zip(names, _all_slips(names), strict=True):
+        standing += [(name, outcome) for outcome in mutated]
+        printed += [(name, outcome) for outcome in misread]
+        _progress(f"({name}) {len(mutated) + len(misread)} slips, {seconds:.1f} s")
+    survivors = _tally("mutants of what stands", standing) + _tally("misreadings of misprints", printed)
     return 1 if survivors else 0
 
 

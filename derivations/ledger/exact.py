@@ -16,7 +16,7 @@ import mpmath as mp
 
 from derivations.ledger.operating import operating_point
 
-__all__ = ["REGIONS", "Cycle", "at_table_3", "random_cycles"]
+__all__ = ["REGIONS", "Cycle", "at_table_3", "crest_states", "random_cycles", "vertical_displacement"]
 
 REGIONS = ("redu", "addredu", "add")
 _GATES = {"A": (0, 1, 1), "B": (1, 0, 1)}
@@ -66,6 +66,12 @@ class Cycle:
         f = gate * self._forced(phase) * mp.expj(self["omega_q"] * tau)
         return mp.re(z + f), mp.re(eigenvalue * z + 1j * self["omega_q"] * f)
 
+    def vector(self, phase: str, region: str, tau: mp.mpf) -> mp.mpc:
+        """The phase as a rotating vector: free motion at omega_d with its decay, forced at omega_q."""
+        gate = _GATES[phase][REGIONS.index(region)]
+        free = self.free(phase, region) * mp.exp(self._eigenvalue * tau)
+        return free + gate * self._forced(phase) * mp.expj(self["omega_q"] * tau)
+
     def determinant(self, region: str, tau: mp.mpf) -> mp.mpf:
         """Q / (D k_c)."""
         (w_A, v_A), (w_B, v_B) = (self.response(p, region, tau) for p in "AB")
@@ -75,6 +81,25 @@ class Cycle:
         """Equally spread times inside a region."""
         length = self.durations()[REGIONS.index(region)]
         return [length * (2 * i + 1) / (2 * count) for i in range(count)]
+
+
+def vertical_displacement(a: mp.mpf, b: mp.mpf, k_c: mp.mpf, x: mp.mpf) -> mp.mpf:
+    """zeta_z (11) at a place for the phases' displacements."""
+    return a * mp.sin(k_c * x) + b * mp.cos(k_c * x)
+
+
+def crest_states(count: int, seed: str) -> list[dict[str, mp.mpf]]:
+    """Displacements a, b and velocities da, db of the phases in all four quadrants, a place x, D and k_c."""
+    found, q = [], operating_point()
+    for index in range(count):
+        draw = random.Random(f"{seed} {index}")
+        signs = (1 if index & 1 else -1, 1 if index & 2 else -1)
+        found.append({
+            "a": signs[0] * mp.mpf(draw.uniform(1e-6, 9e-6)), "b": signs[1] * mp.mpf(draw.uniform(1e-6, 9e-6)),
+            "da": mp.mpf(draw.uniform(-1, 1)), "db": mp.mpf(draw.uniform(-1, 1)),
+            "x": mp.mpf(draw.uniform(-0.01, 0.01)), "D": q["D"], "k_c": q["k_c"],
+        })  # fmt: skip
+    return found
 
 
 @cache

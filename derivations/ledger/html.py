@@ -2,43 +2,57 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from html import escape
-from typing import Any
+from typing import Any, Literal
 
 from latex2mathml.converter import convert
 
 from derivations.ledger.model import Entry
-from derivations.ledger.names import NAMES
 from derivations.ledger.pictures import svg
 from derivations.nomenclature import CLASHES, NOMENCLATURE
-from derivations.nomenclature import latex as typeset
 
 __all__ = ["page"]
 
 VERDICTS = ("verified", "approximation", "erratum", "definition", "reconstructed", "empirical")
 
 _STYLE = """
-:root { color-scheme: light; --ink: #1b1f24; --soft: #57606a; --line: #d0d7de; --wash: #f6f8fa; }
-body { font: 16px/1.5 system-ui, sans-serif; color: var(--ink); margin: 0 auto; max-width: 62rem; padding: 1rem; }
+:root { color-scheme: light dark; --page: #fff; --ink: #1b1f24; --soft: #57606a; --line: #d0d7de; --wash: #f6f8fa;
+  --link: #0969da; --bad: #b42318; }
+@media (prefers-color-scheme: dark) { :root { --page: #14171b; --ink: #e4e8ec; --soft: #9aa5b1; --line: #39424c;
+  --wash: #1d2228; --link: #6cb0ff; --bad: #ff8f85; } }
+* { box-sizing: border-box; }
+body { font: 16px/1.5 system-ui, sans-serif; color: var(--ink); background: var(--page); margin: 0 auto;
+  max-width: 74rem; padding: 1rem; overflow-wrap: anywhere; }
+a, summary { color: var(--link); } h2 a { text-decoration: none; }
 header p { max-width: 48rem; } h1 { margin-bottom: .2rem; } h2 { margin: 0; font-size: 1.15rem; }
-.bar { position: sticky; top: 0; background: #fff; border-bottom: 1px solid var(--line); padding: .5rem 0; z-index: 1; }
-.bar button, .bar input { font: inherit; padding: .15rem .6rem; border: 1px solid var(--line); border-radius: 1rem;
-  background: #fff; margin: .1rem; } .bar button[aria-pressed=true] { background: var(--ink); color: #fff; }
-article { border: 1px solid var(--line); border-radius: .5rem; margin: 1rem 0; padding: 1rem; scroll-margin-top: 6rem; }
+.bar { position: sticky; top: 0; background: var(--page); border-bottom: 1px solid var(--line); padding: .5rem 0;
+  z-index: 1; display: flex; flex-wrap: wrap; gap: .25rem; align-items: center; }
+.bar button, .bar input { font: inherit; font-size: .9rem; padding: .1rem .6rem; border: 1px solid var(--line);
+  border-radius: 1rem; background: var(--page); color: var(--ink); }
+.bar input { flex: 0 1 9rem; min-width: 5rem; }
+.bar button[aria-pressed=true] { background: var(--ink); color: var(--page); }
+article { border: 1px solid var(--line); border-radius: .5rem; margin: 1rem 0; padding: 1rem; scroll-margin-top: 8rem; }
 article[hidden] { display: none; } .place { color: var(--soft); font-size: .9rem; }
-.tag { border-radius: 1rem; padding: 0 .6rem; font-size: .85rem; color: #fff; background: #57606a; margin-left: .5rem; }
-.verified { background: #1a7f37; } .erratum { background: #b42318; } .approximation { background: #9a6700; }
-.reconstructed { background: #0969da; } .empirical { background: #6639ba; }
-.pair { display: grid; grid-template-columns: 1fr; gap: .5rem; margin: .6rem 0; }
-.box { background: var(--wash); border-radius: .4rem; padding: .4rem .8rem; overflow-x: auto; }
+.tag { border-radius: 1rem; padding: 0 .6rem; font-size: .85rem; margin-left: .5rem; white-space: nowrap; }
+.tag, .index a { color: #fff; background: #57606a; }
+.verified { background: #1a7f37 !important; } .erratum { background: #b42318 !important; }
+.approximation { background: #8a5d00 !important; } .reconstructed { background: #0860ca !important; }
+.empirical { background: #6639ba !important; }
+.pair { display: grid; grid-template-columns: minmax(0, 1fr); gap: .5rem; margin: .6rem 0; }
+.box { background: var(--wash); border-radius: .4rem; padding: .4rem .8rem; }
 .box h3 { margin: 0 0 .3rem; font-size: .85rem; color: var(--soft); font-weight: 600; }
 .formula { margin: .35rem 0; overflow-x: auto; overflow-y: hidden; padding: .15rem 0; } math { font-size: 1.05rem; }
-details { margin: .4rem 0; } summary { cursor: pointer; color: #0969da; } ol > li { margin: .5rem 0; }
-li.against { color: #b42318; } table { border-collapse: collapse; } td, th { border: 1px solid var(--line);
-  padding: .15rem .5rem; text-align: left; vertical-align: top; } svg { max-width: 100%; height: auto; }
-.index a { display: inline-block; min-width: 2.2rem; text-align: center; border-radius: .3rem; color: #fff; margin: .1rem;
-  text-decoration: none; padding: 0 .3rem; font-size: .85rem; } .definition { background: #57606a; }
+math[display=block] { width: max-content; min-width: 100%; }
+details { margin: .4rem 0; } summary { cursor: pointer; } ol { padding-left: 1.8rem; } ol > li { margin: .5rem 0; }
+li.against { color: var(--bad); } sub, sup { line-height: 0; font-size: .75em; }
+figure { margin: .6rem 0; background: #fff; border-radius: .4rem; } svg { display: block; width: 100%; height: auto; }
+.wide { overflow-x: auto; } table { border-collapse: collapse; }
+td, th { border: 1px solid var(--line); padding: .15rem .5rem; text-align: left; vertical-align: top; }
+.index { margin: .5rem 0; } .index a { display: inline-block; min-width: 2.2rem; text-align: center;
+  border-radius: .3rem; margin: .1rem; text-decoration: none; padding: 0 .3rem; font-size: .85rem; }
+@media (max-width: 40rem) { body { padding: .5rem; } article { padding: .7rem; } .bar { position: static; } }
 """
 
 _SCRIPT = """
@@ -71,9 +85,34 @@ refresh(); reveal();
 """
 
 
+_GREEK = {
+    "alpha": "α", "beta": "β", "delta": "δ", "Delta": "Δ", "epsilon": "ε", "zeta": "ζ", "theta": "θ", "Theta": "Θ",
+    "kappa": "κ", "lambda": "λ", "mu": "μ", "xi": "ξ", "pi": "π", "rho": "ρ", "sigma": "σ", "tau": "τ", "phi": "φ",
+    "varphi": "φ", "psi": "ψ", "Psi": "Ψ", "omega": "ω",
+}  # fmt: skip
+_SYMBOL = re.compile(rf"\b(?:({'|'.join(_GREEK)}|[A-Za-z])((?:_[A-Za-z0-9]+)+)|({'|'.join(_GREEK)}))(?![A-Za-z])")
+
+
+def _symbol(found: re.Match[str]) -> str:
+    letter, index = found[1] or found[3], (found[2] or "").lstrip("_")
+    if index.startswith("omega"):  # Delta_omega, Delta_omega_add
+        letter, index = "Δω", index.removeprefix("omega").lstrip("_")
+    return f"<i>{_GREEK.get(letter, letter)}</i>" + (f"<sub>{index.replace('_', ' ')}</sub>" if index else "")
+
+
+def _prose(text: str) -> str:
+    """A sentence with its symbols set as such: omega_n, W_maxf, xi^2."""
+    marked = _SYMBOL.sub(_symbol, escape(text))
+    return re.sub(r"\^(-?\d+)", r"<sup>\1</sup>", marked)
+
+
+def _mathml(formula: str, display: Literal["block", "inline"] = "inline") -> str:
+    """A formula as MathML, indices of several letters upright."""
+    return str(convert(re.sub(r"_\{([A-Za-z]{2,}\d?)\}", r"_{\\mathrm{\1}}", formula), display=display))
+
+
 def _math(formula: str) -> str:
-    """A formula as MathML."""
-    return f'<div class="formula">{convert(formula, display="block")}</div>'
+    return f'<div class="formula">{_mathml(formula, "block")}</div>'
 
 
 def _formulas(title: str, formulas: Iterable[str] | None) -> str:
@@ -83,14 +122,14 @@ def _formulas(title: str, formulas: Iterable[str] | None) -> str:
 
 def _steps(steps: list[dict[str, Any]]) -> str:
     marks = {None: "", True: " ✓", False: " ✗"}
-    items = [f"<li>{escape(s['text'])}{marks[s['holds']]}{''.join(_math(f) for f in s['latex'])}</li>" for s in steps]
+    items = [f"<li>{_prose(s['text'])}{marks[s['holds']]}{''.join(_math(f) for f in s['latex'])}</li>" for s in steps]
     return f"<ol>{''.join(items)}</ol>"
 
 
 def _evidence(found: list[dict[str, Any]]) -> str:
     rows = [
         f'<li class="{"for" if e["ok"] else "against"}">{"✓" if e["ok"] else "✗"} {escape(e["about"])}, '
-        f"<b>{escape(e['kind'].replace('_', ' '))}</b>: {escape(e['detail'])}</li>"
+        f"<b>{escape(e['kind'].replace('_', ' '))}</b>: {_prose(e['detail'])}</li>"
         for e in found
     ]
     return f"<ul>{''.join(rows)}</ul>"
@@ -112,12 +151,12 @@ def _article(r: dict[str, Any], picture: str) -> str:
     figure = f"<figure>{picture}</figure>" if picture else ""
     return (
         f'<article id="{escape(anchor(r["id"]))}" data-verdict="{r["verdict"]}" data-words="{escape(words)}">'
-        f'<h2><a href="#{escape(anchor(r["id"]))}">{escape(_label(r["id"]))}</a> {escape(r["title"])}'
+        f'<h2><a href="#{escape(anchor(r["id"]))}">{escape(_label(r["id"]))}</a> {_prose(r["title"])}'
         f'<span class="tag {r["verdict"]}">{r["verdict"]}</span></h2>'
-        f'<p class="place">{escape(r["place"])}</p><p>{escape(r["reason"])}</p>{found_by}'
+        f'<p class="place">{escape(r["place"])}</p><p>{_prose(r["reason"])}</p>{found_by}'
         f'<div class="pair">{_formulas("printed", r["printed_latex"])}'
         f"{_formulas(corrected, r['derived_latex'])}</div>"
-        f"<p><b>Effect.</b> {escape(r['effect'])}</p>{figure}"
+        f"<p><b>Effect.</b> {_prose(r['effect'])}</p>{figure}"
         f"<details open><summary>Derivation</summary>{_steps(r['steps'])}</details>"
         f"<details><summary>Evidence</summary>{_evidence(r['evidence'])}</details></article>"
     )
@@ -125,25 +164,20 @@ def _article(r: dict[str, Any], picture: str) -> str:
 
 def _nomenclature() -> str:
     rows = [
-        f"<tr><td>{convert(e.latex)}</td><td>{escape(e.unit)}</td><td>{escape(e.where)}</td>"
-        f"<td>{escape(e.meaning)}</td></tr>"
+        f"<tr><td>{_mathml(e.latex)}</td><td>{escape(e.unit)}</td><td>{escape(e.where)}</td>"
+        f"<td>{_prose(e.meaning)}</td></tr>"
         for e in NOMENCLATURE.values()
     ]
-    rows += [
-        f"<tr><td>{convert(typeset(n.symbol))}</td><td>{escape(n.unit)}</td><td>{escape(n.where)}</td>"
-        f"<td>{escape(n.meaning)}</td></tr>"
-        for n in NAMES.values()
-        if n.symbol.name not in NOMENCLATURE
-    ]
     clashes = [
-        f"<tr><td>{convert(letter)}</td><td>{escape('; '.join(meanings))}</td></tr>"
+        f"<tr><td>{_mathml(letter)}</td><td>{_prose('; '.join(meanings))}</td></tr>"
         for letter, meanings in CLASHES.items()
     ]
     head = "<tr><th>symbol</th><th>unit</th><th>defined</th><th>meaning</th></tr>"
     return (
-        f'<section id="nomenclature"><h2>Symbols</h2><details><summary>{len(rows)} symbols</summary><table>{head}'
-        f"{''.join(rows)}</table></details><h2>One letter, several meanings</h2><details><summary>{len(clashes)} letters"
-        f"</summary><table>{''.join(clashes)}</table></details></section>"
+        f'<section id="nomenclature"><h2>Symbols</h2><details><summary>{len(rows)} symbols</summary><div class="wide">'
+        f"<table>{head}{''.join(rows)}</table></div></details><h2>One letter, several "
+        f"meanings</h2><details><summary>{len(clashes)} "
+        f"letters</summary><table>{''.join(clashes)}</table></details></section>"
     )
 
 
@@ -161,12 +195,12 @@ def page(records: list[dict[str, Any]], entries: Iterable[Entry]) -> str:
     return (
         '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><meta name="viewport" '
         'content="width=device-width"><link rel="icon" href="data:,"><title>The ledger: every equation judged</title>'
-        f"<style>{_STYLE}</style></head><body><header><h1>The ledger</h1>"
-        "<p>Every numbered equation of <i>Research on Low-Speed Driving Model of Ultrasonic Motor Based on Beat Traveling "
-        "Wave Theory</i> (Actuators 2021, 10(11), 304), the definitions between them, its tables and statements: what is "
-        "printed, what follows from first principles, the verdict, the evidence, and what the difference does to "
-        "TRUM-60 at the operating point of Table 3 (180 N, 3000 Hz, 14 of 20 pulses). A tick marks a step or finding "
-        "that is checked by machine each time this page is made.</p></header>"
+        f"<style>{_STYLE}</style></head><body><header><h1>The ledger</h1><p>Every numbered equation of <i>Research on "
+        "Low-Speed Driving Model of Ultrasonic Motor Based on Beat Traveling Wave Theory</i> (Actuators 2021, 10(11), "
+        "304), the definitions between them, its tables and statements: what is printed, what follows from first "
+        "principles, the verdict, the evidence, and what the difference does to TRUM-60 at the operating point of "
+        "Table 3 (180 N, 3000 Hz, 14 of 20 pulses). A tick marks a step or finding that is checked by machine each "
+        "time this page is made.</p></header>"
         f'<div class="bar">{buttons}<input id="search" type="search" placeholder="search" aria-label="search">'
         f'<span id="shown"></span></div><nav class="index">{index}</nav>\n{articles}\n{_nomenclature()}'
         f"<script>{_SCRIPT}</script></body></html>\n"

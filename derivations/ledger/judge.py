@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Iterable, Mapping
-from functools import cache
+from functools import cache, reduce
+from typing import Any, SupportsFloat
 
 import mpmath as mp
 import sympy as sp
@@ -23,10 +24,13 @@ __all__ = [
     "difference",
     "error_size",
     "evaluate",
+    "figure",
     "identical",
+    "largest",
     "points",
     "usual",
     "vanishes",
+    "worse",
 ]
 
 DIGITS = 30
@@ -43,6 +47,21 @@ _RANGES: dict[str, Range] = {
     "psi": (-3.0, 3.0), "a": (-5e-6, 5e-6), "b": (-1.0, 1.0), "a_A": (-5e-6, 5e-6), "b_A": (-1.0, 1.0),
     "a_B": (-5e-6, 5e-6), "b_B": (-1.0, 1.0), "T": (4e-4, 6e-4),
 }  # fmt: skip
+
+
+def figure(value: SupportsFloat, digits: int = 4) -> str:
+    """A number for a sentence, such as 12.6, 9 or 3e+10."""
+    return f"{float(value):.{digits}g}"
+
+
+def worse(worst: Any, error: Any) -> Any:  # noqa: ANN401
+    """The larger of two errors; what is not a number stays, where ``max`` would drop it."""
+    return worst if worst != worst or error <= worst else error
+
+
+def largest(errors: Iterable[Any]) -> Any:  # noqa: ANN401
+    """The largest of errors, not a number if one of them is not."""
+    return reduce(worse, errors)
 
 
 @cache
@@ -101,8 +120,8 @@ def vanishes(expr: sp.Basic) -> bool:
     """Whether an expression is identically 0, by ever stronger simplification."""
     if isinstance(expr, sp.Equality):
         expr = expr.lhs - expr.rhs
-    for reduce in (sp.sympify, sp.expand, lambda e: sp.expand(sp.expand_trig(e)), sp.together, sp.simplify):
-        expr = reduce(expr)
+    for simpler in (sp.sympify, sp.expand, lambda e: sp.expand(sp.expand_trig(e)), sp.together, sp.simplify):
+        expr = simpler(expr)
         if expr == 0:
             return True
     return False
@@ -169,7 +188,7 @@ def agrees(
             if not error <= tolerance:  # also when it is not a number
                 text = f"{name} is {mp.nstr(found, 8)}, by {against} {mp.nstr(wanted, 8)}, at random point {index + 1}"
                 return Evidence(kind, False, text)
-            worst = max(worst, error)
+            worst = worse(worst, error)
     digits = "all digits" if worst == 0 else f"{mp.nstr(worst, 2)} relative at most"
     return Evidence(kind, True, f"equals {against} at {count} random points, {digits}: {', '.join(forms)}")
 

@@ -26,6 +26,7 @@ __all__ = [
 
 Verdict = Literal["verified", "approximation", "erratum", "definition", "reconstructed", "empirical"]
 Kind = Literal["dimension", "numeric", "identity", "continuity", "limit", "domain", "error_size", "data", "derivation"]
+_NONSENSE = (ArithmeticError, ValueError, TypeError, AttributeError, LookupError, NotImplementedError, StopIteration)
 WORKING_DIGITS = 45  # 30 to be trusted and some to spare
 Forms = Mapping[str, sp.Basic]
 """Named expressions, or equations (sympy.Eq) and inequalities under any name, in the order of the paper."""
@@ -115,17 +116,40 @@ class Entry:
     picture: Callable[[], Picture] | None = None
 
     def evidence(self, forms: Forms) -> Iterator[Evidence]:
-        """Evidence on any forms: dimensions first, then the judge's; forms it cannot evaluate speak against themselves."""
+        """Evidence on any forms: dimensions, then the judge's; forms it cannot evaluate speak against themselves."""
         yield _dimensions(forms, self.units, self.known)
         try:
             yield from self.judge(forms)
-        except (ArithmeticError, ValueError, TypeError, AttributeError, LookupError, NotImplementedError) as error:
+        except _NONSENSE as error:
             yield Evidence("domain", False, f"cannot be evaluated: {type(error).__name__}: {error}")
+
+    def evidence_on_repair(self, forms: Forms) -> Iterator[Evidence]:
+        """Evidence on forms after the stated correction; where it cannot be made, that speaks against them."""
+        if self.repair is None:
+            yield Evidence("identity", False, "an erratum states its correction as a repair of the printed form")
+            return
+        try:
+            mended = self.repair(forms)
+        except _NONSENSE as error:
+            yield Evidence("domain", False, f"cannot be repaired: {type(error).__name__}: {error}")
+            return
+        yield from self.evidence(mended)
 
     def rejects(self, forms: Forms) -> Evidence | None:
         """The first evidence that speaks against the forms; None if all speaks for them."""
         with mp.workdps(WORKING_DIGITS):
             return next((found for found in self.evidence(forms) if not found.ok), None)
+
+    def rejects_print(self, forms: Forms) -> Evidence | None:
+        """What speaks against forms as the print of an erratum: their repair fails, or they fail as they should not."""
+        with mp.workdps(WORKING_DIGITS):
+            for found in self.evidence_on_repair(forms):
+                if not found.ok:
+                    return found
+            for found in self.evidence(forms):
+                if found.ok == (found.kind in self.found_by):
+                    return found
+        return None
 
     def subject(self) -> Forms:
         """The forms that stand: the printed ones, or the corrected or reconstructed ones."""
@@ -200,11 +224,7 @@ def _erratum(entry: Entry, printed: tuple[Evidence, ...], corrected: tuple[Evide
         problems.append("called an erratum, but nothing speaks against the printed form")
     elif failing != set(entry.found_by):
         problems.append(f"the printed form fails by {sorted(failing)}, stated is {sorted(entry.found_by)}")
-    if entry.repair is None:
-        problems.append("an erratum states its correction as a repair of the printed form")
-    else:
-        problems += [f"the repaired print fails, {p}" for p in _against(entry.evidence(entry.repair(entry.printed)))]
-    return problems
+    return problems + [f"the repaired print fails, {p}" for p in _against(entry.evidence_on_repair(entry.printed))]
 
 
 def _passing(found: tuple[Evidence, ...], required: set[str]) -> list[str]:

@@ -7,8 +7,8 @@ more or less, two like symbols swapped, 2 for 3.
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 from functools import cache
 
 import mpmath as mp
@@ -20,7 +20,7 @@ from derivations.ledger.judge import difference, evaluate, vanishes
 from derivations.ledger.model import Entry, Evidence, Forms
 from derivations.nomenclature import NOMENCLATURE
 
-__all__ = ["MUTATED", "Mutant", "Outcome", "mutants", "try_mutants"]
+__all__ = ["MUTATED", "Mutant", "Outcome", "equivalent", "mutants", "try_misreadings", "try_mutants"]
 
 MUTATED = ("verified", "erratum", "reconstructed")
 """Verdicts whose standing forms are mutated: printed and verified, corrected, reconstructed."""
@@ -38,11 +38,20 @@ class Mutant:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a mutant: the evidence that rejects it, or a proof that it changes nothing."""
+    """What became of a mutant: the evidence that rejects it, or a proof that it changes nothing.
+
+    A misreading may also lie in what the stated correction of an erratum discards, whatever stands there.
+    """
 
     mutant: Mutant
     rejected_by: Evidence | None
     equivalent: bool
+    discarded: bool = False
+
+    @property
+    def survives(self) -> bool:
+        """Whether the slip went unnoticed."""
+        return self.rejected_by is None and not self.equivalent and not self.discarded
 
 
 def _like(symbol: sp.Symbol, others: list[sp.Symbol]) -> sp.Symbol | None:
@@ -145,11 +154,11 @@ def _differs(expr: sp.Basic) -> bool:
 
 
 @cache
-def _equivalent(mutated: sp.Basic, form: sp.Basic) -> bool:
+def equivalent(mutated: sp.Basic, form: sp.Basic) -> bool:
     """Whether a mutant is the same formula: equal branches, or an equation with the same solutions."""
     if isinstance(mutated, sp.Piecewise) and isinstance(form, sp.Piecewise):
         pairs = zip(mutated.args, form.args, strict=True)
-        return all(a[1] == b[1] and _equivalent(a[0], b[0]) for a, b in pairs)
+        return all(a[1] == b[1] and equivalent(a[0], b[0]) for a, b in pairs)
     if isinstance(form, sp.Equality):
         if not isinstance(mutated, sp.Equality):
             return False
@@ -162,12 +171,36 @@ def _equivalent(mutated: sp.Basic, form: sp.Basic) -> bool:
     return not _differs(gap) and bool(vanishes(gap))
 
 
-def try_mutants(entry: Entry) -> list[Outcome]:
-    """Every mutant of an entry's standing forms, held against the entry's evidence."""
-    forms = entry.subject()
+def _whole_turns(mutated: sp.Basic, form: sp.Basic) -> bool:
+    """Whether two angles differ by whole turns, or two places by whole waves, branch by branch."""
+    if isinstance(mutated, sp.Piecewise) and isinstance(form, sp.Piecewise):
+        pairs = zip(mutated.args, form.args, strict=True)
+        return all(a[1] == b[1] and _whole_turns(a[0], b[0]) for a, b in pairs)
+    turns = sp.expand(mutated - form) / (2 * sp.pi)
+    return any((turns * per).is_integer for per in (1, NOMENCLATURE["k_c"].symbol))
+
+
+def _try(entry: Entry, forms: Forms, rejects: Callable[[Forms], Evidence | None]) -> list[Outcome]:
     outcomes = []
     for mutant in mutants(forms):
-        against = entry.rejects(mutant.forms)
-        same = against is None and _equivalent(mutant.forms[mutant.name], forms[mutant.name])
+        against, pair = rejects(mutant.forms), (mutant.forms[mutant.name], forms[mutant.name])
+        periodic = entry.units.get(mutant.name) in ("rad", "m")
+        same = against is None and (equivalent(*pair) or (periodic and _whole_turns(*pair)))
         outcomes.append(Outcome(mutant, against, same))
     return outcomes
+
+
+def try_mutants(entry: Entry) -> list[Outcome]:
+    """Every mutant of an entry's standing forms, held against the entry's evidence."""
+    return _try(entry, entry.subject(), entry.rejects)
+
+
+def try_misreadings(entry: Entry) -> list[Outcome]:
+    """Every slip that could have been made in transcribing an erratum's print, held against its stated repair."""
+    if entry.repair is None:
+        return []
+    mended = entry.repair(entry.printed)
+    return [
+        replace(o, discarded=o.survives and entry.repair(o.mutant.forms) == mended)
+        for o in _try(entry, entry.printed, entry.rejects_print)
+    ]

@@ -16,8 +16,10 @@ __all__ = ["forms_latex", "record"]
 def _form_latex(name: str, form: sp.Basic) -> str:
     if isinstance(form, sp.core.relational.Relational) or form in (sp.true, sp.false):
         return latex(form)
-    left = NOMENCLATURE[name].latex if name in NOMENCLATURE else latex(sp.Symbol(name))
-    return f"{left} = {latex(form)}"
+    first = name.split("_")[0]
+    word = len(first) >= 4 and first.isalpha() and sp.latex(sp.Symbol(first)) == first  # share_redu; omega_p is none
+    left = rf"\mathrm{{{name.replace('_', ' ')}}}".replace(" ", r"\ ") if word else latex(sp.Symbol(name))
+    return f"{NOMENCLATURE[name].latex if name in NOMENCLATURE else left} = {latex(form)}"
 
 
 def forms_latex(forms: Forms) -> list[str]:

@@ -8,7 +8,7 @@ import mpmath as mp
 import sympy as sp
 
 from derivations import section
-from derivations.ledger.judge import agrees, error_size, identical, points
+from derivations.ledger.judge import agrees, error_size, identical, largest, points
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
 from derivations.ledger.operating import at_point, operating_point
 from derivations.nomenclature import sym
@@ -101,14 +101,11 @@ def _derive_beam() -> Derivation:
     return Derivation(
         (
             step("The grooves take n_s b_s of the circumference l_s to the depth h_t: their share of the metal's "
-                 "volume, "
-                 "which mass and shear area lose, is", grooves, zero=beam["rho_eq"] / rho_e - (1 - grooves)),
+                 "volume, which mass and shear area lose, is", grooves, zero=beam["rho_eq"] / rho_e - (1 - grooves)),
             step("Teeth carry no bending stress, so only h_e - h_t bends; about its own middle it has, against the "
-                 "whole "
-                 "height, the fraction", sp.Eq(bent / full, sp.factor(ratio)), zero=ratio - beam["E_eq"] / E_e),
+                 "whole height, the fraction", sp.Eq(bent / full, sp.factor(ratio)), zero=ratio - beam["E_eq"] / E_e),
             step("This scales the modulus so that the full height h_e may be used. It is exact for the metal alone. "
-                 "In the "
-                 "composite the stress lies about another axis, so the bending stiffness is an approximation."),
+                 "In the composite the stress lies about another axis, so the bending stiffness is an approximation."),
         ),
         {**beam, "k_t": h_t / h_e, "k_s": n_s * b_s / l_s, "k_d": 1 - grooves, "A_eq": b_e * h_e, "A_p": b_p * h_p,
          "A": b_e * h_e + b_p * h_p},
@@ -149,7 +146,7 @@ def _judge_beam(forms: Forms) -> Iterator[Evidence]:
             for point in points(sym("E_e E_p h_e h_t h_p b_e b_p n_s b_s l_s"), 8, seed="beam")
         ]
         there = _stiffness_error(forms, dict(operating_point()))
-        return float(there), float(max(abs(_stiffness_error(forms, p)) for p in around))
+        return float(there), float(largest(abs(_stiffness_error(forms, p)) for p in around))
 
     yield error_size("the bending stiffness E I_z", sizes, 0.6)
 
@@ -192,9 +189,8 @@ def _derive_2() -> Derivation:
         (
             step("From the neutral axis z, the second moments of metal and ceramic are integrals over their heights:",
                  sp.Eq(I_e, of_metal), sp.Eq(I_p, of_ceramic)),
-            step("A curvature strains both alike, so bending stiffnesses add; E is what multiplies I_z = I_e + I_p "
-                 "to give "
-                 "their sum:", sp.Eq(E * I_z, total), zero=forms["E"] * forms["I_z"] - total.doit()),
+            step("A curvature strains both alike, so bending stiffnesses add; E is what multiplies I_z = I_e + I_p to "
+                 "give their sum:", sp.Eq(E * I_z, total), zero=forms["E"] * forms["I_z"] - total.doit()),
             step("Masses add:", sp.Eq(rho * A, rho_eq * A_eq + rho_p * A_p),
                  zero=forms["rho"] * forms["A"] - rho_eq * forms["A_eq"] - rho_p * forms["A_p"]),
             step("Shear stiffnesses add if both layers shear by the same angle, which kappa then corrects:",
@@ -216,10 +212,10 @@ def _judge_2(forms: Forms) -> Iterator[Evidence]:
         metal = v["b_e"] * mp.quad(lambda u: u**2, [low, middle])
         ceramic = v["b_p"] * mp.quad(lambda u: u**2, [middle, high])
         areas = v["b_e"] * (middle - low), v["b_p"] * (high - middle)
-        mean = lambda a, b: (a * areas[0] + b * areas[1]) / sum(areas)  # noqa: E731
+        rho, G = (mp.fdot(areas, (v[f"{s}_eq"], v[f"{s}_p"])) / sum(areas) for s in ("rho", "G"))
         return {
             "E": (v["E_eq"] * metal + v["E_p"] * ceramic) / (metal + ceramic), "I_z": metal + ceramic,
-            "rho": mean(v["rho_eq"], v["rho_p"]), "G": mean(v["G_eq"], v["G_p"]), "I_e": metal, "I_p": ceramic,
+            "rho": rho, "G": G, "I_e": metal, "I_p": ceramic,
             "h": high - low, "A_eq": areas[0], "A_p": areas[1], "A": sum(areas),
         }[name]  # fmt: skip
 
@@ -254,12 +250,13 @@ ENTRIES = (
                "A_p": "m^2", "A": "m^2"},
         verdict="approximation",
         reason="Density and shear area lose the grooves' volume. The modulus is scaled by the cube of the height that "
-        "bends, which is exact for the metal alone but not about the composite's neutral axis. The text calls the "
-        "beam's thickness k_e once, and Young's and the shear modulus both E_e: h_e and G_e are meant.",
+               "bends, which is exact for the metal alone but not about the composite's neutral axis. The text calls "
+               "the beam's thickness k_e once, and Young's and the shear modulus both E_e: h_e and G_e are meant.",
         judge=_judge_beam, derive=_derive_beam, effect=_effect_beam,
     ),
     Entry(
-        id="2", section="2.1", title="Modulus, density, second moment and shear modulus of the section", place="Sect. 2.1",
+        id="2", section="2.1", title="Modulus, density, second moment and shear modulus of the section",
+                                     place="Sect. 2.1",
         printed=_EQ2, units=_UNITS_2, verdict="verified",
         reason="Bending and shear stiffnesses and masses add; G takes equal shear in both layers.",
         judge=_judge_2, derive=_derive_2, effect=_effect_2,

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from functools import cache
+from functools import cache, partial
 
 import mpmath as mp
 import sympy as sp
 
 from derivations import phases, supplement
 from derivations.ledger.exact import Cycle, at_table_3, random_cycles
-from derivations.ledger.judge import evaluate
+from derivations.ledger.judge import evaluate, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, Picture, evidence, step
 from derivations.nomenclature import sym
 
@@ -75,30 +75,31 @@ def _judge(region: str) -> Callable[[Forms], Iterator[Evidence]]:
             roots = mp.polyroots([1, 2 * cycle["xi"], 1])
             rate = values({"omega_d": forms["omega_d"]}, cycle, mp.mpf(0))["omega_d"]
             off = abs(rate / cycle["omega_n"] / max(mp.im(root) for root in roots) - 1)
-            if off > mp.mpf(10) ** -25:
+            if not off <= mp.mpf(10) ** -25:
                 yield evidence("domain", False, "omega_d is not the frequency of the oscillator's free motion")
                 return
         worst = worst_start = worst_ode = mp.mpf(0)
         for cycle in random_cycles(4, f"supplement {region}", psi=True):
             size = cycle["W"]
             for time in cycle.times(region, 3):
-                worst = max(worst, abs(at(cycle, time) - cycle.response(phase, region, time)[0]) / size)
+                worst = worse(worst, abs(at(cycle, time) - cycle.response(phase, region, time)[0]) / size)
         yield evidence("numeric", worst < mp.mpf(10) ** -25,
-                       f"w from these amplitudes and phases is the response chained as complex exponentials from t_1 on, "
-                       f"to {mp.nstr(worst, 2)} of W")  # fmt: skip
+                       "w from these amplitudes and phases is the response chained as complex exponentials from t_1 "
+                       f"on, to {mp.nstr(worst, 2)} of W")  # fmt: skip
         for cycle in random_cycles(3, f"start {region}", psi=True):
             before = _before(cycle, phase, region)
             now = at(cycle, mp.mpf(0)), mp.diff(lambda u, c=cycle: at(c, u), 0)
             rate = cycle["omega_q"]
-            jump = max(abs(now[0] - before[0]), abs(now[1] - before[1]) / rate) / cycle["W"]
-            worst_start = max(worst_start, jump)
+            jump = worse(abs(now[0] - before[0]), abs(now[1] - before[1]) / rate) / cycle["W"]
+            worst_start = worse(worst_start, jump)
         yield evidence("continuity", worst_start < mp.mpf(10) ** -15,
-                       f"displacement and velocity pass the switching with a jump of {mp.nstr(worst_start, 2)} of W")  # fmt: skip
+                       f"displacement and velocity pass the switching with a jump of {mp.nstr(worst_start, 2)} of "
+                       "W")  # fmt: skip
         for cycle in random_cycles(2, f"ode {region}", psi=True):
-            worst_ode = max(worst_ode, _residual(cycle, phase, region, lambda u, c=cycle: at(c, u)))
+            worst_ode = worse(worst_ode, _residual(cycle, phase, region, partial(at, cycle)))
         yield evidence("identity", worst_ode < mp.mpf(10) ** -10,
-                       f"solves w'' + 2 xi omega_n w' + omega_n^2 w = forcing to {mp.nstr(worst_ode, 2)} of omega_n^2 W, "
-                       "derivatives taken numerically")  # fmt: skip
+                       f"solves w'' + 2 xi omega_n w' + omega_n^2 w = forcing to {mp.nstr(worst_ode, 2)} of omega_n^2 "
+                       "W, derivatives taken numerically")  # fmt: skip
 
     return judge
 
@@ -123,7 +124,7 @@ def _residual(cycle: Cycle, phase: str, region: str, w: Callable[[mp.mpf], mp.mp
         steady = cycle["W"] * mp.expj(rate * time + shift)
         force = gate * mp.re((n**2 - rate**2 + 2j * damping * n * rate) * steady)
         left = mp.diff(w, time, 2) + 2 * damping * n * mp.diff(w, time) + n**2 * w(time)
-        worst = max(worst, abs(left - force) / (n**2 * cycle["W"]))
+        worst = worse(worst, abs(left - force) / (n**2 * cycle["W"]))
     return worst
 
 
@@ -132,7 +133,7 @@ def _derive(region: str) -> Callable[[], Derivation]:
         phase, radius, theta, psi, amplitude, slow = _NAMES[region]
         forms = supplement_forms(region)
         free_w, free_v = phases.free()
-        R, angle = supplement.free_polar()
+        R, _ = supplement.free_polar()
         polar = sp.Symbol("R") * sp.exp(-xi * omega_n * tau) * sp.sin(omega_d * tau + sp.Symbol("Theta"))
         rows = sp.expand(sp.expand_trig(polar))
         rows = rows.subs(
@@ -141,8 +142,9 @@ def _derive(region: str) -> Callable[[], Derivation]:
         rows = rows.subs(sp.Symbol("R"), R).subs(omega_d, supplement.damped_frequency())
         steps = [
             step("Free motion from displacement a and velocity b at the region's start:", free_w, free_v),
-            step("Displacement and velocity are continuous at the switching, so the free motion is what the phase does less "
-                 "what it would do in steady state. From the steady state before t_1 this gives, at the region's start,",
+            step("Displacement and velocity are continuous at the switching, so the free motion is what the phase "
+                 "does less what it would do in steady state. From the steady state before t_1 this gives, at the "
+                 "region's start,",
                  *(sp.Eq(sym(f"{letter}_{phase}")[0], forms[f"{letter}_{phase}"]) for letter in "ab")),
             step("As one sine, R exp(-xi omega_n tau) sin(omega_d tau + Theta):",
                  sp.Eq(sym(radius)[0], forms[radius]), sp.Eq(sym(theta)[0], forms[theta]),
@@ -178,14 +180,15 @@ def _polar_zero(P: sp.Symbol, R: sp.Symbol, half: sp.Symbol) -> sp.Expr:
 def _effect(region: str) -> Callable[[], str]:
     def effect() -> str:
         cycle = at_table_3()
-        phase, radius, theta, psi, amplitude, slow = _NAMES[region]
+        _, radius, theta, psi, amplitude, slow = _NAMES[region]
         length = cycle.durations()[("redu", "addredu", "add").index(region)]
         first, last = (values(supplement_forms(region), cycle, u) for u in (mp.mpf(0), length))
         text = f"Free motion: {mp.nstr(10**6 * first[radius], 5)} um at phase {mp.nstr(first[theta], 5)} rad"
         if psi:
             text += (
-                f"; the amplitude runs from {mp.nstr(10**6 * first[amplitude], 5)} to {mp.nstr(10**6 * last[amplitude], 5)} um "
-                f"over the region, its slow phase from {mp.nstr(first[slow], 4)} to {mp.nstr(last[slow], 4)} rad"
+                f"; the amplitude runs from {mp.nstr(10**6 * first[amplitude], 5)} to "
+                f"{mp.nstr(10**6 * last[amplitude], 5)} um over the region, its slow phase from "
+                f"{mp.nstr(first[slow], 4)} to {mp.nstr(last[slow], 4)} rad"
             )
         return text + "."
 

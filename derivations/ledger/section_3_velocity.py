@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import partial
 
 import mpmath as mp
 import sympy as sp
 
 from derivations import beam
-from derivations.ledger.exact import REGIONS, Cycle, at_table_3
-from derivations.ledger.judge import agrees, error_size, evaluate, points, vanishes
+from derivations.ledger.exact import REGIONS, Cycle, at_table_3, vertical_displacement
+from derivations.ledger.judge import agrees, error_size, evaluate, largest, points, vanishes
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
 from derivations.ledger.operating import operating_point
 from derivations.ledger.regions import by_region, context, row_value, rows, worst
@@ -43,9 +44,10 @@ def _derive_11() -> Derivation:
     return Derivation(
         (
             step("The phases' mode shapes are sin and cos; displacements add:", sp.Eq(zeta_z, _SHAPE)),
-            step("A section turns by theta, so the surface at the distance D moves along by D theta, in the paper's sense of "
-                 "x:", sp.Eq(sym("zeta_x")[0], D * rotation)),
-            step("In Timoshenko's beam, which the paper uses, the rotation is not the slope but beta/k_c times it (eq. 3):",
+            step("A section turns by theta, so the surface at the distance D moves along by D theta, in the paper's "
+                 "sense of x:", sp.Eq(sym("zeta_x")[0], D * rotation)),
+            step("In Timoshenko's beam, which the paper uses, the rotation is not the slope but beta/k_c times it "
+                 "(eq. 3):",
                  sp.Eq(rotation, slender * sp.Derivative(zeta_z, x)), zero=sp.simplify(left)),
             step("The printed form sets the factor to 1, as Euler and Bernoulli do."),
         ),
@@ -57,7 +59,7 @@ def _judge_11(forms: Forms) -> Iterator[Evidence]:
     def displacement(name: str, point: dict[sp.Symbol, mp.mpf]) -> mp.mpf:
         v = {s.name: number for s, number in point.items()}
         A, B = v["W"] * mp.cos(v["omega_q"] * v["t"]), v["W"] * mp.sin(v["omega_n"] * v["t"]) / 2
-        vertical = lambda u: A * mp.sin(v["k_c"] * u) + B * mp.cos(v["k_c"] * u)  # noqa: E731
+        vertical = partial(vertical_displacement, A, B, v["k_c"])
         return vertical(v["x"]) if name == "zeta_z" else v["D"] * mp.diff(vertical, v["x"])
 
     names = sym("W omega_q omega_n t x k_c D")
@@ -73,7 +75,7 @@ def _judge_11(forms: Forms) -> Iterator[Evidence]:
         there = q["k_c"] / q["beta"] - 1
         ratio = k_c / beam.rotation_ratio()
         around = points(sorted(ratio.free_symbols, key=lambda s: s.name), 8, "eq11")
-        return float(there), float(max(abs(evaluate(ratio, p) - 1) for p in around))
+        return float(there), float(largest(abs(evaluate(ratio, p) - 1) for p in around))
 
     yield error_size("zeta_x, by taking the slope for the rotation,", sizes, 0.6)
 
@@ -81,8 +83,9 @@ def _judge_11(forms: Forms) -> Iterator[Evidence]:
 def _effect_11() -> str:
     q = operating_point()
     return (
-        f"The tangential displacement and velocity come out {mp.nstr(100 * (q['k_c'] / q['beta'] - 1), 4)} % too large at the "
-        "operating point. It cancels in Q_aver and Q_vib, not in the motor's speed. The sign fixes the sense of x only."
+        f"The tangential displacement and velocity come out {mp.nstr(100 * (q['k_c'] / q['beta'] - 1), 4)} % too "
+        "large at the operating point. It cancels in Q_aver and Q_vib, not in the motor's speed. The sign fixes the "
+        "sense of x only."
     )
 
 
@@ -202,17 +205,19 @@ def _velocity_error(form: Forms, phase: str, sign: int) -> Callable[[Cycle, str,
 def _judge_rates(name: str) -> Callable[[Forms], Iterator[Evidence]]:
     phase, sign = ("B", -1) if name == "M_a" else ("A", 1)
     wide = {
-        "A_Badd": (3e-6, 9e-6), "A_ABaddredu": (3e-6, 9e-6), "t_1": (0.0, 1e-6), "t_2": (1e-4, 2e-4), "t_3": (3e-4, 4e-4),
-        "W_maxf": (4e-6, 7e-6), "t": (4e-4, 6e-4),
+        "A_Badd": (3e-6, 9e-6), "A_ABaddredu": (3e-6, 9e-6), "t_1": (0.0, 1e-6), "t_2": (1e-4, 2e-4),
+        "t_3": (3e-4, 4e-4), "W_maxf": (4e-6, 7e-6), "t": (4e-4, 6e-4),
     } | {s.name: (-3.0, 3.0) for s in (Theta_A, Psi_A, varphi_A, Theta_B, Psi_B, varphi_B)}  # fmt: skip
 
     def judge(forms: Forms) -> Iterator[Evidence]:
         yield agrees(forms, rates(name), ranges=wide, count=4, tolerance=1e-20,
-                     against=f"the derivative of ({'10' if phase == 'B' else '9'}), amplitude and slow phase held")  # fmt: skip
+                     against=f"the derivative of ({'10' if phase == 'B' else '9'}), amplitude and slow phase "
+                             "held")  # fmt: skip
         found = worst(_velocity_error(forms, phase, sign))
         text = ", ".join(f"{mp.nstr(100 * value, 3)} % in T_{region}" for region, value in found.items())
-        yield evidence("error_size", max(found.values()) < 0.25,
-                       f"off the velocity chained as complex exponentials, in omega_q W, by {text}; allowed 25 %")  # fmt: skip
+        yield evidence("error_size", largest(found.values()) < 0.25,
+                       f"off the velocity chained as complex exponentials, in omega_q W, by {text}; allowed 25 "
+                       "%")  # fmt: skip
 
     return judge
 
@@ -234,10 +239,11 @@ def _derive_rates(name: str) -> Callable[[], Derivation]:
         repair = _repair_18(printed) if name == "M_a" else _repair_19(printed)
         return Derivation(
             (
-                step(f"{source}. From t_1 to t_2, over W_maxf:", derived["redu"], zero=derived["redu"] - repair["redu"]),
+                step(f"{source}. From t_1 to t_2, over W_maxf:",
+                     derived["redu"], zero=derived["redu"] - repair["redu"]),
                 step("From t_2 to t_3:", derived["addredu"], zero=sp.expand(derived["addredu"] - repair["addredu"])),
-                step("From t_3 to t_4; a derivative of a sine brings its frequency down, which the print forgot. Amplitude "
-                     "and slow phase are held, what that costs is under `evidence`:", derived["add"],
+                step("From t_3 to t_4; a derivative of a sine brings its frequency down, which the print forgot. "
+                     "Amplitude and slow phase are held, what that costs is under Evidence:", derived["add"],
                      zero=sp.expand(derived["add"] - repair["add"])),
             ),
             derived,
@@ -256,7 +262,7 @@ def _effect_rates(name: str) -> Callable[[], str]:
             errors = []
             for region in REGIONS:
                 error = _velocity_error(form, phase, sign)
-                errors.append(max(error(cycle, region, u) for u in cycle.times(region, 8)))
+                errors.append(largest(error(cycle, region, u) for u in cycle.times(region, 8)))
             parts.append(f"{label} off by " + ", ".join(f"{mp.nstr(100 * e, 3)} %" for e in errors))
         speed = mp.nstr(cycle["W"] * cycle["omega_q"], 4)
         return f"Of omega_q W = {speed} m/s in the three regions: {'; '.join(parts)}."
@@ -268,8 +274,9 @@ ENTRIES = (
     Entry(
         id="11", section="3.3", title="Vertical and tangential displacement", place="Sect. 3.3",
         printed=EQ11, units={"zeta_z": "m", "zeta_x": "m"}, verdict="approximation",
-        reason="The superposition is right. zeta_x takes the slope for the section's rotation, which Timoshenko's beam (3) "
-        "tells apart. With z towards the rotor a positive slope moves the surface to -x: the sign is a convention.",
+        reason="The superposition is right. zeta_x takes the slope for the section's rotation, which Timoshenko's "
+               "beam (3) tells apart. With z towards the rotor a positive slope moves the surface to -x: the sign is "
+               "a convention.",
         judge=_judge_11, derive=_derive_11, effect=_effect_11,
     ),
     Entry(
@@ -281,15 +288,15 @@ ENTRIES = (
     Entry(
         id="17", section="3.3", title="Amplitude and phase of the tangential velocity", place="Sect. 3.3",
         printed=_EQ17, units={"A_v": "m/s", "Psi_v": "rad"}, verdict="verified",
-        reason="Polar form of M_a and M_b, both branches right; from t_1 to t_2 W_maxf stands before the root because M_a "
-        "and M_b are printed without it there.",
+        reason="Polar form of M_a and M_b, both branches right; from t_1 to t_2 W_maxf stands before the root because "
+               "M_a and M_b are printed without it there.",
         judge=_judge_17, derive=_derive_16, effect=_effect_17,
     ),
     Entry(
         id="18", section="3.3", title="Sine's part M_a of the tangential velocity", place="Sect. 3.3",
         printed=_by_rows(_EQ18["M_a"]), units=_UNITS_FIRST, verdict="erratum",
-        reason="The third row lost the factor -(omega_n + omega_q)/2 and is a length, not a velocity; the second keeps (10)'s "
-        "amplitude.",
+        reason="The third row lost the factor -(omega_n + omega_q)/2 and is a length, not a velocity; the second "
+               "keeps (10)'s amplitude.",
         judge=_judge_rates("M_a"), derive=_derive_rates("M_a"), effect=_effect_rates("M_a"), repair=_repair_18,
         found_by=("dimension", "numeric", "error_size"),
     ),

@@ -8,9 +8,8 @@ import mpmath as mp
 import sympy as sp
 
 from derivations import line_contact
-from derivations.ledger.judge import Point, agrees, error_size, identical
+from derivations.ledger.judge import Point, agrees, error_size, figure, identical
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, Picture, evidence, step
-from derivations.ledger.names import KNOWN, figure, name
 from derivations.ledger.operating import at_point, operating_point, stator
 from derivations.nomenclature import sym
 
@@ -18,8 +17,8 @@ __all__ = ["ENTRIES", "RANGES"]
 
 F_c, n_j, b_m, h_m, r_t, D, k_c, k_N, theta = sym("F_c n_j b_m h_m r_t D k_c k_N theta")
 E_eq, E_m, E_e, mu_e, mu_m, x, t, p, w_A, w_B, k_f = sym("E_eq E_m E_e mu_e mu_m x t p w_A w_B k_f")
-rho_k, zeta_zmax, C_E, x_m, x_max, x_xm, x_vm = name("rho_k zeta_zmax C_E x_m x_max x_xm x_vm")
-delta_0, zeta_z, A_p = name("delta_0 zeta_z A_p")
+rho_k, zeta_zmax, C_E, x_m, x_max, x_xm, x_vm = sym("rho_k zeta_zmax C_E x_m x_max x_xm x_vm")
+delta_0, zeta_z, A_p = sym("delta_0 zeta_z A_p")
 a_w, b_w, a_v, b_v = sp.symbols("a_w b_w a_v b_v", real=True)  # values of w_A, w_B and of their rates
 
 RANGES: dict[str, tuple[float, float]] = {
@@ -215,20 +214,20 @@ _PLACE = "Sect. 4.1"
 ENTRIES = (
     Entry(
         id="25", section="4.1", title="Equivalent curvature diameter of the crest", place=_PLACE, printed=_EQ25,
-        units={"rho_k": "m"}, verdict="verified", judge=_judge_25, derive=_derive_25, effect=_effect_25, known=KNOWN,
-        reason="Twice the crest's radius of curvature, with m the number of crests and r_t the radius on which "
-        "k_c = m/r_t.",
+        units={"rho_k": "m"}, verdict="verified", judge=_judge_25, derive=_derive_25, effect=_effect_25,
+        reason="Twice the crest's radius of curvature, with m the number of crests and r_t the radius on which k_c = "
+               "m/r_t.",
     ),
     Entry(
         id="C_E", section="4.1", title="Contact compliance", place="below eq. 26", printed=_C_E,
         units={"C_E": "1/Pa"}, verdict="verified", judge=_judge_c_e, derive=_derive_c_e, effect=_effect_c_e,
-        known=KNOWN, reason="The joint plane-strain compliance of two half-planes, one of which has the modulus E_eq.",
+        reason="The joint plane-strain compliance of two half-planes, one of which has the modulus E_eq.",
     ),
     Entry(
         id="26", section="4.1", title="Length of the contact", place=_PLACE, printed=_EQ26, units={"2x_m": "m"},
-        verdict="approximation", judge=_judge_26, derive=_derive_26, effect=_effect_26, known=KNOWN,
+        verdict="approximation", judge=_judge_26, derive=_derive_26, effect=_effect_26,
         picture=_picture_26,
-        reason="Hertz's line contact with sqrt(8/pi) rounded to 1.6; its premise, bodies far thicker than the "
-        "contact is long, does not hold for the layer.",
+        reason="Hertz's line contact with sqrt(8/pi) rounded to 1.6; its premise, bodies far thicker than the contact "
+               "is long, does not hold for the layer.",
     ),
 )  # fmt: skip

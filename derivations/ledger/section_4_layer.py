@@ -11,9 +11,8 @@ import sympy as sp
 
 from derivations import contact, phases, transfer
 from derivations.ledger.history import numeric
-from derivations.ledger.judge import Point, agrees, evaluate, identical, points
+from derivations.ledger.judge import Point, agrees, evaluate, figure, identical, points, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
-from derivations.ledger.names import KNOWN, figure, name, worse
 from derivations.ledger.operating import operating_point
 from derivations.nomenclature import sym
 from trum_sym.units import Dimension, parse_unit
@@ -22,8 +21,8 @@ __all__ = ["ENTRIES", "RANGES"]
 
 F_c, n_j, b_m, h_m, r_t, D, k_c, k_N, theta = sym("F_c n_j b_m h_m r_t D k_c k_N theta")
 E_eq, E_m, E_e, mu_e, mu_m, x, t, p, w_A, w_B, k_f = sym("E_eq E_m E_e mu_e mu_m x t p w_A w_B k_f")
-rho_k, zeta_zmax, C_E, x_m, x_max, x_xm, x_vm = name("rho_k zeta_zmax C_E x_m x_max x_xm x_vm")
-delta_0, zeta_z, A_p = name("delta_0 zeta_z A_p")
+rho_k, zeta_zmax, C_E, x_m, x_max, x_xm, x_vm = sym("rho_k zeta_zmax C_E x_m x_max x_xm x_vm")
+delta_0, zeta_z, A_p = sym("delta_0 zeta_z A_p")
 a_w, b_w, a_v, b_v = sp.symbols("a_w b_w a_v b_v", real=True)  # values of w_A, w_B and of their rates
 
 RANGES: dict[str, tuple[float, float]] = {
@@ -171,8 +170,8 @@ def _effect_29() -> str:
     crest = q["D"] * q["k_c"] * q["omega_q"] * q["W"]
     return (
         "None once the numerator's missing exponent 2 is put in. For the steady wave the surface runs at "
-        f"{figure(1000 * crest * mp.cos(q['theta']), 4)} mm/s at the ends of the contact, "
-        f"{figure(1000 * crest, 4)} mm/s at the crest."
+        f"{figure(1000 * crest * mp.cos(q['theta']), 4)} mm/s at the ends of the contact, {figure(1000 * crest, 4)} "
+        "mm/s at the crest."
     )
 
 
@@ -348,14 +347,14 @@ _PLACE = "Sect. 4.1"
 ENTRIES = (
     Entry(
         id="27", section="4.1", title="End of the contact", place=_PLACE, printed=_EQ27, units={"x_xm": "m"},
-        verdict="definition", judge=_judge_27, derive=_derive_27, effect=_effect_27, known=KNOWN,
+        verdict="definition", judge=_judge_27, derive=_derive_27, effect=_effect_27,
         reason="The right end of a contact that has two; the left one is x_max - x_m.",
     ),
     Entry(
         id="28", section="4.1", title="Undeformed surface of the layer", place=_PLACE, printed=_EQ28,
         units={"delta_0": "m"}, verdict="erratum", judge=_judge_28, derive=_derive_28, effect=_effect_28,
         repair=lambda forms: {key: form.subs(x_vm, x_xm) for key, form in forms.items()},
-        found_by=("domain", "identity", "numeric"), known=KNOWN,
+        found_by=("domain", "identity", "numeric"),
         reason="Printed at x_vm, a symbol that is defined nowhere; the ends of the contact are x_xm (eq. 27).",
     ),
     Entry(
@@ -363,27 +362,27 @@ ENTRIES = (
         units={"v_xm": "m/s"}, verdict="erratum", judge=_judge_29, derive=_derive_29, effect=_effect_29,
         repair=lambda forms: {key: form.subs(first_difference, second_difference) for key, form in forms.items()},
         found_by=("limit", "numeric"),
-        known={**KNOWN, **_STEPS},
+        known=_STEPS,
         reason="The numerator lacks its exponent 2: a first difference over dx dt has no limit.",
     ),
     Entry(
         id="30", section="4.1", title="Pressure distribution", place=_PLACE, printed=_EQ30, units={"p": "N/m"},
         verdict="erratum", judge=_judge_30, derive=_derive_30, effect=_effect_30, repair=_repair_30,
-        found_by=("dimension", "numeric", "domain"), known=KNOWN,
+        found_by=("dimension", "numeric", "domain"),
         reason="k_f is undefined and A_p the ceramic's section; the product has no dimension that eq. 31 could "
-        "integrate to a force, and nothing keeps the layer from pulling. A Winkler layer has E_m b_m/h_m.",
+               "integrate to a force, and nothing keeps the layer from pulling. A Winkler layer has E_m b_m/h_m.",
     ),
     Entry(
         id="31", section="4.1", title="Balance with the prepressure", place=_PLACE, printed=_EQ31,
         units={"F_c": "N"}, verdict="erratum", judge=_judge_31, derive=_derive_31, effect=_effect_31,
-        repair=_repair_31, found_by=("numeric", "identity"), known=KNOWN,
-        reason="Sums over one half of one contact; the prepressure rests on both halves of all crests. Eq. 36, "
-        "which has the factor 2 m, contradicts it.",
+        repair=_repair_31, found_by=("numeric", "identity"),
+        reason="Sums over one half of one contact; the prepressure rests on both halves of all crests. Eq. 36, which "
+               "has the factor 2 m, contradicts it.",
     ),
     Entry(
         id="32", section="4.1", title="Pressure in the three regions", place=_PLACE, printed={},
         units={"p": "N/m"}, verdict="reconstructed", judge=_judge_32,
-        derive=_derive_32, effect=_effect_32, known=KNOWN,
+        derive=_derive_32, effect=_effect_32,
         reason="Missing from the text; follows from eqs. 28, 30 and 31, put right, with the phases' responses.",
     ),
 )  # fmt: skip

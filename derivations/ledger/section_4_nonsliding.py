@@ -11,24 +11,18 @@ import numpy as np
 import sympy as sp
 
 from derivations import transfer
-from derivations.ledger.friction_states import (
-    K,
-    State,
-    states,
-)
+from derivations.ledger.friction_states import K, State, states
 from derivations.ledger.history import history, values
-from derivations.ledger.judge import evaluate
+from derivations.ledger.judge import evaluate, figure, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
-from derivations.ledger.names import KNOWN, figure, name, worse
 from derivations.nomenclature import sym
 
 __all__ = ["ENTRIES"]
 
 D, k_c, W, F_c, n_j, mu, theta, x, p = sym("D k_c W F_c n_j mu theta x p")
-M_a, M_b, N_a, N_b, Psi_v, v_xp, v_xx = name("M_a M_b N_a N_b Psi_v v_xp v_xx")
-phi_vm1, phi_vm2, x_px, x_max, x_xm, v_xm, v_xmax = name("phi_vm1 phi_vm2 x_px x_max x_xm v_xm v_xmax")
+M_a, M_b, N_a, N_b, Psi_v, v_xp, v_xx = sym("M_a M_b N_a N_b Psi_v v_xp v_xx")
+phi_vm1, phi_vm2, x_px, x_max, x_xm, v_xm, v_xmax = sym("phi_vm1 phi_vm2 x_px x_max x_xm v_xm v_xmax")
 phi, c, u, R_v = transfer.phi, transfer.c, transfer.u, transfer.R_v
-_KNOWN = {**KNOWN, **transfer.DIMENSIONS}
 
 
 # --- (33) ---------------------------------------------------------------------------------------------------
@@ -62,8 +56,8 @@ def _extrema(a: float, b: float) -> list[float]:
             low, high = grid[i - 1], grid[i + 1]
             for _ in range(80):
                 one, two = low + (high - low) / 3, high - (high - low) / 3
-                worse = abs(a * math.sin(one) + b * math.cos(one)) < abs(a * math.sin(two) + b * math.cos(two))
-                low, high = (one, high) if worse else (low, two)
+                lower = abs(a * math.sin(one) + b * math.cos(one)) < abs(a * math.sin(two) + b * math.cos(two))
+                low, high = (one, high) if lower else (low, two)
             found.append((low + high) / 2)
     return found
 
@@ -78,7 +72,7 @@ def _judge_33(forms: Forms) -> Iterator[Evidence]:
             found = complex(evaluate(form.rhs, {M_a: a, M_b: b, k_c: K}))
             worst = worse(worst, abs(K * found - at))
     yield evidence("numeric", worst < 1e-6, "the extrema in (-pi/2, 3 pi/2)/k_c, in order, by scanning v_x for all "
-                   f"signs of M_a, M_b: off by {worst:.1e} rad at most")  # fmt: skip
+                                            f"signs of M_a, M_b: off by {worst:.1e} rad at most")  # fmt: skip
     slopes = [(M_a * sp.cos(k_c * f.rhs) - M_b * sp.sin(k_c * f.rhs)) for f in forms.values()]
     yield evidence("identity", all(s.simplify() == 0 for s in slopes), "the slope of v_x vanishes in both rows")
 
@@ -172,8 +166,8 @@ def _effect_34() -> str:
     return (
         f"In T_redu the arcsine's argument comes out {figure(v['W'], 3)} times too small: for a rotor at half the "
         f"surface's {figure(1000 * speed)} mm/s the point moves by {figure(1000 * shift / v['k_c'], 3)} mm, to where "
-        f"the surface stands still. The rows give points in (-3 pi/2, pi/2)/k_c, not in the "
-        f"stated (-pi/2, 3 pi/2)/k_c: {100 * outside:.0f} % of 4000 random states leave it."
+        "the surface stands still. The rows give points in (-3 pi/2, pi/2)/k_c, not in the stated (-pi/2, 3 "
+        f"pi/2)/k_c: {100 * outside:.0f} % of 4000 random states leave it."
     )
 
 
@@ -263,12 +257,10 @@ def _tally_35(form: sp.Expr, count: int = 150) -> Counter[str]:
 def _judge_35(forms: Forms) -> Iterator[Evidence]:
     tally = _tally_35(forms["x_p"])
     total = sum(tally.values())
-    yield evidence("domain", not tally["none"], f"gives a point in {total - tally['none']} of {total} random "
-                                                f"states with "
-                   "one nonsliding point between crest and end")  # fmt: skip
-    yield evidence("numeric", not tally["wrong"], f"right in {tally['right']} of these, by scanning and "
-                                                  f"bisection; wrong "
-                   f"in {tally['wrong']}")  # fmt: skip
+    yield evidence("domain", not tally["none"], f"gives a point in {total - tally['none']} of {total} random states "
+                                                "with one nonsliding point between crest and end")  # fmt: skip
+    yield evidence("numeric", not tally["wrong"], f"right in {tally['right']} of these, by scanning and bisection; "
+                                                  f"wrong in {tally['wrong']}")  # fmt: skip
 
 
 def _effect_35() -> str:
@@ -288,7 +280,7 @@ _PLACE = "Sect. 4.2.2"
 ENTRIES = (
     Entry(
         id="33", section="4.2.2", title="Peaks and troughs of the tangential velocity", place=_PLACE, printed=_EQ33,
-        units={}, verdict="erratum", judge=_judge_33, derive=_derive_33, effect=_effect_33, known=_KNOWN,
+        units={}, verdict="erratum", judge=_judge_33, derive=_derive_33, effect=_effect_33, known=transfer.DIMENSIONS,
         repair=lambda forms: {"row 1": forms["row 1"], "row 2": forms["row 2"].subs(phi_vm1, phi_vm2)},
         found_by=("domain",),
         reason="Both rows define phi_vm1, so it has two values and phi_vm2 of eq. 35 none; the second is phi_vm2.",
@@ -296,17 +288,15 @@ ENTRIES = (
     Entry(
         id="34", section="4.2.2", title="Position of a nonsliding point", place=_PLACE, printed=_EQ34,
         units={"x_px_redu": "m", "x_px": "m"}, verdict="erratum", judge=_judge_34, derive=_derive_34,
-        effect=_effect_34, known=_KNOWN, repair=_repair_34, found_by=("dimension", "numeric", "domain"),
-        reason="Lacks W_maxf in T_redu, where eq. 17 takes it out of M_a and M_b, and a row for M_a = 0 > M_b; "
-               "gives one "
-        "of two solutions.",
+        effect=_effect_34, known=transfer.DIMENSIONS, repair=_repair_34, found_by=("dimension", "numeric", "domain"),
+        reason="Lacks W_maxf in T_redu, where eq. 17 takes it out of M_a and M_b, and a row for M_a = 0 > M_b; gives "
+               "one of two solutions.",
     ),
     Entry(
         id="35", section="4.2.2", title="The only nonsliding point", place=_PLACE, printed=_EQ35, units={"x_p": "m"},
-        verdict="erratum", judge=_judge_35, derive=_derive_35, effect=_effect_35, known=_KNOWN,
+        verdict="erratum", judge=_judge_35, derive=_derive_35, effect=_effect_35, known=transfer.DIMENSIONS,
         repair=lambda _: _derive_35().forms, found_by=("dimension", "domain", "numeric"),
         reason="Adds 2 pi to a length, leaves most states without a row, and uses the undefined phi_vm2. One "
-               "expression "
-        "replaces the table. Repeated rows are transcribed once; the text breaks off.",
+               "expression replaces the table. Repeated rows are transcribed once; the text breaks off.",
     ),
 )  # fmt: skip

@@ -20,19 +20,19 @@ from derivations.ledger.friction_states import (
     states,
 )
 from derivations.ledger.history import Array, history, numeric, values
+from derivations.ledger.judge import figure, largest, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, Picture, evidence, step
-from derivations.ledger.names import KNOWN, figure, name, worse
 from derivations.nomenclature import sym
+from trum_sym.units import parse_unit
 
 __all__ = ["ENTRIES", "surface_motion"]
 
 D, k_c, W, F_c, n_j, mu, theta, x, p = sym("D k_c W F_c n_j mu theta x p")
-M_a, M_b, N_a, N_b, Psi_v, v_xp, v_xx = name("M_a M_b N_a N_b Psi_v v_xp v_xx")
-phi_vm1, phi_vm2, x_px, x_max, x_xm, v_xm, v_xmax = name("phi_vm1 phi_vm2 x_px x_max x_xm v_xm v_xmax")
-f_t, f_b, f_nall, M_n, T_load = name("f_t f_b f_nall M_n T_load")
+M_a, M_b, N_a, N_b, Psi_v, v_xp, v_xx = sym("M_a M_b N_a N_b Psi_v v_xp v_xx")
+phi_vm1, phi_vm2, x_px, x_max, x_xm, v_xm, v_xmax = sym("phi_vm1 phi_vm2 x_px x_max x_xm v_xm v_xmax")
+f_t, f_b, f_nall, M_n, T_load = sym("f_t f_b f_nall M_n T_load")
 r_c, J, t = sym("r_c J t")
 phi, c, u, R_v = transfer.phi, transfer.c, transfer.u, transfer.R_v
-_KNOWN = {**KNOWN, **transfer.DIMENSIONS}
 
 
 def surface_motion() -> tuple[Array, Array, Array]:
@@ -85,7 +85,7 @@ def _derive_36() -> Derivation:
             step("The tangential velocity D d2(zeta_z)/dx dt of eq. 11 becomes, about the crest,",
                  sp.Eq(sp.Symbol("v_xx"), speed),
                  zero=_about_the_crest() - sp.expand(speed.subs(states_at))),
-            step("Both terms together are one cosine, R cos(u - phi): the surface is fastest at phi from the crest.",
+            step("Both terms together are one cosine, R cos(u - phi): the surface is fastest at phi, below phi_v.",
                  sp.Eq(R_v, largest), sp.Eq(phi, angle),
                  zero=sp.simplify(largest * (sp.cos(u) * sp.cos(angle) + sp.sin(u) * sp.sin(angle)) - speed)),
             step("phi is 0 or pi only while the crest's height does not change. In a beat it does."),
@@ -148,7 +148,7 @@ def _judge_36(forms: Forms) -> Iterator[Evidence]:
     found = [float(integrals_done(form, _concrete(s))) / scale for s in chosen]
     brute = float(np.max([abs(f - brute_fraction(s, whole=True)) for f, s in zip(found, chosen, strict=True)]))
     yield evidence("numeric", brute < 1e-3, f"the friction of all elements summed by brute force: off by {brute:.1e} "
-                   "of mu F_c at most")  # fmt: skip
+                                            "of mu F_c at most")  # fmt: skip
     fractions = [float(closed(s.phi, s.c, s.theta)) for s in chosen]
     exact = float(np.max(np.abs(np.subtract(found, fractions))))
     yield evidence("derivation", exact < 1e-10, f"the closed form of the friction fraction: off by {exact:.1e}")
@@ -168,10 +168,10 @@ def _effect_36() -> str:
     signs = float((np.sign(half) != np.sign(whole)).mean())
     return (
         "Over the periodic cycle at Table 4's mean speed, with a contact half-angle from "
-        f"{figure(float(zone.min()), 3)} to {figure(float(zone.max()), 3)} rad: the doubled half differs from "
-        f"the whole by {figure(rms * rub, 3)} N rms and "
-        f"{figure(worst * rub, 3)} N at most of {figure(rub)} N, has the wrong sign {100 * signs:.1f} % of the time, "
-        f"and a mean of {figure(float(half.mean()) * rub, 3)} N where it is {figure(float(whole.mean()) * rub, 3)} N."
+        f"{figure(float(zone.min()), 3)} to {figure(float(zone.max()), 3)} rad: the doubled half differs from the "
+        f"whole by {figure(rms * rub, 3)} N rms and {figure(worst * rub, 3)} N at most of {figure(rub)} N, has the "
+        f"wrong sign {100 * signs:.1f} % of the time, and a mean of {figure(float(half.mean()) * rub, 3)} N where it "
+        f"is {figure(float(whole.mean()) * rub, 3)} N."
     )
 
 
@@ -303,9 +303,8 @@ def _derive_38() -> Derivation:
     energy, power = J * _omega**2 / 2, f_nall * r_c * _omega - T_load * _omega
     return Derivation(
         (
-            step("The rotor's kinetic energy grows by the power of the friction at the contact radius, where "
-                 "its surface "
-                 "runs at r_c omega_p, less that of the load:", sp.Eq(sp.Derivative(energy, t), power)),
+            step("The rotor's kinetic energy grows by the power of the friction at the contact radius, where its "
+                 "surface runs at r_c omega_p, less that of the load:", sp.Eq(sp.Derivative(energy, t), power)),
             step("Over omega_p that is the balance of torques:", _EQ38["balance"],
                  zero=sp.expand(energy.diff(t) - power - _omega * (J * _omega.diff(t) - f_nall * r_c + T_load))),
             step("The same with the closed form of the friction:", sp.Eq(_omega.diff(t), transfer.torque_balance()),
@@ -375,7 +374,7 @@ def _judge_reverse(forms: Forms) -> Iterator[Evidence]:
         found = float(forms["f_nall"].subs(known))
         way = "forward" if s.c > 0 else "reverse"
         worst[way] = worse(worst[way], abs(found - brute_fraction(s, whole=True, steps=20001)))
-    yield evidence("numeric", max(worst.values()) < 1e-9, "the signed sum of eq. 36, off by "
+    yield evidence("numeric", largest(worst.values()) < 1e-9, "the signed sum of eq. 36, off by "
                    + ", ".join(f"{error:.2g} {way}" for way, error in worst.items()) + " of mu F_c")  # fmt: skip
     backward = forms["f_nall"].subs({f_t: 1, f_b: 0, v_xp: -1})
     yield evidence("limit", backward == -1, "a reverse rotor driven on its whole contact is pushed along -x")
@@ -392,15 +391,16 @@ def _effect_reverse() -> str:
 ENTRIES = (
     Entry(
         id="36", section="4.2.3", title="Friction on the rotor", place="Sect. 4.2.3", printed=_EQ36, units={"f_n": "N"},
-        verdict="erratum", judge=_judge_36, derive=_derive_36, effect=_effect_36, known=_KNOWN, picture=_picture_36,
+        verdict="erratum", judge=_judge_36, derive=_derive_36, effect=_effect_36, picture=_picture_36,
+        known=transfer.DIMENSIONS,
         repair=lambda forms: {key: _whole_zone(form) for key, form in forms.items()},
         found_by=("numeric", "derivation"),
-        reason="Twice the right half of the contact is the whole only where v_x is even about the crest; in a beat the "
-        "crest's height changes and it is not.",
+        reason="Twice the right half of the contact is the whole only where v_x is even about the crest; in a beat "
+               "the crest's height changes and it is not.",
     ),
     Entry(
         id="37", section="4.2.3", title="Sign of the friction", place="Sect. 4.2.3", printed=_EQ37, units={"sign": "1"},
-        verdict="erratum", judge=_judge_37, derive=_derive_37, effect=_effect_37, known=_KNOWN,
+        verdict="erratum", judge=_judge_37, derive=_derive_37, effect=_effect_37, known=transfer.DIMENSIONS,
         repair=lambda _: {"sign": sp.Piecewise((1, v_xx - v_xp > 0), (-1, v_xx - v_xp < 0), (0, True))},
         found_by=("domain",),
         reason="The conditions on v_xp are empty but exclude the rotor at rest, so nothing could start.",
@@ -408,7 +408,7 @@ ENTRIES = (
     Entry(
         id="transfer-cases", section="4.2.3", title="The sixteen transfer models of Figs. 7 and 8",
         place="Sect. 4.2.3, a and b", printed={}, units={f"f_{i}": "1" for i in range(1, 17)}, verdict="reconstructed",
-        judge=_judge_cases, derive=_derive_cases, effect=_effect_cases, known=_KNOWN,
+        judge=_judge_cases, derive=_derive_cases, effect=_effect_cases, known=transfer.DIMENSIONS,
         reason="The text names what tells the cases apart but not their forces; each is a corollary of one "
                "closed form.",
     ),
@@ -416,13 +416,13 @@ ENTRIES = (
         id="38", section="4.2.3", title="Torque balance of the rotor", place="Sect. 4.2.3", printed=_EQ38,
         units={"f_nall": "N", "M_n": "N*m", "omega_p": "rad/s"}, verdict="verified", judge=_judge_38,
         derive=_derive_38, effect=_effect_38,
-        known={**_KNOWN, _omega: KNOWN[name("S_k")[0]]},
+        known={**transfer.DIMENSIONS, _omega: parse_unit("rad/s").dimension},
         reason="Angular momentum of the rotor, for forward motion; the reverse model needs the sign judged apart.",
     ),
     Entry(
         id="reverse-model", section="4.2.3", title="Driving and braking zone of the reverse model",
         place="Sect. 4.2.3, b, and below eq. 38", printed=_REVERSE, units={"f_nall": "N"}, verdict="erratum",
-        judge=_judge_reverse, derive=_derive_reverse, effect=_effect_reverse, known=_KNOWN,
+        judge=_judge_reverse, derive=_derive_reverse, effect=_effect_reverse, known=transfer.DIMENSIONS,
         repair=lambda forms: {"f_nall": sp.sign(v_xp) * forms["f_nall"]}, found_by=("numeric", "limit"),
         reason="Where the rotor runs backward, the driving zone pushes along -x, and f_t - f_b changes its sign.",
     ),

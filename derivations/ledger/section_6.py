@@ -13,19 +13,19 @@ import sympy as sp
 
 from derivations import determinant, transfer
 from derivations.ledger.history import STARTS, Array, Start, history, values
-from derivations.ledger.judge import Point, agrees, identical
+from derivations.ledger.judge import Point, agrees, figure, identical, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
-from derivations.ledger.names import KNOWN, figure, name, worse
 from derivations.nomenclature import sym
+from trum_sym.units import parse_unit
 
 __all__ = ["ENTRIES", "cycle_totals"]
 
 D, k_c, x, T = sym("D k_c x T")
 q_plus, q_minus, p_plus, p_minus = sym("q_plus q_minus p_plus p_minus")
-zeta_zmax, v_xmax, S_k, S_s, v_s, Q_aver, Q_q, I_all = name("zeta_zmax v_xmax S_k S_s v_s Q_aver Q_q I")
+zeta_zmax, v_xmax, S_k, S_s, v_s, Q_aver, Q_q, I_all = sym("zeta_zmax v_xmax S_k S_s v_s Q_aver Q_q I")
 i = sp.Symbol("i", integer=True, positive=True)
 v = sp.IndexedBase("v", real=True)
-_KNOWN = {**KNOWN, v[i]: KNOWN[v_s]}
+_KNOWN = {v[i]: parse_unit("rad/s").dimension}
 
 
 def _speeds(count: int, seed: str) -> list[float]:
@@ -107,9 +107,9 @@ def _judge_40(forms: Forms) -> Iterator[Evidence]:
 def _effect_40() -> str:
     p = values()
     return (
-        "Follows from the sampling: samples every 2 ms (Sect. 8.2) average the "
-        f"{figure(1e3 * p['T'])} ms cycle away, so Table 4's 17.3 % and a volatility within the cycle are different "
-        "figures. It has no bound as the mean speed crosses 0."
+        f"Follows from the sampling: samples every 2 ms (Sect. 8.2) average the {figure(1e3 * p['T'])} ms cycle away, "
+        "so Table 4's 17.3 % and a volatility within the cycle are different figures. It has no bound as the mean "
+        "speed crosses 0."
     )
 
 

@@ -10,10 +10,10 @@ import sympy as sp
 
 from derivations import phases
 from derivations.ledger.history import values
-from derivations.ledger.judge import evaluate, usual
+from derivations.ledger.judge import evaluate, figure, usual
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
-from derivations.ledger.names import KNOWN, figure
 from derivations.nomenclature import sym
+from trum_sym.units import Dimension
 
 __all__ = ["ENTRIES", "rounds_to"]
 
@@ -111,8 +111,9 @@ def _judge_decay(forms: Forms) -> Iterator[Evidence]:
         fall = speed(peaks[0]) / speed(peaks[1])
         found = evaluate(forms["xi"], {ratio: fall, cycles: mp.mpf(5)})
     del displacement
-    yield evidence("numeric", abs(found - mp.mpf("0.006")) < 1e-12, "gives back 0.006 from two velocity peaks, "
-                                                                    "five periods "
+    yield evidence("numeric", abs(found - mp.mpf("0.006")) < 1e-12,
+                   "gives back 0.006 from two velocity peaks, "
+                   "five periods "
                    "apart, of the oscillator's free motion")  # fmt: skip
     d = sp.Symbol("d", positive=True)
     small = sp.series(forms["xi"].subs(ratio, sp.exp(d)), d, 0, 2)
@@ -133,15 +134,14 @@ def _effect_decay() -> str:
 ENTRIES = (
     Entry(
         id="45", section="7.4", title="Measured beat period", place="Sect. 7.4", printed=_EQ45, units={"T_redu": "s"},
-        verdict="erratum", judge=_judge_45, derive=_derive_45, effect=_effect_45, known=KNOWN,
+        verdict="erratum", judge=_judge_45, derive=_derive_45, effect=_effect_45,
         repair=lambda forms: {**forms, "T_redu/ms": sp.Float("0.189")}, found_by=("numeric",),
         reason="The formula holds; 45 kHz and 39.703 kHz give 0.18879 ms, which rounds to 0.189 ms.",
     ),
     Entry(
         id="decay", section="7.3", title="Damping ratio from the velocity's decay", place="Sect. 7.3, in words",
         printed={}, units={"xi": "1"}, verdict="reconstructed", judge=_judge_decay, derive=_derive_decay,
-        effect=_effect_decay, known={**KNOWN, ratio: KNOWN[next(s for s in KNOWN if str(s) == "X")],
-                                     cycles: KNOWN[next(s for s in KNOWN if str(s) == "X")]},
+        effect=_effect_decay, known={ratio: Dimension(), cycles: Dimension()},
         reason="Named, not printed: the logarithmic decrement of the free vibration.",
     ),
 )  # fmt: skip

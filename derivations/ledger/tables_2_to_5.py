@@ -69,9 +69,8 @@ def _derive_2() -> Derivation:
     fitted = power_law()
     return Derivation(
         (
-            step("log(W_maxf/W_max) = log C_f - varsigma log F_c; least squares make varsigma the negative "
-                 "slope of the "
-                 "logarithms about their means (three points written out):", -slope,
+            step("log(W_maxf/W_max) = log C_f - varsigma log F_c; least squares make varsigma the negative slope of "
+                 "the logarithms about their means (three points written out):", -slope,
                  zero=[sp.simplify(solved[b] + slope), sp.simplify(solved[a] - (mean_y - slope * mean_x))]),
             step(f"Table 2's seven points: C_f = {fitted['C_f']:.3f}, varsigma = {fitted['varsigma']:.4f}; printed are "
                  "14.926 and 0.678."),
@@ -86,13 +85,12 @@ def _judge_2(forms: Forms) -> Iterator[Evidence]:
     low, high = fitted["varsigma"] - fitted["varsigma_width"], fitted["varsigma"] + fitted["varsigma_width"]
     inside = low <= exponent <= high and fitted["C_f_low"] <= factor <= fitted["C_f_high"]
     yield evidence("data", inside, f"least squares give C_f = {fitted['C_f']:.3f} ({fitted['C_f_low']:.3f} to "
-                   f"{fitted['C_f_high']:.3f}) and varsigma = {fitted['varsigma']:.4f} ({low:.4f} to "
-                   f"{high:.4f}) at 95 %; "
-                   f"residuals drawn anew {resampled['C_f'][0]:.3f} to {resampled['C_f'][1]:.3f} and "
-                   f"{resampled['varsigma'][0]:.4f} to {resampled['varsigma'][1]:.4f}")  # fmt: skip
-    yield evidence("numeric", reachable_by_rounding(factor, exponent), "some amplitudes that round to Table 2 "
-                                                                       "have exactly "
-                   "this fit (linear program)")  # fmt: skip
+                                   f"{fitted['C_f_high']:.3f}) and varsigma = {fitted['varsigma']:.4f} ({low:.4f} to "
+                                   f"{high:.4f}) at 95 %; residuals drawn anew {resampled['C_f'][0]:.3f} to "
+                                   f"{resampled['C_f'][1]:.3f} and {resampled['varsigma'][0]:.4f} to "
+                                   f"{resampled['varsigma'][1]:.4f}")  # fmt: skip
+    yield evidence("numeric", reachable_by_rounding(factor, exponent),
+                   "some amplitudes that round to Table 2 have exactly this fit (linear program)")  # fmt: skip
     free = usual()["W_max"] * 1e6
     misses = factor * _FORCE**-exponent * free - _AMPLITUDE
     worst = int(np.abs(misses).argmax())
@@ -107,8 +105,7 @@ def _effect_2() -> str:
     meet = 14.926 ** (1 / 0.678)
     return (
         f"At 180 N {ours:.3f} um by our fit, {theirs:.3f} um with the printed constants, 5.5 um measured; our "
-        f"exponent is "
-        f"{fitted['varsigma'] - 0.678:+.4f} off theirs. The law exceeds W_max below {meet:.0f} N."
+        f"exponent is {fitted['varsigma'] - 0.678:+.4f} off theirs. The law exceeds W_max below {meet:.0f} N."
     )
 
 
@@ -117,9 +114,8 @@ def _derive_3() -> Derivation:
     first, second = 14, 20
     return Derivation(
         (
-            step("A phase cannot get more pulses than the cycle has, n <= m, and both must overlap, 2 n >= m: "
-                 "of the two "
-                 "unlabelled 'Number' rows, 14 and 20, only the first can be n.",
+            step("A phase cannot get more pulses than the cycle has, n <= m, and both must overlap, 2 n >= m: of the "
+                 "two unlabelled 'Number' rows, 14 and 20, only the first can be n.",
                  sp.Symbol("n") <= sp.Symbol("m"), 2 * sp.Symbol("n") >= sp.Symbol("m"),
                  zero=sp.Integer(0 if first <= second <= 2 * first and not second <= first else 1)),
             step("Sect. 6.2 names m = 20 and n = 14."),
@@ -159,15 +155,15 @@ def _judge_4(forms: Forms) -> Iterator[Evidence]:
     named = all(speed.is_number for speed in speeds)
     yield evidence("numeric", named and (mean, width) == (633, 400), f"{mean:g} and {width:g} arcsec/s")
     yield evidence("limit", width >= 2 * spread, "the range is at least two standard deviations at 17.3 %: "
-                   f"{width / spread:.2f}")  # fmt: skip
+                                                 f"{width / spread:.2f}")  # fmt: skip
 
 
 def _effect_4() -> str:
     speed = 633 * math.pi / 648000
     return (
         f"633 arcsec/s = {speed:.4g} rad/s. Q_aver = 1447.5 and Q_vib = 3446.4 have the unit 1/s, which is not "
-        f"printed; the "
-        "row 'Determinant of the direction of the ellipse' is Q_aver, and 'range of motor speed v_aver' no average."
+        "printed; the row 'Determinant of the direction of the ellipse' is Q_aver, and 'range of motor speed v_aver' "
+        "no average."
     )
 
 
@@ -180,9 +176,8 @@ def _derive_5() -> Derivation:
     forms = {key: 2 * sp.pi * form for key, form in _TABLE_5.items()}
     return Derivation(
         (
-            step("Sects. 6.2, 8.3 and the conclusions vary Delta omega from 2 pi 2800 to 2 pi 3300 rad/s; Table "
-                 "5's figures "
-                 "are these without 2 pi, in Hz:", *forms.values()),
+            step("Sects. 6.2, 8.3 and the conclusions vary Delta omega from 2 pi 2800 to 2 pi 3300 rad/s; Table 5's "
+                 "figures are these without 2 pi, in Hz:", *forms.values()),
         ),
         forms,
     )  # fmt: skip
@@ -203,16 +198,15 @@ def _effect_5() -> str:
     resonance = p["omega_n"] / (2 * math.pi)
     cycle = p["m"] / (resonance + low)
     return (
-        f"3300 rad/s would be {low:.1f} Hz: a beat of {1e3 / low:.3g} ms, {1 / low / cycle:.2g} drive cycles, "
-        f"instead of "
-        f"{1e3 / 3300:.3g} ms, {(resonance + 3300) / p['m'] / 3300:.2g}."
+        f"3300 rad/s would be {low:.1f} Hz: a beat of {1e3 / low:.3g} ms, {1 / low / cycle:.2g} drive cycles, instead "
+        f"of {1e3 / 3300:.3g} ms, {(resonance + 3300) / p['m'] / 3300:.2g}."
     )
 
 
 ENTRIES = (
     Entry(
-        id="table-2", section="7.1", title="Constants of the amplitude law", place="Table 2 and "
-                                                                                   "above", printed=_TABLE_2,
+        id="table-2", section="7.1", title="Constants of the amplitude law", place="Table 2 and above",
+        printed=_TABLE_2,
         units={}, verdict="empirical", judge=_judge_2, derive=_derive_2, effect=_effect_2,
         reason="Within the 95 % intervals of the fit, and exactly the fit of some amplitudes that round to the table.",
     ),

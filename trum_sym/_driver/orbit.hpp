@@ -5,8 +5,8 @@
 namespace trum {
 
 struct OrbitCode {
-  // Orbits of count points of one contact law.
-  void (*orbits)(const double* in, double* out, long count);
+  // Orbits of count points of one contact law, and the slopes of their figures unless those pointers are null.
+  void (*orbits)(const double* in, double* out, const double* slopes_in, double* slopes, long count);
   // One cycle of a point's orbit: rim speed and distance since t1 at count equal times after t1.
   void (*history)(const double* in, const double* orbit, double* speed, double* distance, long count);
   int lanes;

@@ -60,13 +60,28 @@ typedef struct {
   double mean, low, high, variance, contact, held, start, level, error, flags;
 } trum_orbit_out;
 
+/* What the figures' slopes are by: logarithm of the prepressure, frequency difference, drag, logarithms of the friction
+ * coefficient and of the amplitude, resonance; each with the others held. */
+enum { BY_PREPRESSURE, BY_DIFFERENCE, BY_DRAG, BY_FRICTION, BY_AMPLITUDE, BY_RESONANCE, WAYS };
+
+/* Slopes of the free motion before t1 by resonance and frequency difference, in the order of a_A, b_A, a_B, b_B. */
+typedef struct {
+  double by_resonance[4], by_difference[4];
+} trum_slopes_in;
+
+/* Slopes of the figures in this order. */
+enum { OF_MEAN, OF_LOW, OF_HIGH, OF_VARIANCE, OF_CONTACT, OF_HELD, FIGURES };
+typedef struct {
+  double of[FIGURES][WAYS];
+} trum_slopes_out;
+
 /* One lap's figures: sums are over time from its start, x is the rim's speed over that at the start. */
 typedef struct {
-  real gain, growth;              /* x at the end, and its derivative by the speed at the start */
   real x, xx, S, xS;              /* integrals of x, x^2, S = dv/dv0 and x S */
   real low, high, S_low, S_high;  /* extremes of x, and S there */
   real friction, angle;           /* integrals of f and theta/pi */
   real full, fastest, error;      /* any full contact; largest surface speed; sum of the steps' errors of integral f */
+  real d_x[WAYS], d_xx[WAYS], d_low[WAYS], d_high[WAYS], d_friction[WAYS], d_angle[WAYS]; /* the same, as slopes */
 } trum_lap;
 
 /* Events, in the order of the functions that change sign there. */
@@ -92,45 +107,25 @@ typedef struct {
   real newton_error;                           /* last change of a step's speeds, whose square is the error left */
   real tau, left, h, natural, bend;            /* place in the region; the step, its size without events, its map */
   real target, tries, patience;                /* the event that the step is to end at, or -1 */
-  real x, S, f, f_v, angle0, cos_phi, sin_phi, event[EVENTS];    /* where the step begins */
+  real x, S, f, f_v, theta, cos_phi, sin_phi, event[EVENTS];    /* where the step begins */
+  real d[WAYS], d_f[WAYS], d_theta[WAYS];      /* slopes there, of x, f and theta */
+  real slopes_[2][4];                          /* of the phasors at the region's start, by resonance and difference */
   mask fresh[EVENTS];                          /* it begins at this event */
   mask active, cold, lost;
-  int hertz;
+  int hertz, slopes; /* contact law; whether slopes are wanted */
   trum_lap lap;
   trum_record* record;
 } trum_lanes;
 
-#ifndef TRUM_LEVEL
-#ifndef TRUM_NEWTON_SHARE
-#define TRUM_NEWTON_SHARE 0.05
-#endif
-#define TRUM_LEVEL 0.05
-#ifndef TRUM_ERROR_SHARE
-#define TRUM_ERROR_SHARE 0.2
-#endif
-#ifndef TRUM_EVENT_SHARE
-#define TRUM_EVENT_SHARE 4.0
-#endif
-#ifndef TRUM_TURN
-#define TRUM_TURN 0.4
-#endif
-#ifndef TRUM_SEES
-#define TRUM_SEES 2e-4
-#endif
-#ifndef TRUM_SAFETY
-#define TRUM_SAFETY 0.8
-#endif
-#ifndef TRUM_GROW
-#define TRUM_GROW 1.5
-#endif
-#ifndef TRUM_LONGEST
-#define TRUM_LONGEST (1.0 / 24.0)
-#endif
-#ifndef TRUM_KINK_SHARE
-#define TRUM_KINK_SHARE 100.0
-#endif
-#endif
-static const double trum_longest = TRUM_LONGEST, trum_first = 1.0 / 16.0, trum_shortest = 1e-9; /* drive periods */
+/* Steps, in drive periods: the longest, a lap's first, the shortest that is ever rejected, and the shortest that has to
+ * see the wave turn by less than this cosine from node to node. */
+static const double trum_longest = 1.0 / 24.0, trum_first = 1.0 / 24.0, trum_shortest = 1e-9;
+static const double trum_sees = 2e-4, trum_cosine = 0.4;
+/* A step's length follows the fourth root of its error, with a margin, and grows by no more than this. */
+static const double trum_margin = 0.8, trum_grows = 1.5;
+/* Shares that make the figures meet the tolerance: error of a step per drive period, of the quadrature's estimate, of
+ * an event's place beside a square root and at a kink, of Newton's last change squared.  Measured over the domain. */
+static const double trum_level = 0.05, trum_estimate = 0.2, trum_event = 4.0, trum_kink = 100.0, trum_newton = 0.05;
 
 static void trum_turn(const trum_lanes* l, real tau, real* turn) {
   const real* arg[trum_rotation_n_arg];
@@ -203,6 +198,62 @@ static void trum_rub(const trum_surface* at, real v, real* f, real* f_v, real* l
   res[trum_friction_out_p_1] = &p_1, res[trum_friction_out_p_2] = &p_2;
   TRUM_KERNEL(trum_friction)(arg, res, 0, 0, 0);
   *larger = most(p_1, p_2), *smaller = least(p_1, p_2);
+}
+
+/* Slopes of friction fraction and contact half-angle at a speed, by everything that bears on them. */
+static void trum_slopes(const trum_lanes* l, real tau, const trum_surface* at, real v, real f_v, real* d_f,
+                        real* d_theta) {
+  real f_phi, f_E, theta_E, of_height, wave[trum_wave_slopes_n_res];
+  int k, way;
+  {
+    const real* arg[trum_friction_slopes_n_arg];
+    real* res[trum_friction_slopes_n_res];
+    arg[trum_friction_slopes_in_R_v] = &at->R_v, arg[trum_friction_slopes_in_phi] = &at->phi;
+    arg[trum_friction_slopes_in_cos_phi] = &at->cos_phi, arg[trum_friction_slopes_in_sin_phi] = &at->sin_phi;
+    arg[trum_friction_slopes_in_engagement] = &at->engagement, arg[trum_friction_slopes_in_share] = &at->share;
+    arg[trum_friction_slopes_in_theta] = &at->theta, arg[trum_friction_slopes_in_sin_theta] = &at->sin_theta;
+    arg[trum_friction_slopes_in_v] = &v;
+    res[trum_friction_slopes_out_f_phi] = &f_phi, res[trum_friction_slopes_out_f_E] = &f_E;
+    res[trum_friction_slopes_out_theta_E] = &theta_E, res[trum_friction_slopes_out_E_height] = &of_height;
+    TRUM_KERNEL(trum_friction_slopes)(arg, res, 0, 0, 0);
+  }
+  {
+    const real* arg[trum_wave_slopes_n_arg];
+    real* res[trum_wave_slopes_n_res];
+    arg[trum_wave_slopes_in_omega_n] = &l->omega_n, arg[trum_wave_slopes_in_Delta_omega] = &l->Delta_omega;
+    arg[trum_wave_slopes_in_xi] = &l->xi, arg[trum_wave_slopes_in_s] = &l->s, arg[trum_wave_slopes_in_W] = &l->W;
+    arg[trum_wave_slopes_in_D] = &l->D, arg[trum_wave_slopes_in_k_c] = &l->k_c, arg[trum_wave_slopes_in_tau] = &tau;
+    arg[trum_wave_slopes_in_f_A_re] = &l->free_[0], arg[trum_wave_slopes_in_f_A_im] = &l->free_[1];
+    arg[trum_wave_slopes_in_f_B_re] = &l->free_[2], arg[trum_wave_slopes_in_f_B_im] = &l->free_[3];
+    arg[trum_wave_slopes_in_f_A_re_omega_n] = &l->slopes_[0][0];
+    arg[trum_wave_slopes_in_f_A_im_omega_n] = &l->slopes_[0][1];
+    arg[trum_wave_slopes_in_f_B_re_omega_n] = &l->slopes_[0][2];
+    arg[trum_wave_slopes_in_f_B_im_omega_n] = &l->slopes_[0][3];
+    arg[trum_wave_slopes_in_f_A_re_Delta_omega] = &l->slopes_[1][0];
+    arg[trum_wave_slopes_in_f_A_im_Delta_omega] = &l->slopes_[1][1];
+    arg[trum_wave_slopes_in_f_B_re_Delta_omega] = &l->slopes_[1][2];
+    arg[trum_wave_slopes_in_f_B_im_Delta_omega] = &l->slopes_[1][3];
+    arg[trum_wave_slopes_in_p_re] = &l->drive_re, arg[trum_wave_slopes_in_p_im] = &l->drive_im;
+    arg[trum_wave_slopes_in_g_A] = &l->g_A, arg[trum_wave_slopes_in_g_B] = &l->g_B;
+    for (k = 0; k < trum_wave_slopes_n_res; ++k) res[k] = &wave[k];
+    TRUM_KERNEL(trum_wave_slopes)(arg, res, 0, 0, 0);
+  }
+  if (!l->hertz) of_height = N_(1); /* the Winkler layer's engagement is in proportion to the height */
+  for (way = 0; way < WAYS; ++way) {
+    real height = N_(0), speed = N_(0), phase = N_(0); /* slopes of ln (W_c / W_full), ln R_v and phi */
+    if (way == BY_PREPRESSURE) height = N_(-1);
+    if (way == BY_AMPLITUDE) height = speed = N_(1);
+    if (way == BY_RESONANCE || way == BY_DIFFERENCE) {
+      const int by = way == BY_RESONANCE ? trum_wave_slopes_out_W_c_omega_n : trum_wave_slopes_out_W_c_Delta_omega;
+      height = wave[by] / at->W_c, speed = wave[by + 1] / at->R_v, phase = wave[by + 2];
+    }
+    height = height * of_height;
+    d_f[way] = f_E * height + f_phi * phase - v * f_v * speed;
+    d_theta[way] = theta_E * height;
+    /* at a standstill of the surface nothing is defined, nor does it weigh */
+    d_f[way] = sel(less_than(size_of(d_f[way]), N_(1e100)), d_f[way], N_(0));
+    d_theta[way] = sel(less_than(size_of(d_theta[way]), N_(1e100)), d_theta[way], N_(0));
+  }
 }
 
 /* Solves y_i = right_i + sum_j A_ij K_j y_j for the nodes after the first. */
@@ -313,7 +364,8 @@ static void trum_first_event(const trum_lanes* l, const real* z, real (*e)[EVENT
 }
 
 /* Lowest and highest x in a step: at its end, or where its rate, a cubic in the step's parameter, is zero. */
-static void trum_extremes(const real* G, const real* x, real S0, real S1, mask accepted, trum_lap* lap) {
+static void trum_extremes(const real* G, const real* x, real S0, real S1, real (*d)[NODES], int slopes, mask accepted,
+                          trum_lap* lap) {
   static const double P[NODES][NODES] = TRUM_COLLOCATION_POWERS;
   real p[NODES], top = most(x[0], x[1]), bottom = least(x[0], x[1]), steepest = size_of(G[0]);
   mask turns = is(0), needed;
@@ -344,12 +396,26 @@ static void trum_extremes(const real* G, const real* x, real S0, real S1, mask a
       lower = needed & less_than(value, lap->low), higher = needed & less_than(lap->high, value);
       lap->low = sel(lower, value, lap->low), lap->S_low = sel(lower, S, lap->S_low);
       lap->high = sel(higher, value, lap->high), lap->S_high = sel(higher, S, lap->S_high);
+      if (slopes) {
+        real weight[NODES];
+        int way;
+        for (j = 0; j < NODES; ++j) weight[j] = N_(P[0][j]) + at * (N_(P[1][j]) + at * (N_(P[2][j]) + at * N_(P[3][j])));
+        for (way = 0; way < WAYS; ++way) {
+          real there = weight[0] * d[way][0];
+          for (j = 1; j < NODES; ++j) there = there + weight[j] * d[way][j];
+          lap->d_low[way] = sel(lower, there, lap->d_low[way]);
+          lap->d_high[way] = sel(higher, there, lap->d_high[way]);
+        }
+      }
     }
   }
   {
     const mask lower = accepted & less_than(x[EDGE], lap->low), higher = accepted & less_than(lap->high, x[EDGE]);
     lap->low = sel(lower, x[EDGE], lap->low), lap->S_low = sel(lower, S1, lap->S_low);
     lap->high = sel(higher, x[EDGE], lap->high), lap->S_high = sel(higher, S1, lap->S_high);
+    for (k = 0; slopes && k < WAYS; ++k) {
+      lap->d_low[k] = sel(lower, d[k][EDGE], lap->d_low[k]), lap->d_high[k] = sel(higher, d[k][EDGE], lap->d_high[k]);
+    }
   }
 }
 
@@ -363,8 +429,15 @@ static void trum_begin(trum_lanes* l) {
   e[SPEED] = at.R_v * at.R_v - (l->v0 + l->x) * (l->v0 + l->x);
   e[FULL] = at.W_c * at.W_c - l->W_full * l->W_full;
   l->f = sel(l->cold, f, l->f), l->f_v = sel(l->cold, f_v, l->f_v);
-  l->angle0 = sel(l->cold, at.theta, l->angle0);
+  l->theta = sel(l->cold, at.theta, l->theta);
   l->cos_phi = sel(l->cold, at.cos_phi, l->cos_phi), l->sin_phi = sel(l->cold, at.sin_phi, l->sin_phi);
+  if (l->slopes) {
+    real d_f[WAYS], d_theta[WAYS];
+    trum_slopes(l, l->tau, &at, l->v0 + l->x, f_v, d_f, d_theta);
+    for (k = 0; k < WAYS; ++k) {
+      l->d_f[k] = sel(l->cold, d_f[k], l->d_f[k]), l->d_theta[k] = sel(l->cold, d_theta[k], l->d_theta[k]);
+    }
+  }
   for (k = 0; k < EVENTS; ++k) {
     l->event[k] = sel(l->cold, e[k], l->event[k]);
     l->fresh[k] = l->fresh[k] & no(l->cold);
@@ -419,247 +492,298 @@ static real trum_quadrature_error(const real* G) {
   }
   whole = l[0] + l[1] + N_(1e-300);
   second = l[2] / whole, third = cube_root_of(l[3] / whole + N_(1e-300));
-  return N_(TRUM_ERROR_SHARE) * most(l[2] * second * root_of(second), l[3] * third * third);
+  return N_(trum_estimate) * most(l[2] * second * root_of(second), l[3] * third * third);
 }
 
-/* Tries a step on all lanes; returns those which took it. */
-static mask trum_step(trum_lanes* l) {
-  static const double A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS;
-  static const double c[NODES] = TRUM_COLLOCATION_POINTS, outward[NODES] = TRUM_COLLOCATION_OUTWARD;
-  trum_surface at[NODES];
-  real z[NODES], T[NODES], x[NODES], f[NODES], f_v[NODES], G[NODES], e[NODES][EVENTS], right[NODES], y[NODES];
-  const mask held = at_most(l->push, N_(0));
-  mask open = l->active, wrong, accepted;
+/* A step that is tried: the nodes' places and rates of time, and what is there. */
+typedef struct {
+  trum_surface at[NODES]; /* not at the first node */
+  real z[NODES], T[NODES], x[NODES], f[NODES], f_v[NODES], e[NODES][EVENTS];
+  mask open;              /* Newton has not closed */
+} trum_attempt;
+
+static mask trum_same(real a, real b) { return at_most(size_of(a - b), N_(0.25)); }
+
+/* Collocation: x_i = x_0 + sum_j A_ij T_j (push f(x_j) - drag), by Newton on the three nodes after the first. */
+static void trum_try(const trum_lanes* l, trum_attempt* t) {
+  static const double A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS, c[NODES] = TRUM_COLLOCATION_POINTS;
+  real G[NODES], right[NODES], y[NODES];
   int i, j, k, tries;
-#ifdef TRUM_COUNT
-  ++TRUM_COUNT[0];
-#endif
   for (j = 0; j < NODES; ++j) {
     const real sigma = N_(c[j]);
-    z[j] = sigma * (N_(1) + l->bend * (N_(1) - sigma));
-    T[j] = l->h * (N_(1) + l->bend * (N_(1) - N_(2) * sigma));
+    t->z[j] = sigma * (N_(1) + l->bend * (N_(1) - sigma));
+    t->T[j] = l->h * (N_(1) + l->bend * (N_(1) - N_(2) * sigma));
   }
-  x[0] = l->x, f[0] = l->f, f_v[0] = l->f_v;
-  for (k = 0; k < EVENTS; ++k) e[0][k] = l->event[k];
-  G[0] = T[0] * (l->push * f[0] - l->drag);
+  t->open = l->active;
+  t->x[0] = l->x, t->f[0] = l->f, t->f_v[0] = l->f_v;
+  for (k = 0; k < EVENTS; ++k) t->e[0][k] = l->event[k];
+  G[0] = t->T[0] * (l->push * t->f[0] - l->drag);
   for (j = 1; j < NODES; ++j) {
-    trum_look(l, l->tau + l->h * z[j], &at[j]);
-    x[j] = l->x + l->h * z[j] * (l->push * l->f - l->drag);
-    f[j] = l->f, f_v[j] = N_(0), e[j][LARGER] = N_(0), e[j][SMALLER] = N_(0);
+    trum_look(l, l->tau + l->h * t->z[j], &t->at[j]);
+    t->x[j] = l->x + l->h * t->z[j] * (l->push * l->f - l->drag);
+    t->f[j] = l->f, t->f_v[j] = N_(0), t->e[j][LARGER] = N_(0), t->e[j][SMALLER] = N_(0);
   }
-  for (tries = 0; tries < 12 && any(open); ++tries) {
+  for (tries = 0; tries < 12 && any(t->open); ++tries) {
     real change = N_(0), slope[NODES];
-#ifdef TRUM_COUNT
-    ++TRUM_COUNT[1];
-#endif
     slope[0] = N_(0);
     for (j = 1; j < NODES; ++j) {
-      real f_now, f_v_now, larger, smaller;
-      trum_rub(&at[j], l->v0 + x[j], &f_now, &f_v_now, &larger, &smaller);
-      f[j] = sel(open, f_now, f[j]), f_v[j] = sel(open, f_v_now, f_v[j]);
-      e[j][LARGER] = sel(open, larger, e[j][LARGER]), e[j][SMALLER] = sel(open, smaller, e[j][SMALLER]);
-      G[j] = T[j] * (l->push * f[j] - l->drag);
-      slope[j] = T[j] * (l->push * f_v[j]);
+      real f, f_v, larger, smaller;
+      trum_rub(&t->at[j], l->v0 + t->x[j], &f, &f_v, &larger, &smaller);
+      t->f[j] = sel(t->open, f, t->f[j]), t->f_v[j] = sel(t->open, f_v, t->f_v[j]);
+      t->e[j][LARGER] = sel(t->open, larger, t->e[j][LARGER]);
+      t->e[j][SMALLER] = sel(t->open, smaller, t->e[j][SMALLER]);
+      G[j] = t->T[j] * (l->push * t->f[j] - l->drag);
+      slope[j] = t->T[j] * (l->push * t->f_v[j]);
     }
     for (i = 1; i < NODES; ++i) {
-      right[i] = l->x - x[i];
+      right[i] = l->x - t->x[i];
       for (j = 0; j < NODES; ++j) right[i] = right[i] + N_(A[i][j]) * G[j];
     }
     trum_solve(slope, right, y);
     for (j = 1; j < NODES; ++j) { /* friction bounds how far the speed can get */
-      const real drift = l->x - l->h * z[j] * l->drag, reach = l->h * z[j] * l->push;
-      const real next = most(drift - reach, least(drift + reach, x[j] + y[j]));
-      change = most(change, size_of(next - x[j]));
-      f[j] = sel(open, f[j] + f_v[j] * (next - x[j]), f[j]);
-      x[j] = sel(open, next, x[j]);
+      const real drift = l->x - l->h * t->z[j] * l->drag, reach = l->h * t->z[j] * l->push;
+      const real next = most(drift - reach, least(drift + reach, t->x[j] + y[j]));
+      change = most(change, size_of(next - t->x[j]));
+      t->f[j] = sel(t->open, t->f[j] + t->f_v[j] * (next - t->x[j]), t->f[j]);
+      t->x[j] = sel(t->open, next, t->x[j]);
     }
-    open = open & no(at_most(change, l->newton_error));
+    t->open = t->open & no(at_most(change, l->newton_error));
   }
-  for (j = 0; j < NODES; ++j) G[j] = T[j] * f[j];
   for (j = 1; j < NODES; ++j) {
-    e[j][SPEED] = at[j].R_v * at[j].R_v - (l->v0 + x[j]) * (l->v0 + x[j]);
-    e[j][FULL] = at[j].W_c * at[j].W_c - l->W_full * l->W_full;
+    const real v = l->v0 + t->x[j];
+    t->e[j][SPEED] = t->at[j].R_v * t->at[j].R_v - v * v;
+    t->e[j][FULL] = t->at[j].W_c * t->at[j].W_c - l->W_full * l->W_full;
   }
+}
 
-  { /* what is wrong with the step: an event inside, or an error too large */
-    trum_cubic cubic[EVENTS];
-    real place, which, ratio, error, factor, h = l->h, bend = l->bend, target = l->target;
-    const mask aimed = at_most(N_(0), target);
-    const mask startled = less_than(bend, N_(0));
-    mask tiny = at_most(l->h, N_(trum_shortest) * l->period);
-    mask meets, singular, distant, late, redo, off_target, hit;
-    const mask patient = less_than(l->tries, N_(10)); /* no step is tried for ever */
-    real tolerance_here;
-    trum_first_event(l, z, e, cubic, &place, &which);
-    /* a step that was aimed at an event: is it there? */
-    {
-      real root = N_(1), missed = N_(0);
-      if (any(aimed)) {
-        trum_cubic q = cubic[0];
-        for (k = 0; k < EVENTS; ++k) {
-          const trum_cubic own = cubic[k];
-          const mask mine = at_most(size_of(target - N_(k)), N_(0.25));
-          q.e0 = sel(mine, own.e0, q.e0), q.d1 = sel(mine, own.d1, q.d1), q.d2 = sel(mine, own.d2, q.d2);
-          q.d3 = sel(mine, own.d3, q.d3);
-          missed = sel(mine, size_of(e[EDGE][k]), missed);
-        }
-        for (j = 0; j < 3; ++j) {
-          const real slope = trum_cubic_slope(&q, root);
-          const mask steep = less_than(N_(1e-200), size_of(slope));
-          root = sel(steep, root - trum_cubic_at(&q, root) * inverse_of(sel(steep, slope, N_(1))), root);
-          root = most(N_(1), least(N_(1.25), root));
-        }
-        root = sel(at_most(size_of(which - target), N_(0.25)), place, root);
-      }
-      singular = at_most(size_of(target), N_(0.25)) | at_most(size_of(target - N_(FULL)), N_(0.25));
-      missed = size_of(root - N_(1)) * l->h * sel(singular, N_(1), missed);
-      tolerance_here = sel(singular, l->event_error, l->kink_error);
-      off_target = aimed & less_than(tolerance_here, missed) & patient & no(tiny);
-      {
-        const mask there = less_than(root, N_(1.24)); /* else it turned out to be none */
-        off_target = off_target & there;
-        hit = aimed & there & no(off_target);
-      }
-      /* another event on the way comes first */
-      meets = patient & less_than(place, N_(1.5)) & no(hit & at_most(size_of(which - target), N_(0.25)));
-      meets = meets & no(off_target & at_most(size_of(which - target), N_(0.25)));
-      h = sel(off_target, l->h * root, h);
-    }
-    singular = at_most(size_of(which), N_(0.25)) | at_most(size_of(which - N_(FULL)), N_(0.25));
-    tolerance_here = sel(singular, l->event_error, l->kink_error);
-    {
-      const real weight = sel(at_most(size_of(which - N_(LARGER)), N_(0.25)), size_of(e[0][LARGER]), size_of(e[0][SMALLER]));
-      distant = meets & less_than(tolerance_here, place * l->h * sel(singular, N_(1), weight)) & no(tiny);
-    }
-    late = meets & no(distant) & no(tiny);
-    /* towards the event; a step cannot bend at both ends, so one that begins at a square root goes half the way */
-    {
-      const mask half = distant & startled & singular;
-      h = sel(distant, l->h * place * sel(half, N_(0.5), N_(1)), h);
-      target = sel(distant, sel(half, N_(-1), which), target);
-      bend = sel(distant & singular & no(startled), N_(1), sel(distant & no(startled), N_(0), bend));
-    }
-    /* an event right at the start was passed unseen: begin at it */
+/* What comes next for every lane: its step, and how that bends towards an event or away from one. */
+typedef struct {
+  real h, bend, target;
+  mask redo, hit; /* the step is to be tried anew; it ends at the event that it was aimed at */
+} trum_plan;
+
+/* Steps end at events.  One that meets an event is aimed at it; one that was aimed there is corrected until it hits. */
+static trum_plan trum_aim(trum_lanes* l, trum_attempt* t, mask tiny) {
+  const mask aimed = at_most(N_(0), l->target), startled = less_than(l->bend, N_(0));
+  const mask patient = less_than(l->tries, N_(10)) & no(tiny); /* no step is tried for ever */
+  trum_plan p;
+  trum_cubic cubic[EVENTS];
+  real place, which, tolerance;
+  mask meets, singular, distant, late, off_target = is(0);
+  int j, k;
+  p.h = l->h, p.bend = l->bend, p.target = l->target, p.hit = is(0);
+  trum_first_event(l, t->z, t->e, cubic, &place, &which);
+  meets = patient & less_than(place, N_(1.5));
+  if (any(aimed)) {
+    real root = N_(1), missed = N_(0);
+    trum_cubic q = cubic[0];
     for (k = 0; k < EVENTS; ++k) {
-      const mask mine = late & at_most(size_of(which - N_(k)), N_(0.25)) & no(l->fresh[k]);
-      l->fresh[k] = l->fresh[k] | mine;
-      redo = (k == 0) ? mine : redo | mine;
-      if (k == SPEED || k == FULL) bend = sel(mine, N_(-1), bend);
-      target = sel(mine, N_(-1), target);
+      const mask mine = trum_same(l->target, N_(k));
+      q.e0 = sel(mine, cubic[k].e0, q.e0), q.d1 = sel(mine, cubic[k].d1, q.d1);
+      q.d2 = sel(mine, cubic[k].d2, q.d2), q.d3 = sel(mine, cubic[k].d3, q.d3);
+      missed = sel(mine, size_of(t->e[EDGE][k]), missed);
     }
-    redo = redo | distant | off_target;
-#ifdef TRUM_TRACE2
-    TRUM_TRACE2;
-#endif
-
-    error = trum_quadrature_error(G);
-    if (any(held & l->active)) { /* a held lap also measures the contact */
-      real angle[NODES];
-      angle[0] = T[0] * l->angle0;
-      for (j = 1; j < NODES; ++j) angle[j] = T[j] * at[j].theta;
-      error = sel(held, most(error, N_(0.31830988618379067154) * trum_quadrature_error(angle)), error);
+    for (j = 0; j < 3; ++j) { /* it may lie beyond the step's end */
+      const real slope = trum_cubic_slope(&q, root);
+      const mask steep = less_than(N_(1e-200), size_of(slope));
+      root = sel(steep, root - trum_cubic_at(&q, root) * inverse_of(sel(steep, slope, N_(1))), root);
+      root = most(N_(1), least(N_(1.25), root));
     }
-    ratio = error * l->per_allowed;
-    {
-      const mask number = less_than(ratio, N_(1e30));
-      ratio = sel(number & no(open), least(ratio, N_(1e6)), N_(1e6));
-      l->lost = l->lost | (l->active & no(number) & tiny);
-    }
-    tiny = tiny | at_most(l->h, N_(trum_shortest) * l->period);
-    { /* near a standing wave the surface's speed turns fast; the steps must see it turn, unless all of it touches */
-      mask blind = is(0);
-      real cosine = l->cos_phi, sine = l->sin_phi;
-      for (j = 1; j < NODES; ++j) {
-        const mask jumps = less_than(cosine * at[j].cos_phi + sine * at[j].sin_phi, N_(TRUM_TURN));
-        blind = blind | (jumps & less_than(N_(0), most(e[j][FULL], e[j - 1][FULL])));
-        cosine = at[j].cos_phi, sine = at[j].sin_phi;
-      }
-      blind = blind & less_than(N_(TRUM_SEES) * l->period, l->h);
-      ratio = sel(blind, most(ratio, N_(40)), ratio);
-    }
-    wrong = no(at_most(ratio, N_(1))) & no(tiny);
-    factor = least(N_(TRUM_GROW), most(N_(0.15), N_(TRUM_SAFETY) * inverse_of(root_of(root_of(most(ratio, N_(1e-5)))))));
-    accepted = l->active & no(redo) & no(wrong);
-    {
-      const mask shrink = wrong & no(redo);
-      h = sel(shrink, l->h * factor, h);
-      target = sel(shrink, N_(-1), target);
-      bend = sel(shrink & no(startled), N_(0), bend);
-      l->natural = sel(shrink, h, l->natural);
-    }
-    l->tries = sel(redo, l->tries + N_(1), sel(accepted, N_(0), l->tries));
-
-#ifdef TRUM_COUNT
-    if (any(accepted)) ++TRUM_COUNT[2];
-    else if (any(redo)) ++TRUM_COUNT[3];
-#endif
-    if (any(accepted)) {
-      real S[NODES], K[NODES], rate[NODES], sum_f = N_(0), sum_angle = N_(0), sum_x = N_(0), sum_xx = N_(0);
-      real sum_S = N_(0), sum_xS = N_(0), angle[NODES];
-      const mask end_bent = less_than(N_(0), bend) & accepted, start_bent = startled;
-      trum_lap* r = &l->lap;
-      for (j = 0; j < NODES; ++j) {
-        K[j] = T[j] * (l->push * f_v[j]);
-        rate[j] = T[j] * (l->push * f[j] - l->drag);
-      }
-      /* at the square root itself T f_v is 0 times infinity: its limit, from the other nodes */
-      {
-        const real first = N_(outward[1]) * K[1] + N_(outward[2]) * K[2] + N_(outward[3]) * K[3];
-        const real last = N_(outward[1]) * K[2] + N_(outward[2]) * K[1] + N_(outward[3]) * K[0];
-        K[0] = sel(start_bent, least(first, N_(0)), K[0]), K[EDGE] = sel(end_bent, least(last, N_(0)), K[EDGE]);
-      }
-      S[0] = l->S;
-      for (i = 1; i < NODES; ++i) right[i] = l->S * (N_(1) + N_(A[i][0]) * K[0]);
-      trum_solve(K, right, S);
-      for (j = 1; j < NODES; ++j) S[j] = most(N_(0), least(l->S, S[j])); /* friction never drives speeds apart */
-      angle[0] = l->angle0;
-      for (j = 1; j < NODES; ++j) angle[j] = at[j].theta;
-      for (j = 0; j < NODES; ++j) {
-        const real b = N_(A[EDGE][j]) * T[j];
-        sum_f = sum_f + b * f[j], sum_angle = sum_angle + b * angle[j];
-        sum_x = sum_x + b * x[j], sum_xx = sum_xx + b * (x[j] * x[j]);
-        sum_S = sum_S + b * S[j], sum_xS = sum_xS + b * (x[j] * S[j]);
-      }
-      trum_extremes(rate, x, S[0], S[EDGE], accepted & no(held), r);
-      for (j = 1; j < NODES; ++j) {
-        r->fastest = sel(accepted, most(r->fastest, at[j].R_v), r->fastest);
-        r->full = sel(accepted & at_most(at[j].W_c, l->W_full), N_(1), r->full);
-      }
-      r->friction = sel(accepted, r->friction + sum_f, r->friction);
-      r->angle = sel(accepted, r->angle + sum_angle, r->angle);
-      r->x = sel(accepted, r->x + sum_x, r->x), r->xx = sel(accepted, r->xx + sum_xx, r->xx);
-      r->S = sel(accepted, r->S + sum_S, r->S), r->xS = sel(accepted, r->xS + sum_xS, r->xS);
-      r->error = sel(accepted, r->error + error, r->error);
-#ifdef TRUM_TRACE
-      TRUM_TRACE(l, z, x, T, f, e, sum_f, sum_angle, error);
-#endif
-      if (l->record && in_lane(accepted, 0)) trum_write(l->record, l, rate);
-      l->x = sel(accepted, x[EDGE], l->x), l->S = sel(accepted, S[EDGE], l->S);
-      l->f = sel(accepted, f[EDGE], l->f), l->f_v = sel(accepted, f_v[EDGE], l->f_v);
-      l->angle0 = sel(accepted, angle[EDGE], l->angle0);
-      l->cos_phi = sel(accepted, at[EDGE].cos_phi, l->cos_phi);
-      l->sin_phi = sel(accepted, at[EDGE].sin_phi, l->sin_phi);
-      for (k = 0; k < EVENTS; ++k) {
-        const mask mine = hit & at_most(size_of(l->target - N_(k)), N_(0.25));
-        l->event[k] = sel(accepted, e[EDGE][k], l->event[k]);
-        l->fresh[k] = sel_mask(accepted, mine, l->fresh[k]);
-      }
-      {
-        const mask finished = accepted & at_most(l->left, l->h * N_(1.0000001));
-        const real grown = least(N_(trum_longest) * l->period, l->h * factor);
-        l->natural = sel(accepted, sel(aimed | finished, most(l->natural, grown), grown), l->natural);
-        l->natural = sel(accepted, least(l->natural, N_(trum_longest) * l->period), l->natural);
-        l->tau = sel(accepted, l->tau + l->h, l->tau);
-        l->left = sel(accepted, sel(finished, N_(0), l->left - l->h), l->left);
-        h = sel(accepted, l->natural, h);
-      }
-      singular = hit & (l->fresh[SPEED] | l->fresh[FULL]);
-      bend = sel(accepted, sel(singular, N_(-1), N_(0)), bend);
-      target = sel(accepted, N_(-1), target);
-    }
-    l->h = least(h, l->left), l->bend = bend;
-    l->target = target;
+    root = sel(trum_same(which, l->target), place, root);
+    singular = trum_same(l->target, N_(SPEED)) | trum_same(l->target, N_(FULL));
+    missed = size_of(root - N_(1)) * l->h * sel(singular, N_(1), missed);
+    tolerance = sel(singular, l->event_error, l->kink_error);
+    p.hit = aimed & less_than(root, N_(1.24)); /* else it turned out to be none */
+    off_target = p.hit & patient & less_than(tolerance, missed);
+    p.hit = p.hit & no(off_target);
+    /* another event on the way comes first */
+    meets = meets & no((p.hit | off_target) & trum_same(which, l->target));
+    p.h = sel(off_target, l->h * root, p.h);
   }
+  singular = trum_same(which, N_(SPEED)) | trum_same(which, N_(FULL));
+  tolerance = sel(singular, l->event_error, l->kink_error);
+  { /* what a kink weighs is its distance times the pressure there */
+    const real weight = sel(trum_same(which, N_(LARGER)), size_of(t->e[0][LARGER]), size_of(t->e[0][SMALLER]));
+    distant = meets & less_than(tolerance, place * l->h * sel(singular, N_(1), weight));
+  }
+  late = meets & no(distant);
+  { /* towards it; a step cannot bend at both ends, so one that begins at a square root goes half the way */
+    const mask half = distant & startled & singular;
+    p.h = sel(distant, l->h * place * sel(half, N_(0.5), N_(1)), p.h);
+    p.target = sel(distant, sel(half, N_(-1), which), p.target);
+    p.bend = sel(distant & no(startled), sel(singular, N_(1), N_(0)), p.bend);
+  }
+  p.redo = distant | off_target;
+  for (k = 0; k < EVENTS; ++k) { /* an event at the very start was passed unseen: begin at it */
+    const mask mine = late & trum_same(which, N_(k)) & no(l->fresh[k]);
+    l->fresh[k] = l->fresh[k] | mine;
+    p.redo = p.redo | mine;
+    if (k == SPEED || k == FULL) p.bend = sel(mine, N_(-1), p.bend);
+    p.target = sel(mine, N_(-1), p.target);
+  }
+  return p;
+}
+
+/* A step's error over what it may be, and in integral f. */
+static real trum_ratio(trum_lanes* l, const trum_attempt* t, mask tiny, real* error) {
+  const mask held = at_most(l->push, N_(0));
+  real G[NODES], ratio, cosine = l->cos_phi, sine = l->sin_phi;
+  mask number, blind = is(0);
+  int j;
+  for (j = 0; j < NODES; ++j) G[j] = t->T[j] * t->f[j];
+  *error = trum_quadrature_error(G);
+  if (any(held & l->active)) { /* a held lap also measures the contact */
+    G[0] = t->T[0] * l->theta;
+    for (j = 1; j < NODES; ++j) G[j] = t->T[j] * t->at[j].theta;
+    *error = sel(held, most(*error, N_(0.31830988618379067154) * trum_quadrature_error(G)), *error);
+  }
+  ratio = *error * l->per_allowed;
+  number = less_than(ratio, N_(1e30));
+  ratio = sel(number & no(t->open), least(ratio, N_(1e6)), N_(1e6));
+  l->lost = l->lost | (l->active & no(number) & tiny);
+  /* near a standing wave the surface's speed turns fast; the steps must see it turn, unless all of it touches */
+  for (j = 1; j < NODES; ++j) {
+    const real along = cosine * t->at[j].cos_phi + sine * t->at[j].sin_phi;
+    blind = blind | (less_than(along, N_(trum_cosine)) & less_than(N_(0), most(t->e[j][FULL], t->e[j - 1][FULL])));
+    cosine = t->at[j].cos_phi, sine = t->at[j].sin_phi;
+  }
+  blind = blind & less_than(N_(trum_sees) * l->period, l->h);
+  return sel(blind, most(ratio, N_(40)), ratio);
+}
+
+/* At a square root T f_v and the like are 0 times infinity: their limit, from the other nodes. */
+static void trum_limits(real bend, real* K) {
+  static const double outward[NODES] = TRUM_COLLOCATION_OUTWARD;
+  const real first = N_(outward[1]) * K[1] + N_(outward[2]) * K[2] + N_(outward[3]) * K[3];
+  const real last = N_(outward[1]) * K[2] + N_(outward[2]) * K[1] + N_(outward[3]) * K[0];
+  K[0] = sel(less_than(bend, N_(0)), first, K[0]), K[EDGE] = sel(less_than(N_(0), bend), last, K[EDGE]);
+}
+
+/* The step's slopes: the derivative of the collocation, with its Jacobian K, driven by how friction changes. */
+static void trum_take_slopes(trum_lanes* l, const trum_attempt* t, const real* K, mask accepted, real (*d)[NODES]) {
+  static const double A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS;
+  const real per_frequency = N_(-1) / (l->omega_n + l->Delta_omega); /* d ln (drive period) */
+  trum_lap* r = &l->lap;
+  real d_f[NODES][WAYS], d_theta[NODES][WAYS], source[NODES], change[NODES], right[NODES];
+  int i, j, way;
+  for (j = 1; j < NODES; ++j) {
+    trum_slopes(l, l->tau + l->h * t->z[j], &t->at[j], l->v0 + t->x[j], t->f_v[j], d_f[j], d_theta[j]);
+  }
+  for (way = 0; way < WAYS; ++way) {
+    real sum_x = N_(0), sum_xx = N_(0), sum_f = N_(0), sum_theta = N_(0);
+    d_f[0][way] = l->d_f[way], d_theta[0][way] = l->d_theta[way];
+    for (j = 0; j < NODES; ++j) source[j] = t->T[j] * d_f[j][way], change[j] = t->T[j] * d_theta[j][way];
+    trum_limits(l->bend, source), trum_limits(l->bend, change);
+    for (j = 0; j < NODES; ++j) {
+      const real b = N_(A[EDGE][j]);
+      sum_f = sum_f + b * source[j], sum_theta = sum_theta + b * change[j];
+      source[j] = l->push * source[j];
+      if (way == BY_PREPRESSURE || way == BY_FRICTION) source[j] = source[j] + t->T[j] * (l->push * t->f[j]);
+      if (way == BY_DRAG) source[j] = source[j] - t->T[j];
+      if (way == BY_DIFFERENCE || way == BY_RESONANCE)
+        source[j] = source[j] + t->T[j] * ((l->push * t->f[j] - l->drag) * per_frequency);
+    }
+    d[way][0] = l->d[way];
+    for (i = 1; i < NODES; ++i) {
+      right[i] = l->d[way] * (N_(1) + N_(A[i][0]) * K[0]);
+      for (j = 0; j < NODES; ++j) right[i] = right[i] + N_(A[i][j]) * source[j];
+    }
+    trum_solve(K, right, d[way]);
+    for (j = 0; j < NODES; ++j) {
+      const real b = N_(A[EDGE][j]) * t->T[j];
+      sum_x = sum_x + b * d[way][j], sum_xx = sum_xx + b * (t->x[j] * d[way][j]);
+    }
+    r->d_x[way] = sel(accepted, r->d_x[way] + sum_x, r->d_x[way]);
+    r->d_xx[way] = sel(accepted, r->d_xx[way] + sum_xx, r->d_xx[way]);
+    r->d_friction[way] = sel(accepted, r->d_friction[way] + sum_f, r->d_friction[way]);
+    r->d_angle[way] = sel(accepted, r->d_angle[way] + sum_theta, r->d_angle[way]);
+    l->d[way] = sel(accepted, d[way][EDGE], l->d[way]);
+    l->d_f[way] = sel(accepted, d_f[EDGE][way], l->d_f[way]);
+    l->d_theta[way] = sel(accepted, d_theta[EDGE][way], l->d_theta[way]);
+  }
+}
+
+/* Accepted lanes take their step. */
+static void trum_take(trum_lanes* l, const trum_attempt* t, mask accepted, real error) {
+  static const double A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS;
+  const mask held = at_most(l->push, N_(0));
+  trum_lap* r = &l->lap;
+  real S[NODES], K[NODES], rate[NODES], right[NODES], d[WAYS][NODES];
+  real sum_f = N_(0), sum_theta = N_(0), sum_x = N_(0), sum_xx = N_(0), sum_S = N_(0), sum_xS = N_(0);
+  int i, j, k;
+  for (j = 0; j < NODES; ++j) {
+    K[j] = t->T[j] * (l->push * t->f_v[j]);
+    rate[j] = t->T[j] * (l->push * t->f[j] - l->drag);
+  }
+  trum_limits(l->bend, K);
+  K[0] = least(K[0], N_(0)), K[EDGE] = least(K[EDGE], N_(0));
+  S[0] = l->S;
+  for (i = 1; i < NODES; ++i) right[i] = l->S * (N_(1) + N_(A[i][0]) * K[0]);
+  trum_solve(K, right, S);
+  for (j = 1; j < NODES; ++j) S[j] = most(N_(0), least(l->S, S[j])); /* friction never drives speeds apart */
+  for (j = 0; j < NODES; ++j) {
+    const real b = N_(A[EDGE][j]) * t->T[j];
+    sum_f = sum_f + b * t->f[j], sum_theta = sum_theta + b * (j == 0 ? l->theta : t->at[j].theta);
+    sum_x = sum_x + b * t->x[j], sum_xx = sum_xx + b * (t->x[j] * t->x[j]);
+    sum_S = sum_S + b * S[j], sum_xS = sum_xS + b * (t->x[j] * S[j]);
+  }
+  if (l->slopes) trum_take_slopes(l, t, K, accepted, d);
+  trum_extremes(rate, t->x, S[0], S[EDGE], d, l->slopes, accepted & no(held), r);
+  for (j = 1; j < NODES; ++j) {
+    r->fastest = sel(accepted, most(r->fastest, t->at[j].R_v), r->fastest);
+    r->full = sel(accepted & at_most(t->at[j].W_c, l->W_full), N_(1), r->full);
+  }
+  r->friction = sel(accepted, r->friction + sum_f, r->friction);
+  r->angle = sel(accepted, r->angle + sum_theta, r->angle);
+  r->x = sel(accepted, r->x + sum_x, r->x), r->xx = sel(accepted, r->xx + sum_xx, r->xx);
+  r->S = sel(accepted, r->S + sum_S, r->S), r->xS = sel(accepted, r->xS + sum_xS, r->xS);
+  r->error = sel(accepted, r->error + error, r->error);
+  if (l->record && in_lane(accepted, 0)) trum_write(l->record, l, rate);
+  l->x = sel(accepted, t->x[EDGE], l->x), l->S = sel(accepted, S[EDGE], l->S);
+  l->f = sel(accepted, t->f[EDGE], l->f), l->f_v = sel(accepted, t->f_v[EDGE], l->f_v);
+  l->theta = sel(accepted, t->at[EDGE].theta, l->theta);
+  l->cos_phi = sel(accepted, t->at[EDGE].cos_phi, l->cos_phi);
+  l->sin_phi = sel(accepted, t->at[EDGE].sin_phi, l->sin_phi);
+  for (k = 0; k < EVENTS; ++k) l->event[k] = sel(accepted, t->e[EDGE][k], l->event[k]);
+}
+
+/* Tries a step on all lanes; returns those which took it. */
+static mask trum_step(trum_lanes* l) {
+  const mask tiny = at_most(l->h, N_(trum_shortest) * l->period);
+  trum_attempt t;
+  trum_plan p;
+  real ratio, error, factor;
+  mask wrong, accepted, shrink;
+  int k;
+  trum_try(l, &t);
+  p = trum_aim(l, &t, tiny);
+  ratio = trum_ratio(l, &t, tiny, &error);
+  wrong = no(at_most(ratio, N_(1))) & no(tiny);
+  factor = N_(trum_margin) * inverse_of(root_of(root_of(most(ratio, N_(1e-5)))));
+  factor = least(N_(trum_grows), most(N_(0.15), factor));
+  accepted = l->active & no(p.redo) & no(wrong), shrink = wrong & no(p.redo);
+  p.h = sel(shrink, l->h * factor, p.h), l->natural = sel(shrink, p.h, l->natural);
+  p.target = sel(shrink, N_(-1), p.target);
+  p.bend = sel(shrink & less_than(N_(0), p.bend), N_(0), p.bend);
+  l->tries = sel(p.redo, l->tries + N_(1), sel(accepted, N_(0), l->tries));
+  if (any(accepted)) {
+    const real longest = N_(trum_longest) * l->period, grown = least(longest, l->h * factor);
+    const mask finished = accepted & at_most(l->left, l->h * N_(1.0000001)), cut = finished | at_most(N_(0), l->target);
+    trum_take(l, &t, accepted, error);
+    /* a step that an event or a region's end has cut short says nothing against the length before */
+    l->natural = sel(accepted, sel(cut, least(longest, most(l->natural, grown)), grown), l->natural);
+    l->tau = sel(accepted, l->tau + l->h, l->tau);
+    l->left = sel(accepted, sel(finished, N_(0), l->left - l->h), l->left);
+    p.h = sel(accepted, l->natural, p.h);
+    p.bend = sel(accepted, N_(0), p.bend);
+    for (k = 0; k < EVENTS; ++k) {
+      const mask mine = p.hit & trum_same(l->target, N_(k));
+      l->fresh[k] = sel_mask(accepted, mine, l->fresh[k]);
+      if (k == SPEED || k == FULL) p.bend = sel(accepted & mine, N_(-1), p.bend);
+    }
+    p.target = sel(accepted, N_(-1), p.target);
+  }
+  l->h = least(p.h, l->left), l->bend = p.bend, l->target = p.target;
   l->patience = l->patience - N_(1);
   return accepted;
 }
@@ -668,7 +792,10 @@ static mask trum_step(trum_lanes* l) {
 typedef struct {
   const trum_orbit_in* in;
   trum_orbit_out* out;
+  const trum_slopes_in* slopes_in; /* or none */
+  trum_slopes_out* slopes_out;
   double start[TRUM_REGIONS][4], pulses[TRUM_REGIONS]; /* phasors at the start of the regions; their drive periods */
+  double slopes[2][TRUM_REGIONS][4];                   /* of the phasors, by resonance and difference */
   double low, high, v0, scale, level;                  /* bracket of the start speed, guess, speed that errors are measured by, error of a step */
   int stage, region, laps, finer;
 } trum_job;
@@ -685,6 +812,7 @@ static int trum_next_region(trum_lanes* l, int i, trum_job* job) {
     if (++job->region == TRUM_REGIONS) return 0;
   } while (job->pulses[job->region] < 0.5);
   for (k = 0; k < 4; ++k) put(&l->free_[k], i, job->start[job->region][k]);
+  for (k = 0; l->slopes && k < 8; ++k) put(&l->slopes_[k / 4][k % 4], i, job->slopes[k / 4][job->region][k % 4]);
   put(&l->g_A, i, gates_A[job->region]), put(&l->g_B, i, gates_B[job->region]);
   put(&l->tau, i, 0.0), put(&l->left, i, job->pulses[job->region] * get(&l->period, i));
   put(&l->h, i, get(&l->natural, i));
@@ -696,27 +824,81 @@ static void trum_start_lap(trum_lanes* l, int i, trum_job* job) {
   const double period = get(&l->period, i), whole = get(&l->whole, i), push = job->in->push;
   const int held = job->stage == HELD;
   double reach = held ? whole : job->scale / push, allowed;
+  int k;
   if (reach > whole) reach = whole;
   allowed = job->level * reach / job->in->m;
   put(&l->push, i, held ? 0.0 : push), put(&l->drag, i, held ? 0.0 : job->in->drag);
   put(&l->v0, i, job->v0), put(&l->per_allowed, i, 1.0 / allowed);
-  put(&l->event_error, i, TRUM_EVENT_SHARE * cbrt(allowed * allowed * period));
-  put(&l->kink_error, i, TRUM_KINK_SHARE * allowed);
-  put(&l->newton_error, i, held ? 0.0 : allowed * push * sqrt(TRUM_NEWTON_SHARE * job->in->m / job->level));
+  put(&l->event_error, i, trum_event * cbrt(allowed * allowed * period));
+  put(&l->kink_error, i, trum_kink * allowed);
+  put(&l->newton_error, i, held ? 0.0 : allowed * push * sqrt(trum_newton * job->in->m / job->level));
   put(&l->patience, i, trum_most_tries * job->in->m);
   put(&l->natural, i, trum_first * period);
-  put(&l->x, i, 0.0), put(&l->S, i, 1.0), put(&l->f, i, 0.0), put(&l->f_v, i, 0.0), put(&l->angle0, i, 0.0);
-  put(&l->lap.gain, i, 0.0), put(&l->lap.growth, i, 1.0);
+  put(&l->x, i, 0.0), put(&l->S, i, 1.0), put(&l->f, i, 0.0), put(&l->f_v, i, 0.0), put(&l->theta, i, 0.0);
   put(&l->lap.x, i, 0.0), put(&l->lap.xx, i, 0.0), put(&l->lap.S, i, 0.0), put(&l->lap.xS, i, 0.0);
   put(&l->lap.low, i, 0.0), put(&l->lap.high, i, 0.0), put(&l->lap.S_low, i, 1.0), put(&l->lap.S_high, i, 1.0);
   put(&l->lap.friction, i, 0.0), put(&l->lap.angle, i, 0.0);
   put(&l->lap.full, i, 0.0), put(&l->lap.fastest, i, 0.0), put(&l->lap.error, i, 0.0);
-#ifdef TRUM_COUNT
-  ++TRUM_COUNT[4 + job->stage];
-#endif
+  for (k = 0; l->slopes && k < WAYS; ++k) {
+    put(&l->d[k], i, 0.0), put(&l->d_f[k], i, 0.0), put(&l->d_theta[k], i, 0.0);
+    put(&l->lap.d_x[k], i, 0.0), put(&l->lap.d_xx[k], i, 0.0);
+    put(&l->lap.d_low[k], i, 0.0), put(&l->lap.d_high[k], i, 0.0);
+    put(&l->lap.d_friction[k], i, 0.0), put(&l->lap.d_angle[k], i, 0.0);
+  }
   put_mask(&l->cold, i, 1), put_mask(&l->lost, i, 0), put_mask(&l->active, i, 1);
   job->region = -1;
   trum_next_region(l, i, job);
+}
+
+/* Slopes of the phasors at the start of the regions. */
+static void trum_load_slopes(trum_job* job) {
+  const trum_orbit_in* in = job->in;
+  double arg_[trum_regions_slopes_n_arg], res_[trum_regions_slopes_n_res];
+  const double* arg[trum_regions_slopes_n_arg];
+  double* res[trum_regions_slopes_n_res];
+  int k, by, phase, r, part;
+  arg_[trum_regions_slopes_in_Delta_omega] = in->Delta_omega, arg_[trum_regions_slopes_in_W] = in->W;
+  arg_[trum_regions_slopes_in_a_A] = in->a_A, arg_[trum_regions_slopes_in_b_A] = in->b_A;
+  arg_[trum_regions_slopes_in_a_B] = in->a_B, arg_[trum_regions_slopes_in_b_B] = in->b_B;
+  arg_[trum_regions_slopes_in_m] = in->m, arg_[trum_regions_slopes_in_n] = in->n;
+  arg_[trum_regions_slopes_in_omega_n] = in->omega_n, arg_[trum_regions_slopes_in_psi] = in->psi;
+  arg_[trum_regions_slopes_in_s] = in->s, arg_[trum_regions_slopes_in_xi] = in->xi;
+  arg_[trum_regions_slopes_in_a_A_omega_n] = job->slopes_in->by_resonance[0];
+  arg_[trum_regions_slopes_in_b_A_omega_n] = job->slopes_in->by_resonance[1];
+  arg_[trum_regions_slopes_in_a_B_omega_n] = job->slopes_in->by_resonance[2];
+  arg_[trum_regions_slopes_in_b_B_omega_n] = job->slopes_in->by_resonance[3];
+  arg_[trum_regions_slopes_in_a_A_Delta_omega] = job->slopes_in->by_difference[0];
+  arg_[trum_regions_slopes_in_b_A_Delta_omega] = job->slopes_in->by_difference[1];
+  arg_[trum_regions_slopes_in_a_B_Delta_omega] = job->slopes_in->by_difference[2];
+  arg_[trum_regions_slopes_in_b_B_Delta_omega] = job->slopes_in->by_difference[3];
+  for (k = 0; k < trum_regions_slopes_n_arg; ++k) arg[k] = &arg_[k];
+  for (k = 0; k < trum_regions_slopes_n_res; ++k) res[k] = &res_[k];
+  trum_regions_slopes(arg, res, 0, 0, 0);
+  for (by = k = 0; by < 2; ++by)
+    for (phase = 0; phase < 2; ++phase)
+      for (r = 0; r < TRUM_REGIONS; ++r)
+        for (part = 0; part < 2; ++part) job->slopes[by][r][2 * phase + part] = res_[k++];
+}
+
+/* Slopes of the figures, when the orbit is found: d0 is that of the start speed which the lap reproduces. */
+static void trum_figures_slopes(const trum_lanes* l, int i, trum_job* job) {
+  const trum_lap* r = &l->lap;
+  const double whole = get(&l->whole, i), growth = get(&l->S, i), pull = 1.0 - growth > 1e-14 ? 1.0 - growth : 1e-14;
+  const double x = get(&r->x, i) / whole, S = get(&r->S, i) / whole, xS = get(&r->xS, i) / whole;
+  int way;
+  for (way = 0; way < WAYS; ++way) {
+    double(*of)[WAYS] = job->slopes_out->of;
+    if (job->stage == HELD) {
+      of[OF_CONTACT][way] = get(&r->d_angle[way], i) / whole / 3.14159265358979323846;
+      of[OF_HELD][way] = get(&r->d_friction[way], i) / whole;
+    } else {
+      const double d0 = get(&l->d[way], i) / pull, d_x = get(&r->d_x[way], i) / whole;
+      of[OF_MEAN][way] = d_x + S * d0;
+      of[OF_LOW][way] = get(&r->d_low[way], i) + get(&r->S_low, i) * d0;
+      of[OF_HIGH][way] = get(&r->d_high[way], i) + get(&r->S_high, i) * d0;
+      of[OF_VARIANCE][way] = 2.0 * (get(&r->d_xx[way], i) / whole - x * d_x + (xS - x * S) * d0);
+    }
+  }
 }
 
 static void trum_load(trum_lanes* l, int i, trum_job* job, const trum_orbit_in* in, trum_orbit_out* out) {
@@ -754,16 +936,21 @@ static void trum_load(trum_lanes* l, int i, trum_job* job, const trum_orbit_in* 
   }
   job->in = in, job->out = out;
   job->stage = HELD, job->laps = job->finer = 0, job->v0 = 0.0, job->low = -HUGE_VAL, job->high = HUGE_VAL;
-  job->scale = 0.0, job->level = TRUM_LEVEL * in->tolerance;
+  job->scale = 0.0, job->level = trum_level * in->tolerance;
   out->mean = out->low = out->high = out->variance = out->start = out->level = out->error = NAN;
   out->contact = out->held = NAN, out->flags = 0;
+  if (l->slopes) {
+    trum_load_slopes(job);
+    for (r = 0; r < FIGURES; ++r)
+      for (k = 0; k < WAYS; ++k) job->slopes_out->of[r][k] = NAN;
+  }
   trum_start_lap(l, i, job);
 }
 
 /* The rough level that makes one fine lap enough. */
 static double trum_rough(double tolerance) {
   const double rough = 0.03 * sqrt(tolerance);
-  return TRUM_LEVEL * (rough > tolerance ? rough : tolerance);
+  return trum_level * (rough > tolerance ? rough : tolerance);
 }
 
 /* A lap is over: the next one, or 0 when the point is done.  Gain falls as the start rises: Newton in a bracket. */
@@ -776,6 +963,7 @@ static int trum_judge(trum_lanes* l, int i, trum_job* job) {
   if (job->stage == HELD) {
     out->contact = lost ? NAN : get(&r->angle, i) / whole / 3.14159265358979323846;
     out->held = lost ? NAN : get(&r->friction, i) / whole;
+    if (l->slopes && !lost) trum_figures_slopes(l, i, job);
     if (get(&r->full, i) > 0.0) out->flags = trum_full_contact;
     if (!(in->push > fabs(in->drag))) {
       out->flags += trum_runaway;
@@ -791,7 +979,7 @@ static int trum_judge(trum_lanes* l, int i, trum_job* job) {
     const double gain = get(&l->x, i), growth = get(&l->S, i), pull = 1.0 - growth > 1e-14 ? 1.0 - growth : 1e-14;
     const double low = get(&r->low, i), high = get(&r->high, i), bound = 1.5 * get(&r->fastest, i);
     const double top = fabs(job->v0 + low) > fabs(job->v0 + high) ? fabs(job->v0 + low) : fabs(job->v0 + high);
-    const double fine = TRUM_LEVEL * in->tolerance;
+    const double fine = trum_level * in->tolerance;
     const int accurate = job->level <= fine * 1.0001, last = ++job->laps >= trum_most_laps;
     double next = job->v0 + gain / pull, away, noise;
     int close;
@@ -813,6 +1001,7 @@ static int trum_judge(trum_lanes* l, int i, trum_job* job) {
       const double mean = get(&r->x, i) / whole, mean_S = get(&r->S, i) / whole;
       const double square = get(&r->xx, i) / whole, mean_xS = get(&r->xS, i) / whole;
       const double variance = square - mean * mean + 2.0 * away * (mean_xS - mean * mean_S);
+      if (l->slopes) trum_figures_slopes(l, i, job);
       out->mean = job->v0 + mean + away * mean_S;
       out->low = job->v0 + low + away * get(&r->S_low, i), out->high = job->v0 + high + away * get(&r->S_high, i);
       /* Newton's last change leaves the order of nearly equal speeds open */
@@ -836,9 +1025,9 @@ static int trum_judge(trum_lanes* l, int i, trum_job* job) {
   return 1;
 }
 
-static void trum_clear(trum_lanes* l, int hertz) {
+static void trum_clear(trum_lanes* l, int hertz, int slopes) {
   int k;
-  l->active = l->cold = l->lost = is(0), l->hertz = hertz, l->record = 0;
+  l->active = l->cold = l->lost = is(0), l->hertz = hertz, l->slopes = slopes, l->record = 0;
   for (k = 0; k < EVENTS; ++k) l->fresh[k] = is(0), l->event[k] = TRUM_NUMBER(0);
   l->tau = l->left = l->h = l->natural = l->bend = l->target = l->tries = l->patience = TRUM_NUMBER(0);
 }
@@ -859,18 +1048,23 @@ static void trum_advance(trum_lanes* l, trum_job* jobs, int* busy) {
   }
 }
 
-/* Orbits of count points of one contact law; lanes take the next point when they are done with one. */
-static void trum_orbits(const trum_orbit_in* in, trum_orbit_out* out, long count) {
+/* Orbits of count points of one contact law, and their slopes unless these are null; lanes take the next point when
+ * they are done with one. */
+static void trum_orbits(const trum_orbit_in* in, trum_orbit_out* out, const trum_slopes_in* slopes_in,
+                        trum_slopes_out* slopes_out, long count) {
   trum_lanes l;
   trum_job jobs[TRUM_LANES];
+  trum_orbit_out unused;
+  trum_slopes_out unused_slopes;
   int busy[TRUM_LANES], i, left;
   long next = 0;
   if (count <= 0) return;
-  trum_clear(&l, in[0].hertz > 0.5);
+  trum_clear(&l, in[0].hertz > 0.5, slopes_in != 0);
   for (i = 0; i < TRUM_LANES; ++i) { /* lanes without a point carry the last one's numbers, and rest */
     const long point = i < count ? i : count - 1;
-    trum_orbit_out unused;
-    trum_load(&l, i, &jobs[i], &in[point], i < count ? &out[i] : &unused);
+    jobs[i].slopes_in = slopes_in ? &slopes_in[point] : 0;
+    jobs[i].slopes_out = slopes_out && i < count ? &slopes_out[point] : &unused_slopes;
+    trum_load(&l, i, &jobs[i], &in[point], i < count ? &out[point] : &unused);
     busy[i] = i < count;
     if (!busy[i]) put_mask(&l.active, i, 0);
   }
@@ -879,6 +1073,8 @@ static void trum_orbits(const trum_orbit_in* in, trum_orbit_out* out, long count
     trum_advance(&l, jobs, busy);
     for (i = left = 0; i < TRUM_LANES; ++i) {
       if (!busy[i] && next < count) {
+        jobs[i].slopes_in = slopes_in ? &slopes_in[next] : 0;
+        jobs[i].slopes_out = slopes_out ? &slopes_out[next] : &unused_slopes;
         trum_load(&l, i, &jobs[i], &in[next], &out[next]);
         busy[i] = 1, ++next;
       }
@@ -895,7 +1091,7 @@ static void trum_history(const trum_orbit_in* in, const trum_orbit_out* orbit, d
   trum_orbit_out unused;
   trum_record record;
   int i;
-  trum_clear(&l, in->hertz > 0.5);
+  trum_clear(&l, in->hertz > 0.5, 0);
   for (i = 0; i < TRUM_LANES; ++i) {
     trum_load(&l, i, &jobs[i], in, &unused);
     if (i > 0) put_mask(&l.active, i, 0);

@@ -95,8 +95,41 @@ void rotor_orbit_loop(char** args, const npy_intp* dimensions, const npy_intp* s
       in[count] = gather<n_orbit_in>(args, steps, i + count);
       if (in[count][hertz_in] != in[0][hertz_in]) break;
     }
-    orbit_code->orbits(in[0].data(), out[0].data(), static_cast<long>(count));
+    orbit_code->orbits(in[0].data(), out[0].data(), nullptr, nullptr, static_cast<long>(count));
     for (npy_intp k = 0; k < count; ++k) scatter(out[k], args + n_orbit_in, steps + n_orbit_in, i + k);
+    i += count;
+  }
+}
+
+// The same with the slopes of the figures, a matrix of figures by what they depend on.
+constexpr char slopes_in[] =
+    "omega_n Delta_omega xi psi s m n a_A b_A a_B b_B W D k_c engagement_per_height W_full hertz push drag tolerance "
+    "a_A_omega_n b_A_omega_n a_B_omega_n b_B_omega_n a_A_Delta_omega b_A_Delta_omega a_B_Delta_omega b_B_Delta_omega";
+constexpr char slopes_out[] = "mean low high variance contact held start level error flags slopes";
+constexpr char slopes_signature[] =
+    "(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),()->"
+    "(),(),(),(),(),(),(),(),(),(),(6,6)";
+constexpr int n_slopes_in = n_orbit_in + 8, n_slopes_out = n_orbit_out + 1, n_slopes = 36;
+void rotor_slopes_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
+  constexpr npy_intp most = 64;
+  std::array<std::array<double, n_orbit_in>, most> in;
+  std::array<std::array<double, n_slopes_in - n_orbit_in>, most> with;
+  std::array<std::array<double, n_orbit_out>, most> out;
+  std::array<std::array<double, n_slopes>, most> slopes;
+  const npy_intp* core = steps + n_slopes_in + n_slopes_out;  // strides of rows and columns
+  for (npy_intp i = 0; i < dimensions[0];) {
+    npy_intp count = 0;
+    for (; i + count < dimensions[0] && count < most; ++count) {
+      in[count] = gather<n_orbit_in>(args, steps, i + count);
+      with[count] = gather<n_slopes_in - n_orbit_in>(args + n_orbit_in, steps + n_orbit_in, i + count);
+      if (in[count][hertz_in] != in[0][hertz_in]) break;
+    }
+    orbit_code->orbits(in[0].data(), out[0].data(), with[0].data(), slopes[0].data(), static_cast<long>(count));
+    for (npy_intp k = 0; k < count; ++k) {
+      scatter(out[k], args + n_slopes_in, steps + n_slopes_in, i + k);
+      char* to = args[n_slopes_in + n_orbit_out] + (i + k) * steps[n_slopes_in + n_orbit_out];
+      for (int e = 0; e < n_slopes; ++e) *reinterpret_cast<double*>(to + e / 6 * core[0] + e % 6 * core[1]) = slopes[k][e];
+    }
     i += count;
   }
 }
@@ -168,7 +201,7 @@ PyMethodDef methods[] = {
     {"instruction_sets", instruction_sets, METH_NOARGS, "The sets that this CPU has, slowest first, with their lanes."},
     {nullptr, nullptr, 0, nullptr}};
 
-constexpr int max_args = 40;
+constexpr int max_args = 64;
 char types[max_args];
 void* no_data[1] = {nullptr};
 
@@ -194,6 +227,7 @@ PyUFuncGenericFunction loop_half_angle[1] = {half_angle_loop};
 PyUFuncGenericFunction loop_cycle_sums[1] = {cycle_sums_loop};
 PyUFuncGenericFunction loop_cycle_response[1] = {cycle_response_loop};
 PyUFuncGenericFunction loop_rotor_orbit[1] = {rotor_orbit_loop};
+PyUFuncGenericFunction loop_rotor_slopes[1] = {rotor_slopes_loop};
 PyUFuncGenericFunction loop_rotor_history[1] = {rotor_history_loop};
 
 PyModuleDef definition = {PyModuleDef_HEAD_INIT, "_kernels", "Compiled kernels as NumPy ufuncs.", -1,
@@ -217,6 +251,9 @@ PyMODINIT_FUNC PyInit__kernels() {
   if (!add(module, signatures, "cycle_response", loop_cycle_response, 15, 5, cycle_response_in, cycle_response_out))
     return nullptr;
   if (!add(module, signatures, "rotor_orbit", loop_rotor_orbit, n_orbit_in, n_orbit_out, orbit_in, orbit_out))
+    return nullptr;
+  if (!add(module, signatures, "rotor_slopes", loop_rotor_slopes, n_slopes_in, n_slopes_out, slopes_in, slopes_out,
+           slopes_signature))
     return nullptr;
   if (!add(module, signatures, "rotor_history", loop_rotor_history, n_history_in, n_history_out, history_in, history_out,
            history_signature))

@@ -1,0 +1,150 @@
+"""How the figures of an operating point change with what it depends on: derivatives, carried along the orbit."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from trum_sym.drive import Drive
+from trum_sym.errors import ValidityWarning
+from trum_sym.kernels import call
+from trum_sym.motor import Motor
+from trum_sym.operating_point import Case, prepare
+from trum_sym.stator import Amplitude, Contact, Foundation, Levels, Resonance, Stator, solve_stator
+from trum_sym.validate import Array, ArrayLike
+
+__all__ = ["FIGURES", "PARAMETERS", "sensitivities"]
+
+PARAMETERS = (
+    "prepressure",
+    "frequency_difference",
+    "load_torque",
+    "friction_coefficient",
+    "amplitude",
+    "resonance_frequency",
+)
+FIGURES = ("mean_speed", "min_speed", "max_speed", "speed_volatility", "contact_fraction", "stall_torque")
+
+_TURN = 2 * np.pi
+_STATES = ("a_A", "b_A", "a_B", "b_B")
+_STEP = 1e-3  # of the stator's differences, relative: their error is its fourth power
+
+
+def sensitivities(
+    motor: Motor,
+    drive: Drive | None = None,
+    *,
+    contact: Contact = "winkler",
+    resonance: Resonance = "quartic",
+    foundation: Foundation = "harmonic",
+    amplitude: Amplitude = "measured",
+    tolerance: float = 1e-6,
+) -> dict[str, dict[str, Array]]:
+    """Derivatives of an operating point's figures.
+
+    The rotor's equation (38) is differentiated along its orbit together with the speed at which the orbit closes
+    (implicit function theorem).  What amplitude and resonance do when prepressure or frequency difference changes is
+    taken from the stator's closed forms by fourth-order differences.
+
+    Parameters
+    ----------
+    motor, drive, contact, resonance, foundation, amplitude
+        As for :func:`trum_sym.evaluate`; arrays broadcast.
+    tolerance : float
+        Of the orbit that is differentiated.
+
+    Returns
+    -------
+    dict
+        ``[figure][parameter]`` for all of :data:`FIGURES` and :data:`PARAMETERS`, in SI units (Hz for frequencies):
+        what ``evaluate``'s figure changes by, per change of the parameter.  Amplitude and resonance follow prepressure
+        and frequency difference as they do in ``evaluate``; under ``amplitude`` and ``resonance_frequency`` stands
+        what each does alone.  ``speed_volatility`` is the continuous one.  NaN where no speed balances the load.
+
+    Raises
+    ------
+    ParameterError
+        For bad input; names the parameter, what it got, what is allowed.
+    ConvergenceError
+        If the forced amplitude and the resonance do not settle.
+    """
+    levels = Levels(contact, resonance, foundation, amplitude)
+    case = prepare(motor, drive, levels, tolerance)
+    orbit = call("rotor_slopes", {**case.arguments, **_states(case)})
+    slopes = np.asarray(orbit["slopes"])
+    force, friction, radius, inertia = (np.asarray(case.symbols[name]) for name in ("F_c", "mu", "r_c", "J"))
+    alone = {
+        "prepressure": slopes[..., 0] / _column(force),
+        "frequency_difference": slopes[..., 1] * _TURN,
+        "load_torque": slopes[..., 2] * _column(radius / inertia),
+        "friction_coefficient": slopes[..., 3] / _column(friction),
+        "amplitude": slopes[..., 4] / _column(case.stator.W),
+        "resonance_frequency": slopes[..., 5] * _TURN,
+    }
+    for name in ("prepressure", "frequency_difference"):
+        d_omega_n, d_W = _following(case, levels, name)
+        alone[name] = alone[name] + alone["amplitude"] * _column(d_W)
+        alone[name] = alone[name] + alone["resonance_frequency"] * _column(d_omega_n / _TURN)
+    return _figures(case, orbit, alone)
+
+
+def _column(value: ArrayLike) -> Array:
+    """With a last axis for the figures."""
+    return np.asarray(value, np.float64)[..., np.newaxis]
+
+
+def _states(case: Case) -> dict[str, ArrayLike]:
+    """How the free motion before t1 follows the frequencies."""
+    rates: dict[str, ArrayLike] = {f"{state}_{by}": 0.0 for state in _STATES for by in ("omega_n", "Delta_omega")}
+    if case.drive.start == "steady":
+        return rates
+    return {**rates, **call(f"trum_start_{case.drive.start}_slopes", case.arguments)}
+
+
+def _following(case: Case, levels: Levels, name: str) -> tuple[Array, Array]:
+    """Derivatives of the resonance (rad/s) and the amplitude (m) by a field of the drive."""
+    value = np.asarray(getattr(case.drive, name), np.float64)
+    step = _STEP * (value if name == "prepressure" else np.asarray(case.stator.omega_n) / _TURN)
+
+    def at(shift: float) -> Stator:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", ValidityWarning)  # the point itself has warned
+            return solve_stator(case.motor, replace(case.drive, **{name: value + shift * step}), levels)
+
+    near, far = (at(1), at(-1)), (at(2), at(-2))
+
+    def derivative(of: Callable[[Stator], ArrayLike]) -> Array:
+        first, second = (np.subtract(of(up), of(down)) for up, down in (near, far))
+        return np.asarray((8 * first - second) / (12 * step))
+
+    return derivative(lambda stator: stator.omega_n), derivative(lambda stator: stator.W)
+
+
+def _figures(
+    case: Case, orbit: Mapping[str, ArrayLike], slopes: Mapping[str, Array]
+) -> dict[str, dict[str, Array]]:
+    """From rim speeds, variance and friction fraction to the rotor's figures."""
+    radius, force, friction = (np.asarray(case.symbols[name]) for name in ("r_c", "F_c", "mu"))
+    mean, held = np.asarray(orbit["mean"]), np.asarray(orbit["held"])
+    found: dict[str, dict[str, Array]] = {name: {} for name in FIGURES}
+    with np.errstate(all="ignore"):
+        deviation = np.sqrt(orbit["variance"])
+        for parameter, slope in slopes.items():
+            for place, name in enumerate(("mean_speed", "min_speed", "max_speed")):
+                found[name][parameter] = slope[..., place] / radius
+            of_deviation, of_mean = slope[..., 3] / (2 * deviation), slope[..., 0] * np.sign(mean)
+            volatility = (of_deviation - deviation * of_mean / np.abs(mean)) / np.abs(mean)
+            found["speed_volatility"][parameter] = volatility
+            found["contact_fraction"][parameter] = slope[..., 4]
+            stall = call("trum_stall_torque", {**case.symbols, "f": slope[..., 5]})["torque"]
+            if parameter in ("prepressure", "friction_coefficient"):  # the torque is in proportion to both
+                own = call("trum_stall_torque", {**case.symbols, "f": held})["torque"]
+                stall = stall + own / (force if parameter == "prepressure" else friction)
+            found["stall_torque"][parameter] = np.asarray(stall)
+    return {
+        name: {parameter: np.broadcast_to(value, case.shape) for parameter, value in of.items()}
+        for name, of in found.items()
+    }
