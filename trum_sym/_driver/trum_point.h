@@ -223,7 +223,7 @@ static inline enum trum_status trum_solve_point(const struct trum_motor* motor, 
 
   v[trum_at_W] = W;
   trum_orbit_of(drive, v, in);
-  trum_orbits(in, out, 1);
+  trum_orbits(in, out, 0, 0, 1);
   flags = (int)out->flags;
   v[trum_at_f] = (trum_real)out->held;
   trum_call_stall_torque(v);
