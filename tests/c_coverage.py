@@ -1,0 +1,159 @@
+"""Branch coverage of the generated C and of its drivers, by gcov.
+
+python tests/c_coverage.py          prints a table, and every branch of the drivers that nothing takes
+
+Every kernel is called with random arguments (which ``tests/test_generated.py`` compares with 50 digits, and
+``tests/test_c_library.py`` with these), with null arguments and results, and asked for its names; the drivers run
+through operating points at every level and edge.
+"""
+
+from __future__ import annotations
+
+import itertools
+import json
+import subprocess
+import sys
+import tempfile
+from collections import defaultdict
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+FLAGS = ["-std=c99", "-Wall", "-Wextra", "-Wconversion", "-pedantic", "-Werror"]
+FOLDERS = [ROOT / "generated", ROOT / "trum_sym" / "_driver", ROOT / "examples" / "c"]
+
+STARTS, CONTACTS = ("periodic", "steady", "rest"), ("winkler", "hertz")
+RESONANCES = ("quartic", "eq6", "printed", "euler")
+FOUNDATIONS = ("harmonic", "smeared", "printed", "none")
+HOSTILE = ("nan", "inf", "-inf", "0", "-1", "1e308", "-1e308", "1e-308", "1e30")
+
+
+def levels() -> list[str]:
+    """Table 3 at every level and start."""
+    every = itertools.product(STARTS, CONTACTS, RESONANCES, FOUNDATIONS)
+    found = [f"start={s} contact={c} resonance={r} foundation={f}" for s, c, r, f in every]
+    return found + [f"start={s} contact={c} amplitude=forced load_torque=0.05" for s in STARTS for c in CONTACTS]
+
+
+def edges() -> list[str]:
+    """Points that reach what Table 3 does not."""
+    return [
+        "tolerance=1e-9 load_torque=0.05",
+        "tolerance=1e-9 contact=hertz load_torque=0.05",
+        "tolerance=1e-6 start=rest load_torque=0.1 phase_lead=-1",
+        "load_torque=2",  # runaway
+        "load_torque=-2",
+        "load_torque=0 friction_coefficient=0",
+        "load_torque=0.01 friction_coefficient=0",
+        "prepressure=400 load_torque=0.1",
+        "prepressure=20 load_torque=0.01",
+        "prepressure=5000",  # the whole wave in contact
+        "prepressure=5000 contact=hertz",
+        "prepressure=50000 load_torque=0.1 start=rest",
+        "prepressure=50000 load_torque=0.1 start=rest contact=hertz amplitude=5e-6",
+        "on_periods=20 load_torque=0.05",
+        "on_periods=10 load_torque=0.05",
+        "periods=1 on_periods=1",
+        "periods=100 on_periods=60 load_torque=-0.1 switching_phase=1.3",
+        "rotor_inertia=1e-9 load_torque=0.05",
+        "rotor_inertia=1e-9 load_torque=0.05 tolerance=1e-6",
+        "rotor_inertia=10 load_torque=0.05",
+        "rotor_inertia=1e-14 load_torque=0.05 tolerance=1e-9",
+        "damping_ratio=0 start=rest",
+        "damping_ratio=0",
+        "damping_ratio=0 frequency_difference=0",
+        "damping_ratio=0 resonance_frequency=40000 frequency_difference=2000 periods=42 on_periods=21",
+        "frequency_difference=0 load_torque=0.05",
+        "frequency_difference=-36000",
+        "frequency_difference=-30000 load_torque=0.01",
+        "frequency_difference=-3000 phase_lead=-1 switching_phase=0.5 load_torque=-0.05",
+        "resonance_frequency=39703 amplitude=5.5e-6 neutral_axis=2.9e-3 wavenumber=300 layer_stiffness=3e10",
+        "resonance_frequency=39703 frequency_difference=3000 amplitude=5.5e-6 foundation=none",
+        "tooth_height=4.5e-3",
+        "fit_prepressure_min=220",
+        "slot_width=2.7e-3",
+        "on_periods=9",
+        "on_periods=21",
+        "phase_lead=0",
+        "tolerance=1",
+        "tolerance=1e-12",
+        "beam_density=1e300",
+        "voltage=1e30 amplitude=forced",
+        "voltage=1e-30 amplitude=forced",
+        "piezo_strain_constant=0 amplitude=forced",
+        "amplitude_factor=1e300",
+        "nothing=1",
+        "prepressure",
+        "prepressure=",
+        "start=never",
+        "start=period",
+        *(f"{name}={value}" for name in ("prepressure", "periods", "load_torque", "radius") for value in HOSTILE),
+        *(f"amplitude=forced damping_ratio={x} frequency_difference={d}" for x in (1e-6, 0.1) for d in (1, 300)),
+        *(f"start=rest load_torque={x} prepressure={f}" for x in (0, 0.05, 0.2) for f in (120, 250)),
+    ]
+
+
+def script() -> str:
+    """What the harness is told to do."""
+    lines = [f"point {line}" for line in ("", *levels(), *edges())]
+    lines += [f"simulate {count} load_torque=0.05 {more}" for count in (0, 1, 1000) for more in ("", "contact=hertz")]
+    lines += ["simulate 700 load_torque=0.05 start=rest tolerance=1e-6", "simulate 3 load_torque=2", "edges"]
+    return "\n".join(lines) + "\n"
+
+
+def build(folder: Path, flags: Iterable[str] = ()) -> Path:
+    """Compile the harness with the kernels."""
+    sources = [ROOT / "tests" / "c_coverage.c", *sorted((ROOT / "generated").glob("trum_*.c"))]
+    command = ["cc", *FLAGS, *flags, *(f"-I{path}" for path in FOLDERS), *map(str, sources), "-lm", "-o", "harness"]
+    subprocess.run(command, cwd=folder, check=True)
+    return folder / "harness"
+
+
+Branch = tuple[str, int, int]
+
+
+def measured(folder: Path) -> Mapping[str, Mapping[Branch, int]]:
+    """How often each branch was taken: by file, then by function, line and the branch's place in it."""
+    counts: dict[str, dict[Branch, int]] = defaultdict(lambda: defaultdict(int))
+    for notes in sorted(folder.glob("*.gcno")):
+        out = subprocess.run(
+            ["gcov", "--json-format", "--stdout", "--branch-probabilities", notes.name],
+            cwd=folder, check=True, capture_output=True, text=True,
+        ).stdout  # fmt: skip
+        for part in (json.loads(line) for line in out.splitlines() if line):
+            for file in part["files"]:
+                if ROOT not in Path(file["file"]).parents:
+                    continue
+                for line in file["lines"]:
+                    for place, branch in enumerate(line["branches"]):
+                        key = (line.get("function_name", ""), line["line_number"], place)
+                        counts[Path(file["file"]).name][key] += branch["count"]
+                    counts[Path(file["file"]).name]  # a file without branches is listed as well
+    return counts
+
+
+def main() -> int:
+    """Print the table; 1 if a branch of the generated C is never taken, or one of the drivers without a reason."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        harness = build(folder, ["-O0", "--coverage"])
+        subprocess.run([harness], input=script(), text=True, check=True, cwd=folder, capture_output=True)
+        counts = measured(folder)
+    print(f"{'file':32}{'branches':>10}{'taken':>8}{'share':>9}")
+    missing = 0
+    for file, branches in sorted(counts.items()):
+        taken = sum(count > 0 for count in branches.values())
+        share = 100.0 * taken / len(branches) if branches else 100.0
+        print(f"{file:32}{len(branches):10}{taken:8}{share:8.2f}%")
+    for file, branches in sorted(counts.items()):
+        paths = [path / file for path in (*FOLDERS, ROOT / "tests") if (path / file).exists()]
+        text = paths[0].read_text().splitlines()
+        never = sorted({line for (_, line, _), count in branches.items() if not count})
+        for line in never:
+            print(f"{file}:{line}: {text[line - 1].strip()}")
+            missing += file not in ("c_coverage.c", "main.c")
+    return int(missing > 0)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
