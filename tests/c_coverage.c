@@ -121,6 +121,13 @@ static void edges(void) {
   for (i = -1; i <= TRUM_STATUSES; ++i)
     expect((trum_status_text(i) != 0) == (i >= 0 && i < TRUM_STATUSES), "status texts");
 
+  expect(trum_half_angle(NAN, 1, 1, 1, 1) != trum_half_angle(NAN, 1, 1, 1, 1), "half-angle at no force");
+  expect(trum_half_angle(1, 1, NAN, 1, 1) != trum_half_angle(1, 1, NAN, 1, 1), "half-angle at no amplitude");
+  {
+    trum_sums sums = {1, 2, 3, 4};
+    trum_piece(0, &sums, 1, 1);
+    expect(sums.q_plus == 1 && sums.q_minus == 2, "a piece of no length");
+  }
   for (contact = 0; contact < 2; ++contact) { /* orbits of several points, of none, and with slopes */
     drive = trum_table3, drive.start = TRUM_START_STEADY, drive.contact = contact, drive.load_torque = (trum_real)0.05;
     expect(trum_solve_point(&motor, &drive, &point, &in, out) == TRUM_OK, "a point that converges");
@@ -136,6 +143,13 @@ static void edges(void) {
     trum_orbits(several, out, 0, 0, 3);
     expect(out[2].mean == out[0].mean && ((int)out[1].flags & trum_runaway), "several points");
     trum_orbits(several, out, 0, 0, 0);
+    {
+      trum_slopes_in with[3];
+      trum_slopes_out of[3];
+      memset(with, 0, sizeof with);
+      trum_orbits(several, out, with, of, 3);
+      expect(of[2].of[OF_MEAN][BY_DRAG] == slopes_out.of[OF_MEAN][BY_DRAG], "slopes of several points");
+    }
     several[1].a_A = NAN;
     trum_orbits(several + 1, out, 0, 0, 1);
     expect(!((int)out[0].flags & trum_converged), "an orbit of no number");

@@ -11,6 +11,8 @@ from __future__ import annotations
 
 import itertools
 import json
+import math
+import random
 import subprocess
 import sys
 import tempfile
@@ -82,6 +84,13 @@ def edges() -> list[str]:
         "voltage=1e-30 amplitude=forced",
         "piezo_strain_constant=0 amplitude=forced",
         "amplitude_factor=1e300",
+        "periods=20.5",
+        "damping_ratio=0 frequency_difference=-3000 start=rest",
+        "prepressure=1e5 resonance_frequency=40000",  # eq. 8 below zero
+        "resonance_frequency=40000 amplitude=5e-6 foundation=none beam_young_modulus=1e308 piezo_young_modulus=1e308",
+        "resonance_frequency=40000 amplitude=5e-6 foundation=none radius=1e-308",
+        "amplitude=forced foundation=smeared frequency_difference=5.053 prepressure=205.2 damping_ratio=0.000116 "
+        "voltage=1420 periods=4 on_periods=3",  # never settles
         "nothing=1",
         "prepressure",
         "prepressure=",
@@ -93,9 +102,36 @@ def edges() -> list[str]:
     ]
 
 
+def wild(count: int) -> list[str]:
+    """Points anywhere in a wide domain, finer than the default."""
+    rng = random.Random(20211110)
+    found = []
+    for i in range(count):
+        m = rng.randint(4, 40)
+        load = rng.uniform(-0.9, 0.9) * 0.0265 * 0.25 * 180
+        found.append(
+            f"rotor_inertia={10 ** rng.uniform(-9, 0)} friction_coefficient={rng.uniform(0.05, 0.5)} periods={m} "
+            f"on_periods={rng.randint((m + 1) // 2, m)} prepressure={rng.uniform(20, 400)} load_torque={load} "
+            f"frequency_difference={rng.uniform(-5000, 5000)} switching_phase={rng.uniform(0, 6.28)} "
+            f"phase_lead={rng.choice((-1, 1))} start={STARTS[i % 3]} contact={CONTACTS[i % 2]} "
+            f"tolerance={10 ** rng.uniform(-9, -2)}"
+        )
+    return found
+
+
+def friction() -> list[str]:
+    """The friction kernels where the crest is more than a turn off: pi below and above the range of atan2."""
+    found = []
+    for phi, v in itertools.product((-6.0, -3.0, 0.3, 3.0, 6.0), (-2.0, -0.5, 0.3, 0.9, 2.0)):
+        found.append(f"kernel trum_friction 1.2 {math.cos(phi)} 40 {phi} -38 {math.sin(phi)} 0.39 0.4 {v}")
+        found.append(f"kernel trum_friction_slopes 1.2 {math.cos(phi)} 40 {phi} -38 {math.sin(phi)} 0.39 0.4 {v}")
+    return found
+
+
 def script() -> str:
     """What the harness is told to do."""
-    lines = [f"point {line}" for line in ("", *levels(), *edges())]
+    lines = [f"point {line}" for line in ("", *levels(), *edges(), *wild(120))]
+    lines += friction()
     lines += [f"simulate {count} load_torque=0.05 {more}" for count in (0, 1, 1000) for more in ("", "contact=hertz")]
     lines += ["simulate 700 load_torque=0.05 start=rest tolerance=1e-6", "simulate 3 load_torque=2", "edges"]
     return "\n".join(lines) + "\n"

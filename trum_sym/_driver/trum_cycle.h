@@ -15,7 +15,7 @@ typedef void (*trum_curve)(void* of, trum_real x, trum_real* value, trum_real* s
 
 /* Newton on a bracketed root, with bisection whenever Newton leaves the bracket or stalls.
  * Zero counts as positive, so f(low) = 0 < f's later fall is no root yet; f(low) and f(high) have different signs in
- * that sense. */
+ * that sense, and 0 <= low < high. */
 static inline trum_real trum_bracketed_root(trum_curve f, void* of, trum_real low, trum_real high) {
   trum_real value, slope, smallest, x, width_before;
   int i, rising;
@@ -35,7 +35,7 @@ static inline trum_real trum_bracketed_root(trum_curve f, void* of, trum_real lo
     if (i % 3 == 2) width_before = width;
     if (!usable) next = (trum_real)0.5 * (low + high);
     change = next > x ? next - x : x - next;
-    if (width <= smallest || change <= (trum_real)2e-16 * (next < 0 ? -next : next)) return next;
+    if (width <= smallest || change <= (trum_real)2e-16 * next) return next;
     x = next;
   }
   return x;
