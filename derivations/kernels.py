@@ -6,14 +6,14 @@ expressions contain, sorted by name, so that nothing is listed twice.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cache
 
 import sympy as sp
 
 from derivations import amplitude, beam, contact, determinant, phases, rotor, section
-from derivations.nomenclature import CONSTANTS, NOMENCLATURE, sym
+from derivations.nomenclature import CONSTANTS, sym
 
 __all__ = ["Kernel", "kernels"]
 
@@ -197,7 +197,9 @@ def _frequencies(*following: str) -> dict[str, dict[sp.Symbol, sp.Expr]]:
     """Directions along which one frequency changes, and with it the symbols that are said to follow."""
     directions = {}
     for frequency in FREQUENCIES:
-        rates = {symbol: sym(f"{symbol.name}_{frequency}")[0] for symbol in sym(" ".join(following))} if following else {}
+        rates = (
+            {symbol: sym(f"{symbol.name}_{frequency}")[0] for symbol in sym(" ".join(following))} if following else {}
+        )
         directions[frequency] = {sym(frequency)[0]: sp.Integer(1), **rates}
     return directions
 
@@ -205,13 +207,18 @@ def _frequencies(*following: str) -> dict[str, dict[sp.Symbol, sp.Expr]]:
 def _slopes() -> list[Kernel]:
     """How phases and wave change with the frequencies, at a fixed share of a drive period."""
     before = {p: sym(f"a_{p} b_{p}") for p in phases.PHASES}
-    phasors = {}
+    phasors: dict[str, sp.Expr] = {}
     a, b = sym("a b")
     for p in phases.PHASES:
         for region, state in zip(phases.REGIONS, phases.propagate_cycle(p, before[p]), strict=False):
             at = {a: state[0], b: state[1]}
-            phasors |= {f"{part}_{p}_{region}": z.subs(at) for part, z in zip(("re", "im"), rotor.phasor(), strict=True)}
-    starts = {"periodic": phases.periodic_start, "rest": phases.rest_start}
+            phasors |= {
+                f"{part}_{p}_{region}": z.subs(at) for part, z in zip(("re", "im"), rotor.phasor(), strict=True)
+            }
+    starts: dict[str, Callable[[str], phases.State]] = {
+        "periodic": phases.periodic_start,
+        "rest": phases.rest_start,
+    }
     tau, omega_n, Delta_omega = sym("tau omega_n Delta_omega")
     in_time = _frequencies("f_A_re", "f_A_im", "f_B_re", "f_B_im")
     for rates in in_time.values():

@@ -246,7 +246,7 @@ def friction_slopes() -> dict[str, sp.Expr]:
     The pressure is E cos u + share inside theta, with the load balance E (sin theta - theta cos theta) = 1 and zero
     pressure at the edges, so moving those adds nothing: d share / d ln E = share - 1/theta, and d theta / d ln E =
     -1 / (E theta sin theta).  A whole wave in contact keeps theta = pi and share = 1/pi, and the same form holds.
-    E_height is d ln E / d ln W_c for the paper's Hertz width, where theta falls as the root of W_c; it is 1 for the layer.
+    E_height is d ln E / d ln W_c for the paper's Hertz width, where theta falls as the root of W_c; the layer's is 1.
     """
     points = _points()
     shares = [inside * (engagement * sin_u + (share - 1 / theta) * u) / 2 for _, u, sin_u, inside, _ in points]

@@ -146,6 +146,10 @@ def random_arguments(kernel, rng):
         d_re=0.8, d_im=0.5, W_c=5e-6, engagement=40.0, engagement_per_height=1e7, W_full=4e-7, share=-38.0,
         fullness=0.008, fullness_root=0.2, sin_theta=0.39, phi=0.2, cos_phi=0.98, sin_phi=0.2, R_v=1.2, v=0.3, f=0.4,
     )  # fmt: skip
+    for name, rate in (("a_A", 4e-11), ("b_A", 6e-6), ("a_B", -3e-11), ("b_B", 5e-6)):
+        usual |= {f"{name}_omega_n": rate, f"{name}_Delta_omega": -2 * rate}
+    for name in ("f_A_re", "f_A_im", "f_B_re", "f_B_im"):
+        usual |= {f"{name}_omega_n": 4e-11, f"{name}_Delta_omega": -5e-11}
     whole = {"m", "n", "s", "g_A", "g_B", "n_s", "n_j"}
     return {
         symbol.name: float(usual[symbol.name]) * (1.0 if symbol.name in whole else rng.uniform(0.8, 1.2))
@@ -153,19 +157,46 @@ def random_arguments(kernel, rng):
     }
 
 
-@pytest.mark.parametrize("kernel", kernels(), ids=lambda kernel: kernel.name)
-def test_compiled_kernel_agrees_with_its_expression_at_50_digits(kernel):
-    rng = np.random.default_rng(17)
-    names = list(kernel.inputs)
+def exact_outputs(kernel):
+    """The outputs' expressions as functions of 50-digit numbers."""
     constants = {symbol: sp.Float(value, 60) for symbol, value in CONSTANTS.items()}
-    exact = {
+    return {
         output: sp.lambdify(
-            names,
+            list(kernel.inputs),
             sp.sympify(expr).subs(constants).replace(expm1, expm1_exact),
             [{"less": lambda x, y: mp.mpf(x < y)}, "mpmath"],
         )
         for output, expr in kernel.outputs.items()
     }
+
+
+@pytest.mark.parametrize("kernel", [k for k in kernels() if k.along], ids=lambda kernel: kernel.name)
+def test_compiled_slopes_are_derivatives_at_50_digits(kernel):
+    """CasADi's derivative in double precision beside a difference quotient of the SymPy expression."""
+    rng, names = np.random.default_rng(17), list(kernel.inputs)
+    exact, step = exact_outputs(kernel), mp.mpf(10) ** -20
+    for _ in range(3):
+        arguments = random_arguments(kernel, rng)
+        ours = call(kernel.name, arguments)
+        with mp.workdps(60):
+            point = [mp.mpf(arguments[s.name]) for s in names]
+            for direction, rates in kernel.along.items():
+                rate = [
+                    sp.lambdify(names, sp.sympify(rates.get(symbol, sp.Integer(0))), "mpmath")(*point)
+                    for symbol in names
+                ]
+                ahead, behind = ([x + e * step * r for x, r in zip(point, rate, strict=True)] for e in (1, -1))
+                slopes = {name: (f(*ahead) - f(*behind)) / (2 * step) for name, f in exact.items()}
+                for name, value in slopes.items():
+                    size = max(abs(v) for other, v in slopes.items() if kernel.units[other] == kernel.units[name])
+                    assert abs(ours[f"{name}_{direction}"] - value) <= 1e-11 * size, (name, direction)
+
+
+@pytest.mark.parametrize("kernel", [k for k in kernels() if not k.along], ids=lambda kernel: kernel.name)
+def test_compiled_kernel_agrees_with_its_expression_at_50_digits(kernel):
+    rng = np.random.default_rng(17)
+    names = list(kernel.inputs)
+    exact = exact_outputs(kernel)
     for _ in range(20):
         arguments = random_arguments(kernel, rng)
         ours = call(kernel.name, arguments)

@@ -63,6 +63,8 @@ def sensitivities(
         what ``evaluate``'s figure changes by, per change of the parameter.  Amplitude and resonance follow prepressure
         and frequency difference as they do in ``evaluate``; under ``amplitude`` and ``resonance_frequency`` stands
         what each does alone.  ``speed_volatility`` is the continuous one.  NaN where no speed balances the load.
+        Those of ``contact_fraction`` are good to a percent only: theta's slope is infinite where a wave that shrinks
+        begins to touch with all of itself.
 
     Raises
     ------
@@ -112,7 +114,8 @@ def _following(case: Case, levels: Levels, name: str) -> tuple[Array, Array]:
     def at(shift: float) -> Stator:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", ValidityWarning)  # the point itself has warned
-            return solve_stator(case.motor, replace(case.drive, **{name: value + shift * step}), levels)
+            moved = {name: value + shift * step}
+            return solve_stator(case.motor, replace(case.drive, **moved), levels)  # type: ignore[arg-type]
 
     near, far = (at(1), at(-1)), (at(2), at(-2))
 
@@ -123,9 +126,7 @@ def _following(case: Case, levels: Levels, name: str) -> tuple[Array, Array]:
     return derivative(lambda stator: stator.omega_n), derivative(lambda stator: stator.W)
 
 
-def _figures(
-    case: Case, orbit: Mapping[str, ArrayLike], slopes: Mapping[str, Array]
-) -> dict[str, dict[str, Array]]:
+def _figures(case: Case, orbit: Mapping[str, ArrayLike], slopes: Mapping[str, Array]) -> dict[str, dict[str, Array]]:
     """From rim speeds, variance and friction fraction to the rotor's figures."""
     radius, force, friction = (np.asarray(case.symbols[name]) for name in ("r_c", "F_c", "mu"))
     mean, held = np.asarray(orbit["mean"]), np.asarray(orbit["held"])
