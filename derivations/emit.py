@@ -133,7 +133,14 @@ def _header() -> str:
     signature = "const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem"
     lines = [f"/* {_NOTE} */", "#ifndef TRUM_KERNELS_H", "#define TRUM_KERNELS_H", ""]
     lines += ["/* the numbers of kernels outside lanes: double, or casadi_real where the compiler is told one */"]
-    lines += ["#ifdef casadi_real", "typedef casadi_real trum_real;", "#else", "typedef double trum_real;", "#endif", ""]
+    lines += [
+        "#ifdef casadi_real",
+        "typedef casadi_real trum_real;",
+        "#else",
+        "typedef double trum_real;",
+        "#endif",
+        "",
+    ]
     lines += ["#ifdef __cplusplus", 'extern "C" {', "#endif", ""]
     rows = []
     for kernel in kernels():

@@ -81,14 +81,14 @@ def _values(kernels: tuple[Kernel, ...]) -> list[str]:
     """One position for every symbol, and every kernel called on a table of them."""
     symbols = {spec.symbol for spec in SPECS.values()} | set(_DRIVE_SYMBOLS.values())
     for kernel in kernels:
-        symbols |= {symbol.name for symbol in kernel.inputs} | set(kernel.outputs)
+        symbols |= {symbol.name for symbol in kernel.inputs} | set(kernel.results)
     lines = ["#ifndef TRUM_VALUES_H", "#define TRUM_VALUES_H", '#include "trum_kernels.h"', ""]
     lines += ["/* the position of every symbol in a table of values */", "enum {"]
     lines += [f"  trum_at_{name}," for name in sorted(symbols)]
     lines += ["  TRUM_VALUES", "};", "", "/* kernels on such a table */"]
     for kernel in kernels:
         inputs = ", ".join(f"v + trum_at_{symbol.name}" for symbol in kernel.inputs)
-        outputs = ", ".join(f"v + trum_at_{name}" for name in kernel.outputs)
+        outputs = ", ".join(f"v + trum_at_{name}" for name in kernel.results)
         lines += [
             f"static inline void trum_call_{kernel.name.removeprefix('trum_')}(trum_real* v) {{",
             f"  const trum_real* arg[{kernel.name}_n_arg] = {{{inputs}}};",

@@ -28,11 +28,15 @@ enum {
   trum_at_Q_rate,
   trum_at_R,
   trum_at_R_v,
+  trum_at_R_v_Delta_omega,
+  trum_at_R_v_omega_n,
   trum_at_T,
   trum_at_T_load,
   trum_at_U_s,
   trum_at_W,
   trum_at_W_c,
+  trum_at_W_c_Delta_omega,
+  trum_at_W_c_omega_n,
   trum_at_W_full,
   trum_at_W_full_hertz,
   trum_at_W_full_winkler,
@@ -111,12 +115,18 @@ enum {
   trum_at_h_t,
   trum_at_harmonic,
   trum_at_im,
-  trum_at_im_A_add,
-  trum_at_im_A_addredu,
-  trum_at_im_A_redu,
-  trum_at_im_B_add,
-  trum_at_im_B_addredu,
-  trum_at_im_B_redu,
+  trum_at_im_A_add_Delta_omega,
+  trum_at_im_A_add_omega_n,
+  trum_at_im_A_addredu_Delta_omega,
+  trum_at_im_A_addredu_omega_n,
+  trum_at_im_A_redu_Delta_omega,
+  trum_at_im_A_redu_omega_n,
+  trum_at_im_B_add_Delta_omega,
+  trum_at_im_B_add_omega_n,
+  trum_at_im_B_addredu_Delta_omega,
+  trum_at_im_B_addredu_omega_n,
+  trum_at_im_B_redu_Delta_omega,
+  trum_at_im_B_redu_omega_n,
   trum_at_k_N,
   trum_at_k_c,
   trum_at_k_dx,
@@ -140,6 +150,8 @@ enum {
   trum_at_p_plus,
   trum_at_p_re,
   trum_at_phi,
+  trum_at_phi_Delta_omega,
+  trum_at_phi_omega_n,
   trum_at_printed,
   trum_at_psi,
   trum_at_push,
@@ -153,12 +165,18 @@ enum {
   trum_at_r_c,
   trum_at_r_t,
   trum_at_re,
-  trum_at_re_A_add,
-  trum_at_re_A_addredu,
-  trum_at_re_A_redu,
-  trum_at_re_B_add,
-  trum_at_re_B_addredu,
-  trum_at_re_B_redu,
+  trum_at_re_A_add_Delta_omega,
+  trum_at_re_A_add_omega_n,
+  trum_at_re_A_addredu_Delta_omega,
+  trum_at_re_A_addredu_omega_n,
+  trum_at_re_A_redu_Delta_omega,
+  trum_at_re_A_redu_omega_n,
+  trum_at_re_B_add_Delta_omega,
+  trum_at_re_B_add_omega_n,
+  trum_at_re_B_addredu_Delta_omega,
+  trum_at_re_B_addredu_omega_n,
+  trum_at_re_B_redu_Delta_omega,
+  trum_at_re_B_redu_omega_n,
   trum_at_repetition,
   trum_at_residual,
   trum_at_rho,
@@ -342,25 +360,25 @@ static inline void trum_call_friction(trum_real* v) {
 
 static inline void trum_call_start_periodic_slopes(trum_real* v) {
   const trum_real* arg[trum_start_periodic_slopes_n_arg] = {v + trum_at_Delta_omega, v + trum_at_W, v + trum_at_m, v + trum_at_n, v + trum_at_omega_n, v + trum_at_psi, v + trum_at_s, v + trum_at_xi};
-  trum_real* res[trum_start_periodic_slopes_n_res] = {v + trum_at_a_A, v + trum_at_b_A, v + trum_at_a_B, v + trum_at_b_B};
+  trum_real* res[trum_start_periodic_slopes_n_res] = {v + trum_at_a_A_omega_n, v + trum_at_b_A_omega_n, v + trum_at_a_B_omega_n, v + trum_at_b_B_omega_n, v + trum_at_a_A_Delta_omega, v + trum_at_b_A_Delta_omega, v + trum_at_a_B_Delta_omega, v + trum_at_b_B_Delta_omega};
   trum_start_periodic_slopes(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_start_rest_slopes(trum_real* v) {
   const trum_real* arg[trum_start_rest_slopes_n_arg] = {v + trum_at_Delta_omega, v + trum_at_W, v + trum_at_omega_n, v + trum_at_psi, v + trum_at_s};
-  trum_real* res[trum_start_rest_slopes_n_res] = {v + trum_at_a_A, v + trum_at_b_A, v + trum_at_a_B, v + trum_at_b_B};
+  trum_real* res[trum_start_rest_slopes_n_res] = {v + trum_at_a_A_omega_n, v + trum_at_b_A_omega_n, v + trum_at_a_B_omega_n, v + trum_at_b_B_omega_n, v + trum_at_a_A_Delta_omega, v + trum_at_b_A_Delta_omega, v + trum_at_a_B_Delta_omega, v + trum_at_b_B_Delta_omega};
   trum_start_rest_slopes(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_regions_slopes(trum_real* v) {
   const trum_real* arg[trum_regions_slopes_n_arg] = {v + trum_at_Delta_omega, v + trum_at_W, v + trum_at_a_A, v + trum_at_a_A_Delta_omega, v + trum_at_a_A_omega_n, v + trum_at_a_B, v + trum_at_a_B_Delta_omega, v + trum_at_a_B_omega_n, v + trum_at_b_A, v + trum_at_b_A_Delta_omega, v + trum_at_b_A_omega_n, v + trum_at_b_B, v + trum_at_b_B_Delta_omega, v + trum_at_b_B_omega_n, v + trum_at_m, v + trum_at_n, v + trum_at_omega_n, v + trum_at_psi, v + trum_at_s, v + trum_at_xi};
-  trum_real* res[trum_regions_slopes_n_res] = {v + trum_at_re_A_redu, v + trum_at_im_A_redu, v + trum_at_re_A_addredu, v + trum_at_im_A_addredu, v + trum_at_re_A_add, v + trum_at_im_A_add, v + trum_at_re_B_redu, v + trum_at_im_B_redu, v + trum_at_re_B_addredu, v + trum_at_im_B_addredu, v + trum_at_re_B_add, v + trum_at_im_B_add};
+  trum_real* res[trum_regions_slopes_n_res] = {v + trum_at_re_A_redu_omega_n, v + trum_at_im_A_redu_omega_n, v + trum_at_re_A_addredu_omega_n, v + trum_at_im_A_addredu_omega_n, v + trum_at_re_A_add_omega_n, v + trum_at_im_A_add_omega_n, v + trum_at_re_B_redu_omega_n, v + trum_at_im_B_redu_omega_n, v + trum_at_re_B_addredu_omega_n, v + trum_at_im_B_addredu_omega_n, v + trum_at_re_B_add_omega_n, v + trum_at_im_B_add_omega_n, v + trum_at_re_A_redu_Delta_omega, v + trum_at_im_A_redu_Delta_omega, v + trum_at_re_A_addredu_Delta_omega, v + trum_at_im_A_addredu_Delta_omega, v + trum_at_re_A_add_Delta_omega, v + trum_at_im_A_add_Delta_omega, v + trum_at_re_B_redu_Delta_omega, v + trum_at_im_B_redu_Delta_omega, v + trum_at_re_B_addredu_Delta_omega, v + trum_at_im_B_addredu_Delta_omega, v + trum_at_re_B_add_Delta_omega, v + trum_at_im_B_add_Delta_omega};
   trum_regions_slopes(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_wave_slopes(trum_real* v) {
   const trum_real* arg[trum_wave_slopes_n_arg] = {v + trum_at_D, v + trum_at_Delta_omega, v + trum_at_W, v + trum_at_f_A_im, v + trum_at_f_A_im_Delta_omega, v + trum_at_f_A_im_omega_n, v + trum_at_f_A_re, v + trum_at_f_A_re_Delta_omega, v + trum_at_f_A_re_omega_n, v + trum_at_f_B_im, v + trum_at_f_B_im_Delta_omega, v + trum_at_f_B_im_omega_n, v + trum_at_f_B_re, v + trum_at_f_B_re_Delta_omega, v + trum_at_f_B_re_omega_n, v + trum_at_g_A, v + trum_at_g_B, v + trum_at_k_c, v + trum_at_omega_n, v + trum_at_p_im, v + trum_at_p_re, v + trum_at_s, v + trum_at_tau, v + trum_at_xi};
-  trum_real* res[trum_wave_slopes_n_res] = {v + trum_at_W_c, v + trum_at_R_v, v + trum_at_phi};
+  trum_real* res[trum_wave_slopes_n_res] = {v + trum_at_W_c_omega_n, v + trum_at_R_v_omega_n, v + trum_at_phi_omega_n, v + trum_at_W_c_Delta_omega, v + trum_at_R_v_Delta_omega, v + trum_at_phi_Delta_omega};
   trum_wave_slopes(arg, res, 0, 0, 0);
 }
 
