@@ -16,13 +16,39 @@ import random
 import subprocess
 import sys
 import tempfile
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 FLAGS = ["-std=c99", "-Wall", "-Wextra", "-Wconversion", "-pedantic", "-Werror"]
 FOLDERS = [ROOT / "generated", ROOT / "trum_sym" / "_driver", ROOT / "examples" / "c"]
+
+# Branches that no input takes, by the beginning of their line, and why
+ONE_LANE = "one lane: the batches of the Python package take it"
+LAPS = "a limit of the search for the orbit that no point tried has met"
+NEVER = {
+    "trum_cycle.h": {"for (i = 0; i < 200": "a bracket halved this often is closed before"},
+    "trum_orbit.h": {
+        "static int in_lane(": ONE_LANE,
+        "static mask sel_mask(": ONE_LANE,
+        "if (l->record && in_lane(accepted, 0))": ONE_LANE,
+        "if (!in_lane(ended, i)) continue;": ONE_LANE,
+        "const long point = i < count": ONE_LANE,
+        "jobs[i].slopes_out = slopes_out && i < count": ONE_LANE,
+        "trum_load(&l, i, &jobs[i], &in[point]": ONE_LANE,
+        "if (!busy[i]) put_mask(": ONE_LANE,
+        "if (i > 0) put_mask(": ONE_LANE,
+        "const int beyond = r->written == r->count": "rounding of a history's last time, which may fall to either side",
+        "z = z < 0.0 ? 0.0 : z > 1.0": "rounding of a history's times, which may fall to either side",
+        "close = away * away <=": LAPS,
+        "if (close && accurate && noise >": LAPS,
+        "} else if (close && (accurate || last)) {": LAPS,
+        "if (noise <= in->tolerance * top && !isnan(out->held))": LAPS,
+        "if (last) {": LAPS,
+        "if (in_lane(l.lost, 0) || get(&l.patience, 0)": "a history repeats a lap that came to its end",
+    },
+}
 
 STARTS, CONTACTS = ("periodic", "steady", "rest"), ("winkler", "hertz")
 RESONANCES = ("quartic", "eq6", "printed", "euler")
@@ -102,15 +128,15 @@ def edges() -> list[str]:
     ]
 
 
-def wild(count: int) -> list[str]:
-    """Points anywhere in a wide domain, finer than the default."""
-    rng = random.Random(20211110)
+def wild(count: int, seed: int = 20211110, inertia: tuple[float, float] = (-9, 0)) -> list[str]:
+    """Points anywhere in a wide domain, of any tolerance; the inertia by its exponents."""
+    rng = random.Random(seed)
     found = []
     for i in range(count):
         m = rng.randint(4, 40)
         load = rng.uniform(-0.9, 0.9) * 0.0265 * 0.25 * 180
         found.append(
-            f"rotor_inertia={10 ** rng.uniform(-9, 0)} friction_coefficient={rng.uniform(0.05, 0.5)} periods={m} "
+            f"rotor_inertia={10 ** rng.uniform(*inertia)} friction_coefficient={rng.uniform(0.05, 0.5)} periods={m} "
             f"on_periods={rng.randint((m + 1) // 2, m)} prepressure={rng.uniform(20, 400)} load_torque={load} "
             f"frequency_difference={rng.uniform(-5000, 5000)} switching_phase={rng.uniform(0, 6.28)} "
             f"phase_lead={rng.choice((-1, 1))} start={STARTS[i % 3]} contact={CONTACTS[i % 2]} "
@@ -130,7 +156,7 @@ def friction() -> list[str]:
 
 def script() -> str:
     """What the harness is told to do."""
-    lines = [f"point {line}" for line in ("", *levels(), *edges(), *wild(120))]
+    lines = [f"point {line}" for line in ("", *levels(), *edges(), *wild(120), *wild(40, 7, (-14, 5)))]
     lines += friction()
     lines += [f"simulate {count} load_torque=0.05 {more}" for count in (0, 1, 1000) for more in ("", "contact=hertz")]
     lines += ["simulate 700 load_torque=0.05 start=rest tolerance=1e-6", "simulate 3 load_torque=2", "edges"]
@@ -182,12 +208,15 @@ def main() -> int:
         share = 100.0 * taken / len(branches) if branches else 100.0
         print(f"{file:32}{len(branches):10}{taken:8}{share:8.2f}%")
     for file, branches in sorted(counts.items()):
-        paths = [path / file for path in (*FOLDERS, ROOT / "tests") if (path / file).exists()]
-        text = paths[0].read_text().splitlines()
-        never = sorted({line for (_, line, _), count in branches.items() if not count})
-        for line in never:
-            print(f"{file}:{line}: {text[line - 1].strip()}")
-            missing += file not in ("c_coverage.c", "main.c")
+        if file in ("c_coverage.c", "main.c"):  # their untaken branches are failures that did not happen
+            continue
+        path = next(folder / file for folder in FOLDERS if (folder / file).exists())
+        text = path.read_text().splitlines()
+        for line, sides in sorted(Counter(line for (_, line, _), count in branches.items() if not count).items()):
+            code = text[line - 1].strip()
+            reason = next((why for start, why in NEVER.get(file, {}).items() if code.startswith(start)), "")
+            missing += not reason
+            print(f"{file}:{line}, {sides} untaken, {reason or 'NO REASON'}: {code}")
     return int(missing > 0)
 
 
