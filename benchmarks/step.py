@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 import subprocess
 import tempfile
+from collections import Counter
 from collections.abc import Callable
 from functools import reduce
 from pathlib import Path
@@ -15,7 +16,7 @@ import sympy as sp
 
 import trum_sym as ts
 from benchmarks.rows import Row, measured
-from derivations.emit import GENERATED, casadi_function
+from derivations.emit import GENERATED, casadi_function, operations
 from derivations.kernels import Kernel, kernels
 from derivations.nomenclature import CONSTANTS
 from trum_sym import _kernels
@@ -229,14 +230,38 @@ def rows(repeats: int) -> list[Row]:
     add("CasADi VM, map", _casadi(chain, values))
     add("NumPy", _numpy(chain, values))
     add("Numba", _numba(chain, values))
-    # The driver's lanes: `_kernels.rotor_step_benchmark(steps) -> seconds`, the same step in the driver's own loop
-    hook = getattr(_kernels, "rotor_step_benchmark", None)
-    if hook is not None:
-        seconds = [hook(200 * BATCH) for _ in range(repeats + 1)][1:]
-        each = float(np.median(seconds)) / (200 * BATCH) * 1e9
-        spread = (max(seconds) - min(seconds)) / float(np.median(seconds))
-        found.append(Row(SECTION, "the driver's lanes", each, "ns", spread, scalar / each))
+    found += _lanes(chain, repeats, scalar)
     return found
+
+
+# Operations as CasADi counts them, by the operation of the lanes that they cost
+COST = {
+    "add": "add", "sub": "add", "neg": "add", "twice": "add", "mul": "mul", "sq": "mul", "div": "div", "inv": "div",
+    "sqrt": "sqrt", "fmin": "fmin", "fmax": "fmin", "lt": "lt", "fabs": "fabs", "sin": "sin", "cos": "cos",
+    "atan2": "atan2",
+}  # fmt: skip
+
+
+def _lanes(chain: list[Kernel], repeats: int, scalar: float) -> list[Row]:
+    """The driver's lanes, and the bound: every operation of a step at its own measured throughput."""
+    count = 400 * BATCH
+
+    def each(name: str) -> tuple[float, float]:
+        median, spread = measured(lambda: _kernels.step_benchmark(name, count), repeats)
+        return median / count * 1e9, spread
+
+    counts = Counter({"cbrt": 1})
+    for kernel in chain:
+        for name, times in operations(casadi_function(kernel)).items():
+            counts[COST[name]] += times
+    lanes, spread = each("step")
+    bound = sum(times * each(name)[0] for name, times in counts.items())
+    best = list(_kernels.instruction_sets())[-1].removeprefix("orbit_")
+    note = f"{best}; {100 * bound / lanes:.0f} % of the bound"
+    return [
+        Row(SECTION, "the driver's lanes", lanes, "ns", spread, scalar / lanes, note),
+        Row(SECTION, "throughput bound of its operations", bound, "ns", 0.0, scalar / bound, "measured one by one"),
+    ]
 
 
 def _agree(name: str, results: np.ndarray, expected: np.ndarray) -> None:

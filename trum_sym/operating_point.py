@@ -106,6 +106,7 @@ def evaluate(
     amplitude: Amplitude = "measured",
     sampling_period: ArrayLike | None = None,
     tolerance: float = 1e-3,
+    progress: bool = False,
 ) -> OperatingPoint:
     """The operating point of a motor under a drive.
 
@@ -127,6 +128,8 @@ def evaluate(
         Averaging period of the encoder behind ``speed_volatility``; continuous if not given.
     tolerance : float
         Of the mean speed and its extremes, relative to the largest speed; from 1e-9 to 1e-2.
+    progress : bool
+        Whether to show a bar on the standard error while many points are computed.
 
     Returns
     -------
@@ -154,7 +157,7 @@ def evaluate(
         "wavenumber": stator.k_c,
         **cycle_sums(case.values),
     }
-    orbit = solve_orbit(arguments, symbols)
+    orbit = solve_orbit(arguments, symbols, progress)
     deviation = np.sqrt(orbit.variance)
     if sampling_period is not None:
         deviation = _encoder(arguments, orbit, timing["T"], sampling_period) / np.asarray(symbols["r_c"])

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+import sys
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -59,33 +60,60 @@ def orbit_values(
     return {**modal, "D": stator["D"], "k_c": stator["k_c"], **shared, **of_contact, "tolerance": tolerance}
 
 
-def _batch(values: Mapping[str, ArrayLike]) -> dict[str, Array]:
-    """Call the driver with blocks of points, on all cores."""
+def _batch(values: Mapping[str, ArrayLike], progress: bool) -> dict[str, Array]:
+    """Call the driver with blocks of points, on all cores; between blocks it can be interrupted."""
     inputs, outputs = signature("rotor_orbit")
     columns = np.broadcast_arrays(*(np.asarray(values[name], np.float64) for name in inputs))
-    shape = columns[0].shape
-    flat = np.stack([column.ravel() for column in columns])
-    results = np.empty((len(outputs), flat.shape[1]))
+    shape, size = columns[0].shape, columns[0].size
+    flat = [column.ravel() if column.strides != (0,) * column.ndim else column.reshape(-1)[:1] for column in columns]
+    results = np.empty((len(outputs), size))
 
     def run(begin: int) -> None:
-        block = flat[:, begin : begin + _BLOCK]
-        found = call("rotor_orbit", dict(zip(inputs, block, strict=True)))
-        results[:, begin : begin + _BLOCK] = [found[name] for name in outputs]
+        block = {
+            name: column if column.size == 1 else column[begin : begin + _BLOCK]
+            for name, column in zip(inputs, flat, strict=True)
+        }
+        end = min(begin + _BLOCK, size)
+        found = call("rotor_orbit", block)
+        for row, name in zip(results, outputs, strict=True):
+            row[begin:end] = found[name]
 
-    starts = range(0, flat.shape[1], _BLOCK)
+    starts = range(0, size, _BLOCK)
     workers = min(len(starts), os.cpu_count() or 1)
     if workers > 1:
-        from concurrent.futures import ThreadPoolExecutor  # not needed, nor waited for, by a single point
-
-        with ThreadPoolExecutor(workers) as pool:
-            list(pool.map(run, starts))
+        _in_threads(run, starts, workers, progress)
     else:
         for begin in starts:
             run(begin)
     return {name: row.reshape(shape) for name, row in zip(outputs, results, strict=True)}
 
 
-def solve_orbit(values: Mapping[str, ArrayLike], stator: Mapping[str, ArrayLike]) -> Orbit:
+def _in_threads(run: Callable[[int], None], starts: range, workers: int, progress: bool) -> None:
+    from concurrent.futures import ThreadPoolExecutor, as_completed  # not waited for by a single point
+
+    with ThreadPoolExecutor(workers) as pool:
+        try:
+            tasks = [pool.submit(run, begin) for begin in starts]
+            if progress:
+                import click
+
+                with click.progressbar(
+                    length=len(tasks), label="orbits", file=sys.stderr, show_pos=False, update_min_steps=1
+                ) as bar:
+                    for task in as_completed(tasks):
+                        task.result()
+                        bar.update(1)
+            else:
+                for task in tasks:
+                    task.result()
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)  # what has begun ends by itself, within a block
+            raise
+
+
+def solve_orbit(
+    values: Mapping[str, ArrayLike], stator: Mapping[str, ArrayLike], progress: bool = False
+) -> Orbit:
     """The periodic orbit of every point.
 
     Parameters
@@ -94,8 +122,10 @@ def solve_orbit(values: Mapping[str, ArrayLike], stator: Mapping[str, ArrayLike]
         From :func:`orbit_values`.
     stator : mapping
         As there; the contact radius turns rim speeds into rotor speeds.
+    progress : bool
+        Whether to show a bar on the standard error while many points are computed.
     """
-    raw = _batch(values)
+    raw = _batch(values, progress)
     radius = np.asarray(stator["r_c"])
     flags = raw["flags"].astype(int)
     stall = np.asarray(call("trum_stall_torque", {**stator, "f": raw["held"]})["torque"])

@@ -9,6 +9,8 @@ struct OrbitCode {
   void (*orbits)(const double* in, double* out, const double* slopes_in, double* slopes, long count);
   // One cycle of a point's orbit: rim speed and distance since t1 at count equal times after t1.
   void (*history)(const double* in, const double* orbit, double* speed, double* distance, long count);
+  // For benchmarks: count steps of wave, contact and friction (0), or of one operation of a step (1 and on).
+  double (*steps)(int operation, long count);
   int lanes;
   const char* name;
 };

@@ -137,9 +137,8 @@ static void trum_turn(const trum_lanes* l, real tau, real* turn) {
   TRUM_KERNEL(trum_rotation)(arg, res, 0, 0, 0);
 }
 
-static void trum_look(const trum_lanes* l, real tau, trum_surface* at) {
-  real turn[4];
-  trum_turn(l, tau, turn);
+/* The surface once the phasors have turned. */
+static void trum_see(const trum_lanes* l, const real* turn, trum_surface* at) {
   {
     const real* arg[trum_wave_n_arg];
     real* res[trum_wave_n_res];
@@ -181,6 +180,12 @@ static void trum_look(const trum_lanes* l, real tau, trum_surface* at) {
     res[trum_contact_winkler_out_share] = &at->share;
     TRUM_KERNEL(trum_contact_winkler)(arg, res, 0, 0, 0);
   }
+}
+
+static void trum_look(const trum_lanes* l, real tau, trum_surface* at) {
+  real turn[4];
+  trum_turn(l, tau, turn);
+  trum_see(l, turn, at);
 }
 
 /* Friction fraction, its slope, and the larger and smaller pressure at the points as fast as the rotor: where the crest

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstring>
+#include <iterator>
 #include <vector>
 
 #include <numpy/arrayobject.h>
@@ -196,7 +197,20 @@ PyObject* instruction_sets(PyObject*, PyObject*) {
   return found;
 }
 
+// In the order of orbit.inc.
+constexpr const char* step_operations[] = {"step", "add", "mul", "div", "sqrt", "fmin", "lt", "fabs", "sin", "cos", "atan2", "cbrt"};
+
+PyObject* step_benchmark(PyObject*, PyObject* args) {
+  const char* name;
+  long count;
+  if (!PyArg_ParseTuple(args, "sl", &name, &count)) return nullptr;
+  for (int k = 0; k < static_cast<int>(std::size(step_operations)); ++k)
+    if (std::strcmp(step_operations[k], name) == 0) return PyFloat_FromDouble(orbit_code->steps(k, count));
+  return PyErr_Format(PyExc_ValueError, "%s is not an operation of a step", name);
+}
+
 PyMethodDef methods[] = {
+    {"step_benchmark", step_benchmark, METH_VARARGS, "Repeat a step of wave, contact and friction, or an operation of it."},
     {"use", use, METH_O, "Run the orbits on an instruction set of instruction_sets()."},
     {"instruction_sets", instruction_sets, METH_NOARGS, "The sets that this CPU has, slowest first, with their lanes."},
     {nullptr, nullptr, 0, nullptr}};
