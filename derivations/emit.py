@@ -18,6 +18,7 @@ import sympy as sp
 from derivations import collocation
 from derivations.dimensions import DimensionError, dimension
 from derivations.kernels import Kernel, kernels
+from derivations.library import headers
 from derivations.nomenclature import CONSTANTS, NOMENCLATURE
 from derivations.phases import GATES, PHASES, REGIONS
 from derivations.to_casadi import to_casadi
@@ -93,6 +94,7 @@ def operations(function: ca.Function) -> dict[str, int]:
 def _c_file(kernel: Kernel, function: ca.Function) -> str:
     generator = ca.CodeGenerator(f"{kernel.name}.c", {"with_header": False})
     generator.add(function)
+    code = _quiet(generator.dump())
     counts = operations(function)
     lines = [
         _NOTE,
@@ -105,7 +107,18 @@ def _c_file(kernel: Kernel, function: ca.Function) -> str:
         f"{sum(counts.values())} operations: " + ", ".join(f"{count} {name}" for name, count in counts.items()),
     ]
     header = "/* " + "\n".join(f" * {line}".rstrip() for line in lines)[3:] + "\n */\n"
-    return header + generator.dump().rstrip() + "\n"
+    return header + code.rstrip() + "\n"
+
+
+def _quiet(code: str) -> str:
+    """CasADi's text without its two kinds of warnings.
+
+    Parameters that its signature has and the kernel needs not are cast to void; a number in an expression takes
+    the type of its surroundings, so that the same text is single precision throughout with casadi_real = float.
+    """
+    code = re.sub(r"(casadi_int\* iw, casadi_real\* w, int mem\) \{\n)", r"\1  (void)iw, (void)w, (void)mem;\n", code)
+    code = re.sub(r"(_release\(int mem\) \{\n)", r"\1  (void)mem;\n", code)
+    return re.sub(r"(?<=[=(/*+-])(-?\d+\.\d*(?:e[+-]\d+)?)(?=[;)/*+-])", r"(casadi_real)\1", code)
 
 
 def _source_hash(kernel: Kernel) -> str:
@@ -117,8 +130,17 @@ def _source_hash(kernel: Kernel) -> str:
 
 def _header() -> str:
     """Prototypes, the position of every argument and result by name, one list of all kernels, the gates."""
-    signature = "const double** arg, double** res, long long int* iw, double* w, int mem"
+    signature = "const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem"
     lines = [f"/* {_NOTE} */", "#ifndef TRUM_KERNELS_H", "#define TRUM_KERNELS_H", ""]
+    lines += ["/* the numbers of kernels outside lanes: double, or casadi_real where the compiler is told one */"]
+    lines += [
+        "#ifdef casadi_real",
+        "typedef casadi_real trum_real;",
+        "#else",
+        "typedef double trum_real;",
+        "#endif",
+        "",
+    ]
     lines += ["#ifdef __cplusplus", 'extern "C" {', "#endif", ""]
     rows = []
     for kernel in kernels():
@@ -262,6 +284,7 @@ def render() -> dict[str, str]:
             }
         )
     files["trum_kernels.h"] = _header()
+    files.update(headers(kernels(), _NOTE))
     files["trum_lanes.h"] = _lanes(files)
     files["trum_quadrature.h"] = _quadrature()
     files["trum_elementary.h"] = _elementary()

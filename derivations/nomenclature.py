@@ -292,7 +292,7 @@ _LATEX = {entry.symbol: entry.latex for entry in NOMENCLATURE.values() if isinst
 # Keeps a quotient finite where both sides vanish; has whatever dimension it is added to.
 TINY = sp.Symbol("tiny", positive=True)
 # Symbols that are no arguments: their values in the kernels.
-CONSTANTS = {NOMENCLATURE["N_1"].symbol: 1.0, TINY: 1e-300}
+CONSTANTS = {NOMENCLATURE["N_1"].symbol: 1.0, TINY: 1e-37}
 
 
 def sym(names: str) -> tuple[sp.Symbol, ...]:

@@ -88,8 +88,9 @@ static const casadi_int casadi_s0[3] = {1, 1, 1};
 
 /* trum_amplitude_forced:(A,C_f,D,F_c,I_z,U_s,b_p,beta,d_31,h_e,h_p,k_c,omega_n,omega_q,rho,s_11E,varsigma,xi)->(W) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
+  (void)iw, (void)w, (void)mem;
   casadi_real a0, a1, a2, a3, a4, a5;
-  a0=-2.;
+  a0=(casadi_real)-2.;
   a1=arg[1]? arg[1][0] : 0;
   a0=(a0*a1);
   a1=arg[5]? arg[5][0] : 0;
@@ -109,14 +110,14 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a2=pow(a2,a3);
   a0=(a0*a2);
   a2=arg[2]? arg[2][0] : 0;
-  a2=(2.*a2);
+  a2=((casadi_real)2.*a2);
   a3=arg[9]? arg[9][0] : 0;
-  a3=(2.*a3);
+  a3=((casadi_real)2.*a3);
   a2=(a2-a3);
   a3=arg[10]? arg[10][0] : 0;
   a2=(a2-a3);
   a0=(a0*a2);
-  a2=3.1415926535897931e+00;
+  a2=(casadi_real)3.1415926535897931e+00;
   a3=arg[14]? arg[14][0] : 0;
   a2=(a2*a3);
   a3=arg[15]? arg[15][0] : 0;
@@ -130,7 +131,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a5=(a5*a1);
   a4=(a4+a5);
   a2=(a2*a4);
-  a4=4.;
+  a4=(casadi_real)4.;
   a5=arg[13]? arg[13][0] : 0;
   a5=casadi_sq(a5);
   a4=(a4*a5);
@@ -138,7 +139,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a1=casadi_sq(a1);
   a4=(a4*a1);
   a4=(a4/a3);
-  a1=1.;
+  a1=(casadi_real)1.;
   a5=(a5/a3);
   a1=(a1-a5);
   a1=casadi_sq(a1);
@@ -159,6 +160,7 @@ CASADI_SYMBOL_EXPORT int trum_amplitude_forced_checkout(void) {
 }
 
 CASADI_SYMBOL_EXPORT void trum_amplitude_forced_release(int mem) {
+  (void)mem;
 }
 
 CASADI_SYMBOL_EXPORT void trum_amplitude_forced_incref(void) {

@@ -61,6 +61,7 @@ static const casadi_int casadi_s0[3] = {1, 1, 1};
 
 /* trum_amplitude_measured:(C_f,F_c,W_max,varsigma)->(W) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
+  (void)iw, (void)w, (void)mem;
   casadi_real a0, a1, a2;
   a0=arg[0]? arg[0][0] : 0;
   a1=arg[2]? arg[2][0] : 0;
@@ -83,6 +84,7 @@ CASADI_SYMBOL_EXPORT int trum_amplitude_measured_checkout(void) {
 }
 
 CASADI_SYMBOL_EXPORT void trum_amplitude_measured_release(int mem) {
+  (void)mem;
 }
 
 CASADI_SYMBOL_EXPORT void trum_amplitude_measured_incref(void) {

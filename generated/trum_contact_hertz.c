@@ -72,12 +72,13 @@ static const casadi_int casadi_s0[3] = {1, 1, 1};
 
 /* trum_contact_hertz:(W_c,W_full)->(theta,sin_theta,share,engagement) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
+  (void)iw, (void)w, (void)mem;
   casadi_real a0, a1, a2, a3, a4;
-  a0=3.1415926535897931e+00;
-  a1=1.;
+  a0=(casadi_real)3.1415926535897931e+00;
+  a1=(casadi_real)1.;
   a2=arg[1]? arg[1][0] : 0;
   a3=arg[0]? arg[0][0] : 0;
-  a4=1.0000000000000000e-300;
+  a4=(casadi_real)1.0000000000000001e-37;
   a3=(a3+a4);
   a2=(a2/a3);
   a1=casadi_fmin(a1,a2);
@@ -92,7 +93,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a2=(a2/a1);
   a2=(-a2);
   if (res[2]!=0) res[2][0]=a2;
-  a1=(1./a1);
+  a1=((casadi_real)1./a1);
   if (res[3]!=0) res[3][0]=a1;
   return 0;
 }
@@ -106,6 +107,7 @@ CASADI_SYMBOL_EXPORT int trum_contact_hertz_checkout(void) {
 }
 
 CASADI_SYMBOL_EXPORT void trum_contact_hertz_release(int mem) {
+  (void)mem;
 }
 
 CASADI_SYMBOL_EXPORT void trum_contact_hertz_incref(void) {

@@ -74,35 +74,36 @@ static const casadi_int casadi_s0[3] = {1, 1, 1};
 
 /* trum_contact_winkler:(fullness,fullness_root)->(theta,sin_theta,share) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
+  (void)iw, (void)w, (void)mem;
   casadi_real a0, a1, a2, a3, a4, a5, a6, a7, a8, a9;
-  a0=3.1415926535897931e+00;
-  a1=1.;
+  a0=(casadi_real)3.1415926535897931e+00;
+  a1=(casadi_real)1.;
   a2=arg[0]? arg[0][0] : 0;
   a1=(a1-a2);
   a1=sqrt(a1);
-  a3=3.8096815406274533e+00;
-  a4=8.6811867755963057e-01;
+  a3=(casadi_real)3.8096815406274533e+00;
+  a4=(casadi_real)8.6811867755963057e-01;
   a5=arg[1]? arg[1][0] : 0;
   a6=casadi_sq(a5);
   a4=(a4*a6);
   a3=(a3+a4);
-  a4=9.3928543567875100e-01;
+  a4=(casadi_real)9.3928543567875100e-01;
   a7=(a5*a6);
   a4=(a4*a7);
   a3=(a3+a4);
-  a4=1.7449649747820717e+00;
+  a4=(casadi_real)1.7449649747820717e+00;
   a4=(a4*a5);
-  a7=6.6808888230630159e-01;
+  a7=(casadi_real)6.6808888230630159e-01;
   a4=(a4-a7);
-  a7=8.6805554367516102e-01;
+  a7=(casadi_real)8.6805554367516102e-01;
   a7=(a7*a6);
   a4=(a4-a7);
   a4=(a1*a4);
   a3=(a3+a4);
-  a4=3.8572952340266262e+00;
+  a4=(casadi_real)3.8572952340266262e+00;
   a4=(a4*a5);
   a3=(a3-a4);
-  a4=3.4551510817602071e-01;
+  a4=(casadi_real)3.4551510817602071e-01;
   a6=casadi_sq(a6);
   a4=(a4*a6);
   a3=(a3-a4);
@@ -110,18 +111,18 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a3=(a0-a1);
   a4=sin(a1);
   a6=(a4*a3);
-  a5=(2.*a4);
+  a5=((casadi_real)2.*a4);
   a7=cos(a1);
-  a8=(2.*a7);
+  a8=((casadi_real)2.*a7);
   a8=(a8*a3);
   a5=(a5+a8);
-  a8=6.2831853071795862e+00;
+  a8=(casadi_real)6.2831853071795862e+00;
   a8=(a8*a2);
   a5=(a5-a8);
   a6=(a6*a5);
-  a5=1.0000000000000000e-300;
+  a5=(casadi_real)1.0000000000000001e-37;
   a8=casadi_sq(a4);
-  a8=(2.*a8);
+  a8=((casadi_real)2.*a8);
   a9=casadi_sq(a3);
   a8=(a8*a9);
   a5=(a5+a8);
@@ -139,7 +140,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a1=(a1+a3);
   a1=(a1-a0);
   a0=(a4*a1);
-  a3=2.;
+  a3=(casadi_real)2.;
   a0=(a0/a3);
   a0=(a7+a0);
   a0=(a1*a0);
@@ -164,6 +165,7 @@ CASADI_SYMBOL_EXPORT int trum_contact_winkler_checkout(void) {
 }
 
 CASADI_SYMBOL_EXPORT void trum_contact_winkler_release(int mem) {
+  (void)mem;
 }
 
 CASADI_SYMBOL_EXPORT void trum_contact_winkler_incref(void) {

@@ -61,12 +61,13 @@ static const casadi_int casadi_s0[3] = {1, 1, 1};
 
 /* trum_drive:(Delta_omega,m,omega_n)->(omega_q,T) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
+  (void)iw, (void)w, (void)mem;
   casadi_real a0, a1, a2;
   a0=arg[0]? arg[0][0] : 0;
   a1=arg[2]? arg[2][0] : 0;
   a0=(a0+a1);
   if (res[0]!=0) res[0][0]=a0;
-  a1=6.2831853071795862e+00;
+  a1=(casadi_real)6.2831853071795862e+00;
   a2=arg[1]? arg[1][0] : 0;
   a1=(a1*a2);
   a1=(a1/a0);
@@ -83,6 +84,7 @@ CASADI_SYMBOL_EXPORT int trum_drive_checkout(void) {
 }
 
 CASADI_SYMBOL_EXPORT void trum_drive_release(int mem) {
+  (void)mem;
 }
 
 CASADI_SYMBOL_EXPORT void trum_drive_incref(void) {

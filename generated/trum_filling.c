@@ -70,18 +70,19 @@ static const casadi_int casadi_s0[3] = {1, 1, 1};
 
 /* trum_filling:(W_c,engagement_per_height)->(engagement,fullness) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
+  (void)iw, (void)w, (void)mem;
   casadi_real a0, a1, a2, a3, a4;
   a0=arg[0]? arg[0][0] : 0;
   a1=arg[1]? arg[1][0] : 0;
   a2=(a0*a1);
   if (res[0]!=0) res[0][0]=a2;
-  a2=1.;
-  a3=1.0000000000000000e-300;
-  a4=3.1415926535897931e+00;
+  a2=(casadi_real)1.;
+  a3=(casadi_real)1.0000000000000001e-37;
+  a4=(casadi_real)3.1415926535897931e+00;
   a4=(a4*a0);
   a4=(a4*a1);
   a3=(a3+a4);
-  a3=(1./a3);
+  a3=((casadi_real)1./a3);
   a2=casadi_fmin(a2,a3);
   if (res[1]!=0) res[1][0]=a2;
   return 0;
@@ -96,6 +97,7 @@ CASADI_SYMBOL_EXPORT int trum_filling_checkout(void) {
 }
 
 CASADI_SYMBOL_EXPORT void trum_filling_release(int mem) {
+  (void)mem;
 }
 
 CASADI_SYMBOL_EXPORT void trum_filling_incref(void) {

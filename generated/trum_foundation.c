@@ -63,21 +63,22 @@ static const casadi_int casadi_s0[3] = {1, 1, 1};
 
 /* trum_foundation:(k_N,k_c,n_j,theta)->(harmonic,smeared,printed) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
+  (void)iw, (void)w, (void)mem;
   casadi_real a0, a1, a2, a3, a4;
   a0=arg[0]? arg[0][0] : 0;
   a1=arg[3]? arg[3][0] : 0;
   a2=(a0*a1);
-  a3=3.1415926535897931e+00;
+  a3=(casadi_real)3.1415926535897931e+00;
   a2=(a2/a3);
-  a3=(2.*a1);
+  a3=((casadi_real)2.*a1);
   a3=sin(a3);
   a3=(a0*a3);
-  a4=6.2831853071795862e+00;
+  a4=(casadi_real)6.2831853071795862e+00;
   a3=(a3/a4);
   a3=(a2-a3);
   if (res[0]!=0) res[0][0]=a3;
   if (res[1]!=0) res[1][0]=a2;
-  a0=(2.*a0);
+  a0=((casadi_real)2.*a0);
   a2=arg[2]? arg[2][0] : 0;
   a0=(a0*a2);
   a0=(a0*a1);
@@ -96,6 +97,7 @@ CASADI_SYMBOL_EXPORT int trum_foundation_checkout(void) {
 }
 
 CASADI_SYMBOL_EXPORT void trum_foundation_release(int mem) {
+  (void)mem;
 }
 
 CASADI_SYMBOL_EXPORT void trum_foundation_incref(void) {

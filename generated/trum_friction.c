@@ -102,16 +102,17 @@ static const casadi_int casadi_s0[3] = {1, 1, 1};
 
 /* trum_friction:(R_v,cos_phi,engagement,phi,share,sin_phi,sin_theta,theta,v)->(f,f_v,p_1,p_2) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
+  (void)iw, (void)w, (void)mem;
   casadi_real a00, a01, a02, a03, a04, a05, a06, a07, a08, a09, a10, a11;
   casadi_real a12, a13, a14, a15, a16, a17, a18, a19, a20, a21, a22, a23;
   casadi_real a24, a25, a26, a27;
-  a00=3.1415926535897931e+00;
+  a00=(casadi_real)3.1415926535897931e+00;
   a01=arg[3]? arg[3][0] : 0;
-  a02=1.;
-  a03=-1.;
+  a02=(casadi_real)1.;
+  a03=(casadi_real)-1.;
   a04=arg[8]? arg[8][0] : 0;
   a05=arg[0]? arg[0][0] : 0;
-  a06=1.0000000000000000e-300;
+  a06=(casadi_real)1.0000000000000001e-37;
   a07=(a05+a06);
   a07=(a04/a07);
   a07=casadi_fmin(a02,a07);
@@ -122,11 +123,11 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a08=atan2(a07,a03);
   a09=(a01+a08);
   a10=(a00<a09);
-  a11=(2.*a10);
+  a11=((casadi_real)2.*a10);
   a12=(a01-a08);
-  a13=-3.1415926535897931e+00;
+  a13=(casadi_real)-3.1415926535897931e+00;
   a14=(a12<a13);
-  a15=(2.*a14);
+  a15=((casadi_real)2.*a14);
   a11=(a11+a15);
   a15=arg[2]? arg[2][0] : 0;
   a16=arg[5]? arg[5][0] : 0;
@@ -134,7 +135,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a18=arg[1]? arg[1][0] : 0;
   a19=(a18*a07);
   a20=(a17+a19);
-  a21=6.2831853071795862e+00;
+  a21=(casadi_real)6.2831853071795862e+00;
   a13=(a09<a13);
   a10=(a10-a13);
   a10=(a21*a10);
@@ -144,9 +145,9 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a10=(a10<a22);
   a20=(a20*a10);
   a23=arg[6]? arg[6][0] : 0;
-  a24=0.;
+  a24=(casadi_real)0.;
   a25=(a24<a09);
-  a25=(2.*a25);
+  a25=((casadi_real)2.*a25);
   a25=(a25-a02);
   a26=(a23*a25);
   a27=(a02-a10);
@@ -163,9 +164,9 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a11=(a11+a09);
   a11=(a11-a02);
   a00=(a00<a12);
-  a09=(2.*a00);
+  a09=((casadi_real)2.*a00);
   a11=(a11-a09);
-  a13=(2.*a13);
+  a13=((casadi_real)2.*a13);
   a11=(a11-a13);
   a17=(a17-a19);
   a00=(a00-a14);
@@ -177,7 +178,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a17=(a17*a08);
   a12=(a12-a21);
   a21=(a24<a12);
-  a21=(2.*a21);
+  a21=((casadi_real)2.*a21);
   a21=(a21-a02);
   a23=(a23*a21);
   a02=(a02-a08);
@@ -192,7 +193,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a12=(a20*a12);
   a11=(a11-a12);
   if (res[0]!=0) res[0][0]=a11;
-  a11=-2.;
+  a11=(casadi_real)-2.;
   a04=casadi_fabs(a04);
   a04=(a04<a05);
   a11=(a11*a04);
@@ -202,7 +203,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a03=(a15*a03);
   a03=(a20+a03);
   a04=casadi_fmax(a24,a03);
-  a12=2.;
+  a12=(casadi_real)2.;
   a04=(a04/a12);
   a18=(a18-a16);
   a15=(a15*a18);
@@ -229,6 +230,7 @@ CASADI_SYMBOL_EXPORT int trum_friction_checkout(void) {
 }
 
 CASADI_SYMBOL_EXPORT void trum_friction_release(int mem) {
+  (void)mem;
 }
 
 CASADI_SYMBOL_EXPORT void trum_friction_incref(void) {

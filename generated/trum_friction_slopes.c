@@ -102,17 +102,18 @@ static const casadi_int casadi_s0[3] = {1, 1, 1};
 
 /* trum_friction_slopes:(R_v,cos_phi,engagement,phi,share,sin_phi,sin_theta,theta,v)->(f_phi,f_E,theta_E,E_height) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
+  (void)iw, (void)w, (void)mem;
   casadi_real a00, a01, a02, a03, a04, a05, a06, a07, a08, a09, a10, a11;
   casadi_real a12, a13, a14, a15, a16, a17, a18, a19;
-  a00=0.;
+  a00=(casadi_real)0.;
   a01=arg[4]? arg[4][0] : 0;
   a02=arg[2]? arg[2][0] : 0;
   a03=arg[1]? arg[1][0] : 0;
-  a04=-1.;
-  a05=1.;
+  a04=(casadi_real)-1.;
+  a05=(casadi_real)1.;
   a06=arg[8]? arg[8][0] : 0;
   a07=arg[0]? arg[0][0] : 0;
-  a08=1.0000000000000000e-300;
+  a08=(casadi_real)1.0000000000000001e-37;
   a07=(a07+a08);
   a06=(a06/a07);
   a06=casadi_fmin(a05,a06);
@@ -136,10 +137,10 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a11=arg[3]? arg[3][0] : 0;
   a06=atan2(a09,a04);
   a10=(a11+a06);
-  a12=6.2831853071795862e+00;
-  a13=3.1415926535897931e+00;
+  a12=(casadi_real)6.2831853071795862e+00;
+  a13=(casadi_real)3.1415926535897931e+00;
   a14=(a13<a10);
-  a15=-3.1415926535897931e+00;
+  a15=(casadi_real)-3.1415926535897931e+00;
   a16=(a10<a15);
   a14=(a14-a16);
   a14=(a12*a14);
@@ -153,14 +154,14 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a09=(a09*a14);
   a04=arg[6]? arg[6][0] : 0;
   a17=(a00<a10);
-  a17=(2.*a17);
+  a17=((casadi_real)2.*a17);
   a17=(a17-a05);
   a18=(a04*a17);
   a19=(a05-a14);
   a18=(a18*a19);
   a09=(a09+a18);
   a09=(a02*a09);
-  a18=(1./a16);
+  a18=((casadi_real)1./a16);
   a01=(a01-a18);
   a10=(a10*a14);
   a17=(a16*a17);
@@ -182,7 +183,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a07=(a07*a06);
   a09=(a09-a12);
   a00=(a00<a09);
-  a00=(2.*a00);
+  a00=((casadi_real)2.*a00);
   a00=(a00-a05);
   a12=(a04*a00);
   a05=(a05-a06);
@@ -207,7 +208,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   if (res[2]!=0) res[2][0]=a13;
   a16=casadi_sq(a16);
   a02=(a02*a16);
-  a16=2.;
+  a16=(casadi_real)2.;
   a02=(a02/a16);
   if (res[3]!=0) res[3][0]=a02;
   return 0;
@@ -222,6 +223,7 @@ CASADI_SYMBOL_EXPORT int trum_friction_slopes_checkout(void) {
 }
 
 CASADI_SYMBOL_EXPORT void trum_friction_slopes_release(int mem) {
+  (void)mem;
 }
 
 CASADI_SYMBOL_EXPORT void trum_friction_slopes_incref(void) {

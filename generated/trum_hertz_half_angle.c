@@ -70,9 +70,10 @@ static const casadi_int casadi_s0[3] = {1, 1, 1};
 
 /* trum_hertz_half_angle:(E_eq,E_m,F_c,W,b_m,k_c,mu_e,mu_m,n_j,r_t)->(theta) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
+  (void)iw, (void)w, (void)mem;
   casadi_real a0, a1, a2, a3;
-  a0=1.4142135623730951e+00;
-  a1=4.;
+  a0=(casadi_real)1.4142135623730951e+00;
+  a1=(casadi_real)4.;
   a2=arg[5]? arg[5][0] : 0;
   a1=(a1*a2);
   a2=arg[9]? arg[9][0] : 0;
@@ -81,7 +82,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a1=arg[2]? arg[2][0] : 0;
   a1=sqrt(a1);
   a0=(a0*a1);
-  a1=1.;
+  a1=(casadi_real)1.;
   a2=arg[6]? arg[6][0] : 0;
   a2=casadi_sq(a2);
   a2=(a1-a2);
@@ -95,7 +96,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a2=(a2+a1);
   a2=sqrt(a2);
   a0=(a0*a2);
-  a2=5.;
+  a2=(casadi_real)5.;
   a1=arg[3]? arg[3][0] : 0;
   a1=sqrt(a1);
   a2=(a2*a1);
@@ -120,6 +121,7 @@ CASADI_SYMBOL_EXPORT int trum_hertz_half_angle_checkout(void) {
 }
 
 CASADI_SYMBOL_EXPORT void trum_hertz_half_angle_release(int mem) {
+  (void)mem;
 }
 
 CASADI_SYMBOL_EXPORT void trum_hertz_half_angle_incref(void) {

@@ -2,157 +2,164 @@
 #ifndef TRUM_KERNELS_H
 #define TRUM_KERNELS_H
 
+/* the numbers of kernels outside lanes: double, or casadi_real where the compiler is told one */
+#ifdef casadi_real
+typedef casadi_real trum_real;
+#else
+typedef double trum_real;
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 /* Neutral axis (eq. 1) */
-int trum_neutral_axis(const double** arg, double** res, long long int* iw, double* w, int mem);
+int trum_neutral_axis(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_neutral_axis_in_E_e, trum_neutral_axis_in_E_p, trum_neutral_axis_in_b_e, trum_neutral_axis_in_b_p, trum_neutral_axis_in_h_e, trum_neutral_axis_in_h_p, trum_neutral_axis_in_h_t, trum_neutral_axis_n_arg };
 enum { trum_neutral_axis_out_D, trum_neutral_axis_n_res };
 
 /* Composite section (eq. 2) */
-int trum_section(const double** arg, double** res, long long int* iw, double* w, int mem);
+int trum_section(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_section_in_D, trum_section_in_E_e, trum_section_in_E_p, trum_section_in_G_e, trum_section_in_G_p, trum_section_in_b_e, trum_section_in_b_p, trum_section_in_b_s, trum_section_in_h_e, trum_section_in_h_p, trum_section_in_h_t, trum_section_in_l_s, trum_section_in_n_s, trum_section_in_rho_e, trum_section_in_rho_p, trum_section_n_arg };
 enum { trum_section_out_E, trum_section_out_rho, trum_section_out_I_z, trum_section_out_G, trum_section_out_A, trum_section_out_E_eq, trum_section_n_res };
 
 /* Wavenumber (below eq. 4) */
-int trum_wavenumber(const double** arg, double** res, long long int* iw, double* w, int mem);
+int trum_wavenumber(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_wavenumber_in_R, trum_wavenumber_in_n_j, trum_wavenumber_n_arg };
 enum { trum_wavenumber_out_k_c, trum_wavenumber_n_res };
 
 /* Resonance at every level (eqs. 3 to 6) and the mode's rotation ratio */
-int trum_resonance(const double** arg, double** res, long long int* iw, double* w, int mem);
+int trum_resonance(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_resonance_in_A, trum_resonance_in_E, trum_resonance_in_G, trum_resonance_in_I_z, trum_resonance_in_k_c, trum_resonance_in_k_dx, trum_resonance_in_k_f, trum_resonance_in_kappa, trum_resonance_in_rho, trum_resonance_n_arg };
 enum { trum_resonance_out_euler, trum_resonance_out_printed, trum_resonance_out_eq6, trum_resonance_out_quartic, trum_resonance_out_beta, trum_resonance_n_res };
 
 /* Measured amplitude (eq. 8) */
-int trum_amplitude_measured(const double** arg, double** res, long long int* iw, double* w, int mem);
+int trum_amplitude_measured(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_amplitude_measured_in_C_f, trum_amplitude_measured_in_F_c, trum_amplitude_measured_in_W_max, trum_amplitude_measured_in_varsigma, trum_amplitude_measured_n_arg };
 enum { trum_amplitude_measured_out_W, trum_amplitude_measured_n_res };
 
 /* Forced amplitude (eqs. 7, 8) */
-int trum_amplitude_forced(const double** arg, double** res, long long int* iw, double* w, int mem);
+int trum_amplitude_forced(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_amplitude_forced_in_A, trum_amplitude_forced_in_C_f, trum_amplitude_forced_in_D, trum_amplitude_forced_in_F_c, trum_amplitude_forced_in_I_z, trum_amplitude_forced_in_U_s, trum_amplitude_forced_in_b_p, trum_amplitude_forced_in_beta, trum_amplitude_forced_in_d_31, trum_amplitude_forced_in_h_e, trum_amplitude_forced_in_h_p, trum_amplitude_forced_in_k_c, trum_amplitude_forced_in_omega_n, trum_amplitude_forced_in_omega_q, trum_amplitude_forced_in_rho, trum_amplitude_forced_in_s_11E, trum_amplitude_forced_in_varsigma, trum_amplitude_forced_in_xi, trum_amplitude_forced_n_arg };
 enum { trum_amplitude_forced_out_W, trum_amplitude_forced_n_res };
 
 /* Layer stiffness (eq. 30) */
-int trum_layer_stiffness(const double** arg, double** res, long long int* iw, double* w, int mem);
+int trum_layer_stiffness(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_layer_stiffness_in_E_m, trum_layer_stiffness_in_b_m, trum_layer_stiffness_in_h_m, trum_layer_stiffness_n_arg };
 enum { trum_layer_stiffness_out_k_N, trum_layer_stiffness_n_res };
 
 /* Load balance of the Winkler layer and its slope (eq. 31) */
-int trum_winkler_balance(const double** arg, double** res, long long int* iw, double* w, int mem);
+int trum_winkler_balance(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_winkler_balance_in_F_c, trum_winkler_balance_in_W, trum_winkler_balance_in_k_N, trum_winkler_balance_in_k_c, trum_winkler_balance_in_n_j, trum_winkler_balance_in_theta, trum_winkler_balance_n_arg };
 enum { trum_winkler_balance_out_residual, trum_winkler_balance_out_slope, trum_winkler_balance_n_res };
 
 /* Hertz half-angle (eqs. 25, 26) */
-int trum_hertz_half_angle(const double** arg, double** res, long long int* iw, double* w, int mem);
+int trum_hertz_half_angle(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_hertz_half_angle_in_E_eq, trum_hertz_half_angle_in_E_m, trum_hertz_half_angle_in_F_c, trum_hertz_half_angle_in_W, trum_hertz_half_angle_in_b_m, trum_hertz_half_angle_in_k_c, trum_hertz_half_angle_in_mu_e, trum_hertz_half_angle_in_mu_m, trum_hertz_half_angle_in_n_j, trum_hertz_half_angle_in_r_t, trum_hertz_half_angle_n_arg };
 enum { trum_hertz_half_angle_out_theta, trum_hertz_half_angle_n_res };
 
 /* Foundation stiffness by level */
-int trum_foundation(const double** arg, double** res, long long int* iw, double* w, int mem);
+int trum_foundation(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_foundation_in_k_N, trum_foundation_in_k_c, trum_foundation_in_n_j, trum_foundation_in_theta, trum_foundation_n_arg };
 enum { trum_foundation_out_harmonic, trum_foundation_out_smeared, trum_foundation_out_printed, trum_foundation_n_res };
 
 /* Drive frequency and cycle time */
-int trum_drive(const double** arg, double** res, long long int* iw, double* w, int mem);
+int trum_drive(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_drive_in_Delta_omega, trum_drive_in_m, trum_drive_in_omega_n, trum_drive_n_arg };
 enum { trum_drive_out_omega_q, trum_drive_out_T, trum_drive_n_res };
 
 /* Free motion before t1 that repeats itself every cycle, and how firmly the cycle fixes it */
-int trum_start_periodic(const double** arg, double** res, long long int* iw, double* w, int mem);
+int trum_start_periodic(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_start_periodic_in_Delta_omega, trum_start_periodic_in_W, trum_start_periodic_in_m, trum_start_periodic_in_n, trum_start_periodic_in_omega_n, trum_start_periodic_in_psi, trum_start_periodic_in_s, trum_start_periodic_in_xi, trum_start_periodic_n_arg };
 enum { trum_start_periodic_out_a_A, trum_start_periodic_out_b_A, trum_start_periodic_out_a_B, trum_start_periodic_out_b_B, trum_start_periodic_out_repetition, trum_start_periodic_n_res };
 
 /* Free motion before t1 of phases at rest */
-int trum_start_rest(const double** arg, double** res, long long int* iw, double* w, int mem);
+int trum_start_rest(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_start_rest_in_Delta_omega, trum_start_rest_in_W, trum_start_rest_in_omega_n, trum_start_rest_in_psi, trum_start_rest_in_s, trum_start_rest_n_arg };
 enum { trum_start_rest_out_a_A, trum_start_rest_out_b_A, trum_start_rest_out_a_B, trum_start_rest_out_b_B, trum_start_rest_n_res };
 
 /* Duration of each region; free motion at its start and at the cycle's end (eqs. 9, 10) */
-int trum_regions(const double** arg, double** res, long long int* iw, double* w, int mem);
+int trum_regions(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_regions_in_Delta_omega, trum_regions_in_W, trum_regions_in_a_A, trum_regions_in_a_B, trum_regions_in_b_A, trum_regions_in_b_B, trum_regions_in_m, trum_regions_in_n, trum_regions_in_omega_n, trum_regions_in_psi, trum_regions_in_s, trum_regions_in_xi, trum_regions_n_arg };
 enum { trum_regions_out_time_redu, trum_regions_out_time_addredu, trum_regions_out_time_add, trum_regions_out_a_A_redu, trum_regions_out_b_A_redu, trum_regions_out_a_B_redu, trum_regions_out_b_B_redu, trum_regions_out_a_A_addredu, trum_regions_out_b_A_addredu, trum_regions_out_a_B_addredu, trum_regions_out_b_B_addredu, trum_regions_out_a_A_add, trum_regions_out_b_A_add, trum_regions_out_a_B_add, trum_regions_out_b_B_add, trum_regions_out_a_A_end, trum_regions_out_b_A_end, trum_regions_out_a_B_end, trum_regions_out_b_B_end, trum_regions_n_res };
 
 /* Both phases within a region (eqs. 9, 10), determinant and its rate (eqs. 24, A5) */
-int trum_response(const double** arg, double** res, long long int* iw, double* w, int mem);
+int trum_response(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_response_in_D, trum_response_in_Delta_omega, trum_response_in_W, trum_response_in_a_A, trum_response_in_a_B, trum_response_in_b_A, trum_response_in_b_B, trum_response_in_g_A, trum_response_in_g_B, trum_response_in_k_c, trum_response_in_omega_n, trum_response_in_psi, trum_response_in_s, trum_response_in_tau, trum_response_in_xi, trum_response_n_arg };
 enum { trum_response_out_w_A, trum_response_out_w_B, trum_response_out_v_A, trum_response_out_v_B, trum_response_out_Q, trum_response_out_Q_rate, trum_response_n_res };
 
 /* Speed determinants Q_aver, Q_vib (eqs. 43, 44) and their ratios X, Y */
-int trum_measures(const double** arg, double** res, long long int* iw, double* w, int mem);
+int trum_measures(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_measures_in_T, trum_measures_in_p_minus, trum_measures_in_p_plus, trum_measures_in_q_minus, trum_measures_in_q_plus, trum_measures_n_arg };
 enum { trum_measures_out_q_ratio, trum_measures_out_q_square_ratio, trum_measures_out_q_average, trum_measures_out_q_volatility, trum_measures_n_res };
 
 /* Free motion as a phasor */
-int trum_phasor(const double** arg, double** res, long long int* iw, double* w, int mem);
+int trum_phasor(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_phasor_in_a, trum_phasor_in_b, trum_phasor_in_omega_n, trum_phasor_in_xi, trum_phasor_n_arg };
 enum { trum_phasor_out_re, trum_phasor_out_im, trum_phasor_n_res };
 
 /* Turn of free motion and drive in a time */
-int trum_rotation(const double** arg, double** res, long long int* iw, double* w, int mem);
+int trum_rotation(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_rotation_in_Delta_omega, trum_rotation_in_omega_n, trum_rotation_in_tau, trum_rotation_in_xi, trum_rotation_n_arg };
 enum { trum_rotation_out_e_re, trum_rotation_out_e_im, trum_rotation_out_d_re, trum_rotation_out_d_im, trum_rotation_n_res };
 
 /* What the steps of a point share (eqs. 25, 26, 38) */
-int trum_rotor_coefficients(const double** arg, double** res, long long int* iw, double* w, int mem);
+int trum_rotor_coefficients(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_rotor_coefficients_in_E_eq, trum_rotor_coefficients_in_E_m, trum_rotor_coefficients_in_F_c, trum_rotor_coefficients_in_J, trum_rotor_coefficients_in_T_load, trum_rotor_coefficients_in_b_m, trum_rotor_coefficients_in_k_N, trum_rotor_coefficients_in_k_c, trum_rotor_coefficients_in_mu, trum_rotor_coefficients_in_mu_e, trum_rotor_coefficients_in_mu_m, trum_rotor_coefficients_in_n_j, trum_rotor_coefficients_in_r_c, trum_rotor_coefficients_in_r_t, trum_rotor_coefficients_n_arg };
 enum { trum_rotor_coefficients_out_engagement_per_height, trum_rotor_coefficients_out_push, trum_rotor_coefficients_out_drag, trum_rotor_coefficients_out_W_full_hertz, trum_rotor_coefficients_out_W_full_winkler, trum_rotor_coefficients_n_res };
 
 /* Wave height and surface speed (eqs. 11, 16, 20) */
-int trum_wave(const double** arg, double** res, long long int* iw, double* w, int mem);
+int trum_wave(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_wave_in_D, trum_wave_in_Delta_omega, trum_wave_in_W, trum_wave_in_d_im, trum_wave_in_d_re, trum_wave_in_e_im, trum_wave_in_e_re, trum_wave_in_f_A_im, trum_wave_in_f_A_re, trum_wave_in_f_B_im, trum_wave_in_f_B_re, trum_wave_in_g_A, trum_wave_in_g_B, trum_wave_in_k_c, trum_wave_in_omega_n, trum_wave_in_p_im, trum_wave_in_p_re, trum_wave_in_s, trum_wave_in_xi, trum_wave_n_arg };
 enum { trum_wave_out_W_c, trum_wave_out_R_v, trum_wave_out_phi, trum_wave_out_cos_phi, trum_wave_out_sin_phi, trum_wave_n_res };
 
 /* How far the layer is engaged (eq. 31) */
-int trum_filling(const double** arg, double** res, long long int* iw, double* w, int mem);
+int trum_filling(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_filling_in_W_c, trum_filling_in_engagement_per_height, trum_filling_n_arg };
 enum { trum_filling_out_engagement, trum_filling_out_fullness, trum_filling_n_res };
 
 /* Contact of the Winkler layer (eqs. 30, 31) */
-int trum_contact_winkler(const double** arg, double** res, long long int* iw, double* w, int mem);
+int trum_contact_winkler(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_contact_winkler_in_fullness, trum_contact_winkler_in_fullness_root, trum_contact_winkler_n_arg };
 enum { trum_contact_winkler_out_theta, trum_contact_winkler_out_sin_theta, trum_contact_winkler_out_share, trum_contact_winkler_n_res };
 
 /* Contact of the paper's Hertz width (eqs. 25, 26, 30) */
-int trum_contact_hertz(const double** arg, double** res, long long int* iw, double* w, int mem);
+int trum_contact_hertz(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_contact_hertz_in_W_c, trum_contact_hertz_in_W_full, trum_contact_hertz_n_arg };
 enum { trum_contact_hertz_out_theta, trum_contact_hertz_out_sin_theta, trum_contact_hertz_out_share, trum_contact_hertz_out_engagement, trum_contact_hertz_n_res };
 
 /* Torque on a held rotor (eq. 38) */
-int trum_stall_torque(const double** arg, double** res, long long int* iw, double* w, int mem);
+int trum_stall_torque(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_stall_torque_in_F_c, trum_stall_torque_in_f, trum_stall_torque_in_mu, trum_stall_torque_in_r_c, trum_stall_torque_n_arg };
 enum { trum_stall_torque_out_torque, trum_stall_torque_n_res };
 
 /* Net friction fraction, its slope, pressure where the surface is as fast as the rotor (eqs. 33 to 37) */
-int trum_friction(const double** arg, double** res, long long int* iw, double* w, int mem);
+int trum_friction(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_friction_in_R_v, trum_friction_in_cos_phi, trum_friction_in_engagement, trum_friction_in_phi, trum_friction_in_share, trum_friction_in_sin_phi, trum_friction_in_sin_theta, trum_friction_in_theta, trum_friction_in_v, trum_friction_n_arg };
 enum { trum_friction_out_f, trum_friction_out_f_v, trum_friction_out_p_1, trum_friction_out_p_2, trum_friction_n_res };
 
 /* How the free motion before t1 follows the frequencies, start periodic */
-int trum_start_periodic_slopes(const double** arg, double** res, long long int* iw, double* w, int mem);
+int trum_start_periodic_slopes(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_start_periodic_slopes_in_Delta_omega, trum_start_periodic_slopes_in_W, trum_start_periodic_slopes_in_m, trum_start_periodic_slopes_in_n, trum_start_periodic_slopes_in_omega_n, trum_start_periodic_slopes_in_psi, trum_start_periodic_slopes_in_s, trum_start_periodic_slopes_in_xi, trum_start_periodic_slopes_n_arg };
 enum { trum_start_periodic_slopes_out_a_A_omega_n, trum_start_periodic_slopes_out_b_A_omega_n, trum_start_periodic_slopes_out_a_B_omega_n, trum_start_periodic_slopes_out_b_B_omega_n, trum_start_periodic_slopes_out_a_A_Delta_omega, trum_start_periodic_slopes_out_b_A_Delta_omega, trum_start_periodic_slopes_out_a_B_Delta_omega, trum_start_periodic_slopes_out_b_B_Delta_omega, trum_start_periodic_slopes_n_res };
 
 /* How the free motion before t1 follows the frequencies, start rest */
-int trum_start_rest_slopes(const double** arg, double** res, long long int* iw, double* w, int mem);
+int trum_start_rest_slopes(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_start_rest_slopes_in_Delta_omega, trum_start_rest_slopes_in_W, trum_start_rest_slopes_in_omega_n, trum_start_rest_slopes_in_psi, trum_start_rest_slopes_in_s, trum_start_rest_slopes_n_arg };
 enum { trum_start_rest_slopes_out_a_A_omega_n, trum_start_rest_slopes_out_b_A_omega_n, trum_start_rest_slopes_out_a_B_omega_n, trum_start_rest_slopes_out_b_B_omega_n, trum_start_rest_slopes_out_a_A_Delta_omega, trum_start_rest_slopes_out_b_A_Delta_omega, trum_start_rest_slopes_out_a_B_Delta_omega, trum_start_rest_slopes_out_b_B_Delta_omega, trum_start_rest_slopes_n_res };
 
 /* How the free motion's phasors at the start of the regions follow the frequencies */
-int trum_regions_slopes(const double** arg, double** res, long long int* iw, double* w, int mem);
+int trum_regions_slopes(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_regions_slopes_in_Delta_omega, trum_regions_slopes_in_W, trum_regions_slopes_in_a_A, trum_regions_slopes_in_a_A_Delta_omega, trum_regions_slopes_in_a_A_omega_n, trum_regions_slopes_in_a_B, trum_regions_slopes_in_a_B_Delta_omega, trum_regions_slopes_in_a_B_omega_n, trum_regions_slopes_in_b_A, trum_regions_slopes_in_b_A_Delta_omega, trum_regions_slopes_in_b_A_omega_n, trum_regions_slopes_in_b_B, trum_regions_slopes_in_b_B_Delta_omega, trum_regions_slopes_in_b_B_omega_n, trum_regions_slopes_in_m, trum_regions_slopes_in_n, trum_regions_slopes_in_omega_n, trum_regions_slopes_in_psi, trum_regions_slopes_in_s, trum_regions_slopes_in_xi, trum_regions_slopes_n_arg };
 enum { trum_regions_slopes_out_re_A_redu_omega_n, trum_regions_slopes_out_im_A_redu_omega_n, trum_regions_slopes_out_re_A_addredu_omega_n, trum_regions_slopes_out_im_A_addredu_omega_n, trum_regions_slopes_out_re_A_add_omega_n, trum_regions_slopes_out_im_A_add_omega_n, trum_regions_slopes_out_re_B_redu_omega_n, trum_regions_slopes_out_im_B_redu_omega_n, trum_regions_slopes_out_re_B_addredu_omega_n, trum_regions_slopes_out_im_B_addredu_omega_n, trum_regions_slopes_out_re_B_add_omega_n, trum_regions_slopes_out_im_B_add_omega_n, trum_regions_slopes_out_re_A_redu_Delta_omega, trum_regions_slopes_out_im_A_redu_Delta_omega, trum_regions_slopes_out_re_A_addredu_Delta_omega, trum_regions_slopes_out_im_A_addredu_Delta_omega, trum_regions_slopes_out_re_A_add_Delta_omega, trum_regions_slopes_out_im_A_add_Delta_omega, trum_regions_slopes_out_re_B_redu_Delta_omega, trum_regions_slopes_out_im_B_redu_Delta_omega, trum_regions_slopes_out_re_B_addredu_Delta_omega, trum_regions_slopes_out_im_B_addredu_Delta_omega, trum_regions_slopes_out_re_B_add_Delta_omega, trum_regions_slopes_out_im_B_add_Delta_omega, trum_regions_slopes_n_res };
 
 /* How the wave follows the frequencies, at a fixed share of a drive period */
-int trum_wave_slopes(const double** arg, double** res, long long int* iw, double* w, int mem);
+int trum_wave_slopes(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_wave_slopes_in_D, trum_wave_slopes_in_Delta_omega, trum_wave_slopes_in_W, trum_wave_slopes_in_f_A_im, trum_wave_slopes_in_f_A_im_Delta_omega, trum_wave_slopes_in_f_A_im_omega_n, trum_wave_slopes_in_f_A_re, trum_wave_slopes_in_f_A_re_Delta_omega, trum_wave_slopes_in_f_A_re_omega_n, trum_wave_slopes_in_f_B_im, trum_wave_slopes_in_f_B_im_Delta_omega, trum_wave_slopes_in_f_B_im_omega_n, trum_wave_slopes_in_f_B_re, trum_wave_slopes_in_f_B_re_Delta_omega, trum_wave_slopes_in_f_B_re_omega_n, trum_wave_slopes_in_g_A, trum_wave_slopes_in_g_B, trum_wave_slopes_in_k_c, trum_wave_slopes_in_omega_n, trum_wave_slopes_in_p_im, trum_wave_slopes_in_p_re, trum_wave_slopes_in_s, trum_wave_slopes_in_tau, trum_wave_slopes_in_xi, trum_wave_slopes_n_arg };
 enum { trum_wave_slopes_out_W_c_omega_n, trum_wave_slopes_out_R_v_omega_n, trum_wave_slopes_out_phi_omega_n, trum_wave_slopes_out_W_c_Delta_omega, trum_wave_slopes_out_R_v_Delta_omega, trum_wave_slopes_out_phi_Delta_omega, trum_wave_slopes_n_res };
 
 /* How friction and contact change with the angle phi and the logarithm of the engagement */
-int trum_friction_slopes(const double** arg, double** res, long long int* iw, double* w, int mem);
+int trum_friction_slopes(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_friction_slopes_in_R_v, trum_friction_slopes_in_cos_phi, trum_friction_slopes_in_engagement, trum_friction_slopes_in_phi, trum_friction_slopes_in_share, trum_friction_slopes_in_sin_phi, trum_friction_slopes_in_sin_theta, trum_friction_slopes_in_theta, trum_friction_slopes_in_v, trum_friction_slopes_n_arg };
 enum { trum_friction_slopes_out_f_phi, trum_friction_slopes_out_f_E, trum_friction_slopes_out_theta_E, trum_friction_slopes_out_E_height, trum_friction_slopes_n_res };
 

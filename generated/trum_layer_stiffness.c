@@ -60,6 +60,7 @@ static const casadi_int casadi_s0[3] = {1, 1, 1};
 
 /* trum_layer_stiffness:(E_m,b_m,h_m)->(k_N) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
+  (void)iw, (void)w, (void)mem;
   casadi_real a0, a1;
   a0=arg[0]? arg[0][0] : 0;
   a1=arg[1]? arg[1][0] : 0;
@@ -79,6 +80,7 @@ CASADI_SYMBOL_EXPORT int trum_layer_stiffness_checkout(void) {
 }
 
 CASADI_SYMBOL_EXPORT void trum_layer_stiffness_release(int mem) {
+  (void)mem;
 }
 
 CASADI_SYMBOL_EXPORT void trum_layer_stiffness_incref(void) {

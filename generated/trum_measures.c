@@ -75,6 +75,7 @@ static const casadi_int casadi_s0[3] = {1, 1, 1};
 
 /* trum_measures:(T,p_minus,p_plus,q_minus,q_plus)->(q_ratio,q_square_ratio,q_average,q_volatility) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
+  (void)iw, (void)w, (void)mem;
   casadi_real a0, a1, a2, a3, a4, a5;
   a0=arg[4]? arg[4][0] : 0;
   a1=arg[3]? arg[3][0] : 0;
@@ -112,6 +113,7 @@ CASADI_SYMBOL_EXPORT int trum_measures_checkout(void) {
 }
 
 CASADI_SYMBOL_EXPORT void trum_measures_release(int mem) {
+  (void)mem;
 }
 
 CASADI_SYMBOL_EXPORT void trum_measures_incref(void) {

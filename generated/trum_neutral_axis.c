@@ -67,6 +67,7 @@ static const casadi_int casadi_s0[3] = {1, 1, 1};
 
 /* trum_neutral_axis:(E_e,E_p,b_e,b_p,h_e,h_p,h_t)->(D) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
+  (void)iw, (void)w, (void)mem;
   casadi_real a0, a1, a2, a3, a4, a5, a6, a7;
   a0=arg[1]? arg[1][0] : 0;
   a1=arg[3]? arg[3][0] : 0;
@@ -74,7 +75,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a3=arg[5]? arg[5][0] : 0;
   a4=casadi_sq(a3);
   a4=(a2*a4);
-  a0=(2.*a0);
+  a0=((casadi_real)2.*a0);
   a0=(a0*a1);
   a1=arg[4]? arg[4][0] : 0;
   a0=(a0*a1);
@@ -85,7 +86,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a0=(a0*a5);
   a5=casadi_sq(a1);
   a5=(a0*a5);
-  a6=1.;
+  a6=(casadi_real)1.;
   a7=arg[6]? arg[6][0] : 0;
   a7=(a7/a1);
   a6=(a6-a7);
@@ -97,7 +98,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a0=(a0*a1);
   a0=(a0*a6);
   a2=(a2+a0);
-  a2=(2.*a2);
+  a2=((casadi_real)2.*a2);
   a4=(a4/a2);
   if (res[0]!=0) res[0][0]=a4;
   return 0;
@@ -112,6 +113,7 @@ CASADI_SYMBOL_EXPORT int trum_neutral_axis_checkout(void) {
 }
 
 CASADI_SYMBOL_EXPORT void trum_neutral_axis_release(int mem) {
+  (void)mem;
 }
 
 CASADI_SYMBOL_EXPORT void trum_neutral_axis_incref(void) {

@@ -65,6 +65,7 @@ static const casadi_int casadi_s0[3] = {1, 1, 1};
 
 /* trum_phasor:(a,b,omega_n,xi)->(re,im) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
+  (void)iw, (void)w, (void)mem;
   casadi_real a0, a1, a2, a3;
   a0=arg[0]? arg[0][0] : 0;
   if (res[0]!=0) res[0][0]=a0;
@@ -74,7 +75,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a3=arg[3]? arg[3][0] : 0;
   a0=(a0*a3);
   a1=(a1+a0);
-  a0=1.;
+  a0=(casadi_real)1.;
   a3=casadi_sq(a3);
   a0=(a0-a3);
   a0=sqrt(a0);
@@ -94,6 +95,7 @@ CASADI_SYMBOL_EXPORT int trum_phasor_checkout(void) {
 }
 
 CASADI_SYMBOL_EXPORT void trum_phasor_release(int mem) {
+  (void)mem;
 }
 
 CASADI_SYMBOL_EXPORT void trum_phasor_incref(void) {

@@ -90,9 +90,10 @@ static const casadi_int casadi_s0[3] = {1, 1, 1};
 
 /* trum_regions:(Delta_omega,W,a_A,a_B,b_A,b_B,m,n,omega_n,psi,s,xi)->(time_redu,time_addredu,time_add,a_A_redu,b_A_redu,a_B_redu,b_B_redu,a_A_addredu,b_A_addredu,a_B_addredu,b_B_addredu,a_A_add,b_A_add,a_B_add,b_B_add,a_A_end,b_A_end,a_B_end,b_B_end) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
+  (void)iw, (void)w, (void)mem;
   casadi_real a00, a01, a02, a03, a04, a05, a06, a07, a08, a09, a10, a11;
   casadi_real a12, a13, a14, a15, a16, a17, a18, a19, a20, a21, a22;
-  a00=6.2831853071795862e+00;
+  a00=(casadi_real)6.2831853071795862e+00;
   a01=arg[6]? arg[6][0] : 0;
   a02=arg[7]? arg[7][0] : 0;
   a03=(a01-a02);
@@ -103,7 +104,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a04=(a04/a05);
   if (res[0]!=0) res[0][0]=a04;
   if (res[1]!=0) res[1][0]=a04;
-  a02=(2.*a02);
+  a02=((casadi_real)2.*a02);
   a02=(a02-a01);
   a01=(a00*a02);
   a01=(a01/a05);
@@ -125,7 +126,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   if (res[5]!=0) res[5][0]=a13;
   a14=arg[5]? arg[5][0] : 0;
   if (res[6]!=0) res[6][0]=a14;
-  a15=-6.2831853071795862e+00;
+  a15=(casadi_real)-6.2831853071795862e+00;
   a15=(a15*a06);
   a16=arg[11]? arg[11][0] : 0;
   a15=(a15*a16);
@@ -134,7 +135,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a17=exp(a17);
   a00=(a00*a06);
   a03=(a00*a03);
-  a18=1.;
+  a18=(casadi_real)1.;
   a19=casadi_sq(a16);
   a18=(a18-a19);
   a18=sqrt(a18);
@@ -283,6 +284,7 @@ CASADI_SYMBOL_EXPORT int trum_regions_checkout(void) {
 }
 
 CASADI_SYMBOL_EXPORT void trum_regions_release(int mem) {
+  (void)mem;
 }
 
 CASADI_SYMBOL_EXPORT void trum_regions_incref(void) {

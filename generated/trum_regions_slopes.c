@@ -103,6 +103,7 @@ static const casadi_int casadi_s0[3] = {1, 1, 1};
 
 /* trum_regions_slopes:(Delta_omega,W,a_A,a_A_Delta_omega,a_A_omega_n,a_B,a_B_Delta_omega,a_B_omega_n,b_A,b_A_Delta_omega,b_A_omega_n,b_B,b_B_Delta_omega,b_B_omega_n,m,n,omega_n,psi,s,xi)->(re_A_redu_omega_n,im_A_redu_omega_n,re_A_addredu_omega_n,im_A_addredu_omega_n,re_A_add_omega_n,im_A_add_omega_n,re_B_redu_omega_n,im_B_redu_omega_n,re_B_addredu_omega_n,im_B_addredu_omega_n,re_B_add_omega_n,im_B_add_omega_n,re_A_redu_Delta_omega,im_A_redu_Delta_omega,re_A_addredu_Delta_omega,im_A_addredu_Delta_omega,re_A_add_Delta_omega,im_A_add_Delta_omega,re_B_redu_Delta_omega,im_B_redu_Delta_omega,re_B_addredu_Delta_omega,im_B_addredu_Delta_omega,re_B_add_Delta_omega,im_B_add_Delta_omega) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
+  (void)iw, (void)w, (void)mem;
   casadi_real a00, a01, a02, a03, a04, a05, a06, a07, a08, a09, a10, a11;
   casadi_real a12, a13, a14, a15, a16, a17, a18, a19, a20, a21, a22, a23;
   casadi_real a24, a25, a26, a27, a28, a29, a30, a31, a32, a33, a34, a35;
@@ -126,7 +127,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a13=(a12*a00);
   a10=(a10+a13);
   a06=(a06-a10);
-  a13=1.;
+  a13=(casadi_real)1.;
   a14=casadi_sq(a09);
   a13=(a13-a14);
   a13=sqrt(a13);
@@ -144,7 +145,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a18=(a18*a13);
   a06=(a06-a18);
   if (res[1]!=0) res[1][0]=a06;
-  a06=6.2831853071795862e+00;
+  a06=(casadi_real)6.2831853071795862e+00;
   a18=(a06*a11);
   a20=arg[14]? arg[14][0] : 0;
   a21=arg[15]? arg[15][0] : 0;
@@ -160,7 +161,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a24=(a19*a23);
   a24=(a24/a14);
   a22=(a22+a24);
-  a25=-6.2831853071795862e+00;
+  a25=(casadi_real)-6.2831853071795862e+00;
   a26=(a25*a11);
   a26=(a26*a09);
   a26=(a26*a20);
@@ -607,6 +608,7 @@ CASADI_SYMBOL_EXPORT int trum_regions_slopes_checkout(void) {
 }
 
 CASADI_SYMBOL_EXPORT void trum_regions_slopes_release(int mem) {
+  (void)mem;
 }
 
 CASADI_SYMBOL_EXPORT void trum_regions_slopes_incref(void) {

@@ -73,6 +73,7 @@ static const casadi_int casadi_s0[3] = {1, 1, 1};
 
 /* trum_resonance:(A,E,G,I_z,k_c,k_dx,k_f,kappa,rho)->(euler,printed,eq6,quartic,beta) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
+  (void)iw, (void)w, (void)mem;
   casadi_real a00, a01, a02, a03, a04, a05, a06, a07, a08, a09, a10, a11;
   casadi_real a12, a13, a14, a15, a16, a17, a18;
   a00=arg[6]? arg[6][0] : 0;
@@ -97,11 +98,11 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a09=sqrt(a09);
   a07=(a10*a12);
   a11=(a12*a05);
-  a13=(1./a01);
+  a13=((casadi_real)1./a01);
   a14=arg[2]? arg[2][0] : 0;
   a15=arg[7]? arg[7][0] : 0;
   a16=(a14*a15);
-  a17=(1./a16);
+  a17=((casadi_real)1./a16);
   a13=(a13+a17);
   a11=(a11*a13);
   a11=(a07+a11);
@@ -128,8 +129,8 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a18=sqrt(a17);
   a09=(a09/a18);
   if (res[2]!=0) res[2][0]=a09;
-  a09=(2.*a00);
-  a01=(2.*a01);
+  a09=((casadi_real)2.*a00);
+  a01=((casadi_real)2.*a01);
   a01=(a01*a02);
   a06=(a01*a06);
   a09=(a09+a06);
@@ -139,7 +140,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a09=(a09+a01);
   a01=sqrt(a09);
   a17=casadi_sq(a17);
-  a00=4.;
+  a00=(casadi_real)4.;
   a00=(a00*a02);
   a12=casadi_sq(a12);
   a00=(a00*a12);
@@ -149,7 +150,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a17=sqrt(a17);
   a07=(a07+a17);
   a07=(a07+a13);
-  a13=(1./a07);
+  a13=((casadi_real)1./a07);
   a13=sqrt(a13);
   a01=(a01*a13);
   if (res[3]!=0) res[3][0]=a01;
@@ -174,6 +175,7 @@ CASADI_SYMBOL_EXPORT int trum_resonance_checkout(void) {
 }
 
 CASADI_SYMBOL_EXPORT void trum_resonance_release(int mem) {
+  (void)mem;
 }
 
 CASADI_SYMBOL_EXPORT void trum_resonance_incref(void) {

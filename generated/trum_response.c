@@ -80,6 +80,7 @@ static const casadi_int casadi_s0[3] = {1, 1, 1};
 
 /* trum_response:(D,Delta_omega,W,a_A,a_B,b_A,b_B,g_A,g_B,k_c,omega_n,psi,s,tau,xi)->(w_A,w_B,v_A,v_B,Q,Q_rate) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
+  (void)iw, (void)w, (void)mem;
   casadi_real a00, a01, a02, a03, a04, a05, a06, a07, a08, a09, a10, a11;
   casadi_real a12, a13, a14, a15, a16, a17, a18, a19, a20, a21, a22, a23;
   casadi_real a24, a25, a26, a27, a28, a29, a30, a31;
@@ -101,7 +102,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a14=(-a13);
   a14=exp(a14);
   a15=arg[3]? arg[3][0] : 0;
-  a16=1.;
+  a16=(casadi_real)1.;
   a17=casadi_sq(a12);
   a18=(a16-a17);
   a18=sqrt(a18);
@@ -178,7 +179,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a30=(a30*a19);
   a30=(a30*a10);
   a14=(a14+a30);
-  a30=(2.*a26);
+  a30=((casadi_real)2.*a26);
   a30=(a30*a06);
   a09=(a30*a17);
   a09=(a09*a19);
@@ -189,7 +190,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a09=(a09*a20);
   a09=(a09*a24);
   a14=(a14+a09);
-  a22=(2.*a22);
+  a22=((casadi_real)2.*a22);
   a22=(a22*a06);
   a09=(a22*a12);
   a09=(a09*a18);
@@ -214,7 +215,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a25=(a25*a11);
   a25=(a25*a10);
   a14=(a14+a25);
-  a05=(2.*a05);
+  a05=((casadi_real)2.*a05);
   a05=(a05*a00);
   a28=(a05*a28);
   a28=(a28*a06);
@@ -288,6 +289,7 @@ CASADI_SYMBOL_EXPORT int trum_response_checkout(void) {
 }
 
 CASADI_SYMBOL_EXPORT void trum_response_release(int mem) {
+  (void)mem;
 }
 
 CASADI_SYMBOL_EXPORT void trum_response_incref(void) {

@@ -67,6 +67,7 @@ static const casadi_int casadi_s0[3] = {1, 1, 1};
 
 /* trum_rotation:(Delta_omega,omega_n,tau,xi)->(e_re,e_im,d_re,d_im) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
+  (void)iw, (void)w, (void)mem;
   casadi_real a0, a1, a2, a3, a4, a5;
   a0=arg[1]? arg[1][0] : 0;
   a1=arg[2]? arg[2][0] : 0;
@@ -75,7 +76,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a4=(a2*a3);
   a4=(-a4);
   a4=exp(a4);
-  a5=1.;
+  a5=(casadi_real)1.;
   a3=casadi_sq(a3);
   a5=(a5-a3);
   a5=sqrt(a5);
@@ -105,6 +106,7 @@ CASADI_SYMBOL_EXPORT int trum_rotation_checkout(void) {
 }
 
 CASADI_SYMBOL_EXPORT void trum_rotation_release(int mem) {
+  (void)mem;
 }
 
 CASADI_SYMBOL_EXPORT void trum_rotation_incref(void) {

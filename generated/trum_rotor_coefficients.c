@@ -78,9 +78,10 @@ static const casadi_int casadi_s0[3] = {1, 1, 1};
 
 /* trum_rotor_coefficients:(E_eq,E_m,F_c,J,T_load,b_m,k_N,k_c,mu,mu_e,mu_m,n_j,r_c,r_t)->(engagement_per_height,push,drag,W_full_hertz,W_full_winkler) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
+  (void)iw, (void)w, (void)mem;
   casadi_real a0, a1, a2, a3, a4, a5, a6, a7;
   a0=arg[6]? arg[6][0] : 0;
-  a1=(2.*a0);
+  a1=((casadi_real)2.*a0);
   a2=arg[11]? arg[11][0] : 0;
   a1=(a1*a2);
   a3=arg[2]? arg[2][0] : 0;
@@ -100,14 +101,14 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a1=(a1*a6);
   a1=(a1/a7);
   if (res[2]!=0) res[2][0]=a1;
-  a1=32.;
+  a1=(casadi_real)32.;
   a1=(a1*a3);
   a4=casadi_sq(a4);
   a1=(a1*a4);
   a4=arg[13]? arg[13][0] : 0;
   a4=casadi_sq(a4);
   a1=(a1*a4);
-  a4=1.;
+  a4=(casadi_real)1.;
   a3=arg[9]? arg[9][0] : 0;
   a3=casadi_sq(a3);
   a3=(a4-a3);
@@ -120,7 +121,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a4=(a4/a7);
   a3=(a3+a4);
   a1=(a1*a3);
-  a3=2.4674011002723395e+02;
+  a3=(casadi_real)2.4674011002723395e+02;
   a4=arg[5]? arg[5][0] : 0;
   a3=(a3*a4);
   a4=casadi_sq(a2);
@@ -128,7 +129,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a3=(a3*a4);
   a1=(a1/a3);
   if (res[3]!=0) res[3][0]=a1;
-  a1=6.2831853071795862e+00;
+  a1=(casadi_real)6.2831853071795862e+00;
   a1=(a1*a0);
   a1=(a1*a2);
   a5=(a5/a1);
@@ -145,6 +146,7 @@ CASADI_SYMBOL_EXPORT int trum_rotor_coefficients_checkout(void) {
 }
 
 CASADI_SYMBOL_EXPORT void trum_rotor_coefficients_release(int mem) {
+  (void)mem;
 }
 
 CASADI_SYMBOL_EXPORT void trum_rotor_coefficients_incref(void) {

@@ -80,6 +80,7 @@ static const casadi_int casadi_s0[3] = {1, 1, 1};
 
 /* trum_section:(D,E_e,E_p,G_e,G_p,b_e,b_p,b_s,h_e,h_p,h_t,l_s,n_s,rho_e,rho_p)->(E,rho,I_z,G,A,E_eq) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
+  (void)iw, (void)w, (void)mem;
   casadi_real a00, a01, a02, a03, a04, a05, a06, a07, a08, a09, a10, a11;
   casadi_real a12, a13, a14;
   a00=arg[2]? arg[2][0] : 0;
@@ -92,7 +93,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a04=(a04-a05);
   a06=casadi_sq(a04);
   a04=(a04*a06);
-  a06=3.;
+  a06=(casadi_real)3.;
   a04=(a04/a06);
   a07=(a02-a05);
   a08=casadi_sq(a07);
@@ -103,7 +104,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a08=arg[1]? arg[1][0] : 0;
   a09=arg[5]? arg[5][0] : 0;
   a10=(a08*a09);
-  a11=1.;
+  a11=(casadi_real)1.;
   a12=arg[10]? arg[10][0] : 0;
   a13=(a12/a02);
   a13=(a11-a13);
@@ -166,6 +167,7 @@ CASADI_SYMBOL_EXPORT int trum_section_checkout(void) {
 }
 
 CASADI_SYMBOL_EXPORT void trum_section_release(int mem) {
+  (void)mem;
 }
 
 CASADI_SYMBOL_EXPORT void trum_section_incref(void) {

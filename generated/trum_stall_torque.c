@@ -61,6 +61,7 @@ static const casadi_int casadi_s0[3] = {1, 1, 1};
 
 /* trum_stall_torque:(F_c,f,mu,r_c)->(torque) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
+  (void)iw, (void)w, (void)mem;
   casadi_real a0, a1;
   a0=arg[0]? arg[0][0] : 0;
   a1=arg[1]? arg[1][0] : 0;
@@ -82,6 +83,7 @@ CASADI_SYMBOL_EXPORT int trum_stall_torque_checkout(void) {
 }
 
 CASADI_SYMBOL_EXPORT void trum_stall_torque_release(int mem) {
+  (void)mem;
 }
 
 CASADI_SYMBOL_EXPORT void trum_stall_torque_incref(void) {

@@ -82,16 +82,17 @@ static const casadi_int casadi_s0[3] = {1, 1, 1};
 
 /* trum_start_periodic:(Delta_omega,W,m,n,omega_n,psi,s,xi)->(a_A,b_A,a_B,b_B,repetition) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
+  (void)iw, (void)w, (void)mem;
   casadi_real a00, a01, a02, a03, a04, a05, a06, a07, a08, a09, a10, a11;
   casadi_real a12, a13, a14, a15, a16, a17, a18, a19, a20, a21, a22, a23;
   casadi_real a24, a25, a26, a27, a28;
-  a00=-6.2831853071795862e+00;
+  a00=(casadi_real)-6.2831853071795862e+00;
   a01=arg[4]? arg[4][0] : 0;
   a02=(a00*a01);
   a03=arg[7]? arg[7][0] : 0;
   a02=(a02*a03);
   a04=arg[3]? arg[3][0] : 0;
-  a05=(2.*a04);
+  a05=((casadi_real)2.*a04);
   a06=arg[2]? arg[2][0] : 0;
   a05=(a05-a06);
   a07=(a02*a05);
@@ -104,12 +105,12 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a00=(a00*a03);
   a00=(a00/a09);
   a10=exp(a00);
-  a11=(2.*a10);
-  a12=3.1415926535897931e+00;
+  a11=((casadi_real)2.*a10);
+  a12=(casadi_real)3.1415926535897931e+00;
   a12=(a12*a06);
   a13=casadi_sq(a03);
   a14=(a01*a13);
-  a15=1.;
+  a15=(casadi_real)1.;
   a13=(a15-a13);
   a13=sqrt(a13);
   a15=(a15+a13);
@@ -128,7 +129,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a02=(a02*a04);
   a02=(a02/a09);
   a02=exp(a02);
-  a12=6.2831853071795862e+00;
+  a12=(casadi_real)6.2831853071795862e+00;
   a14=(a12*a01);
   a05=(a14*a05);
   a05=(a05*a13);
@@ -215,7 +216,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a20=(a08*a16);
   a20=(a20/a25);
   a27=(a27+a20);
-  a20=-1.2566370614359172e+01;
+  a20=(casadi_real)-1.2566370614359172e+01;
   a20=(a20*a06);
   a20=(a20*a01);
   a20=(a20*a03);
@@ -313,6 +314,7 @@ CASADI_SYMBOL_EXPORT int trum_start_periodic_checkout(void) {
 }
 
 CASADI_SYMBOL_EXPORT void trum_start_periodic_release(int mem) {
+  (void)mem;
 }
 
 CASADI_SYMBOL_EXPORT void trum_start_periodic_incref(void) {

@@ -85,6 +85,7 @@ static const casadi_int casadi_s0[3] = {1, 1, 1};
 
 /* trum_start_periodic_slopes:(Delta_omega,W,m,n,omega_n,psi,s,xi)->(a_A_omega_n,b_A_omega_n,a_B_omega_n,b_B_omega_n,a_A_Delta_omega,b_A_Delta_omega,a_B_Delta_omega,b_B_Delta_omega) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
+  (void)iw, (void)w, (void)mem;
   casadi_real a000, a001, a002, a003, a004, a005, a006, a007, a008, a009, a010, a011;
   casadi_real a012, a013, a014, a015, a016, a017, a018, a019, a020, a021, a022, a023;
   casadi_real a024, a025, a026, a027, a028, a029, a030, a031, a032, a033, a034, a035;
@@ -94,7 +95,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   casadi_real a072, a073, a074, a075, a076, a077, a078, a079, a080, a081, a082, a083;
   casadi_real a084, a085, a086, a087, a088, a089, a090, a091, a092, a093, a094, a095;
   casadi_real a096, a097, a098, a099, a100;
-  a000=-6.2831853071795862e+00;
+  a000=(casadi_real)-6.2831853071795862e+00;
   a001=arg[4]? arg[4][0] : 0;
   a002=(a000*a001);
   a003=arg[7]? arg[7][0] : 0;
@@ -107,12 +108,12 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a009=(a008+a001);
   a007=(a007/a009);
   a010=exp(a007);
-  a011=6.2831853071795862e+00;
+  a011=(casadi_real)6.2831853071795862e+00;
   a012=(a011*a001);
-  a005=(2.*a005);
+  a005=((casadi_real)2.*a005);
   a005=(a005-a004);
   a013=(a012*a005);
-  a014=1.;
+  a014=(casadi_real)1.;
   a015=casadi_sq(a003);
   a016=(a014-a015);
   a016=sqrt(a016);
@@ -182,8 +183,8 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a049=(a049*a003);
   a049=(a049/a009);
   a050=exp(a049);
-  a051=(2.*a050);
-  a052=3.1415926535897931e+00;
+  a051=((casadi_real)2.*a050);
+  a052=(casadi_real)3.1415926535897931e+00;
   a052=(a052*a004);
   a053=(a001*a015);
   a014=(a014+a016);
@@ -212,9 +213,9 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a049=(a049/a009);
   a048=(a048-a049);
   a048=(a050*a048);
-  a060=(2.*a048);
+  a060=((casadi_real)2.*a048);
   a060=(a055*a060);
-  a054=(2.*a054);
+  a054=((casadi_real)2.*a054);
   a061=cos(a053);
   a015=(a015/a014);
   a014=(a052*a015);
@@ -397,7 +398,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a080=(a080*a016);
   a076=(a076-a080);
   a014=(a014+a076);
-  a076=-1.2566370614359172e+01;
+  a076=(casadi_real)-1.2566370614359172e+01;
   a076=(a076*a004);
   a004=(a076*a001);
   a004=(a004*a003);
@@ -418,11 +419,11 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a076=(a076-a004);
   a076=(a080*a076);
   a076=(a067*a076);
-  a083=(2.*a069);
+  a083=((casadi_real)2.*a069);
   a084=(a083*a015);
   a084=(a080*a084);
   a076=(a076-a084);
-  a084=(2.*a056);
+  a084=((casadi_real)2.*a056);
   a085=(a084*a060);
   a076=(a076+a085);
   a085=(a079*a076);
@@ -637,7 +638,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   if (res[3]!=0) res[3][0]=a074;
   a049=(a050*a049);
   a074=(-a049);
-  a074=(2.*a074);
+  a074=((casadi_real)2.*a074);
   a055=(a055*a074);
   a052=(a052/a009);
   a052=(a052-a053);
@@ -881,6 +882,7 @@ CASADI_SYMBOL_EXPORT int trum_start_periodic_slopes_checkout(void) {
 }
 
 CASADI_SYMBOL_EXPORT void trum_start_periodic_slopes_release(int mem) {
+  (void)mem;
 }
 
 CASADI_SYMBOL_EXPORT void trum_start_periodic_slopes_incref(void) {

@@ -65,6 +65,7 @@ static const casadi_int casadi_s0[3] = {1, 1, 1};
 
 /* trum_start_rest:(Delta_omega,W,omega_n,psi,s)->(a_A,b_A,a_B,b_B) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
+  (void)iw, (void)w, (void)mem;
   casadi_real a0, a1, a2, a3, a4, a5;
   a0=arg[1]? arg[1][0] : 0;
   a1=arg[3]? arg[3][0] : 0;
@@ -98,6 +99,7 @@ CASADI_SYMBOL_EXPORT int trum_start_rest_checkout(void) {
 }
 
 CASADI_SYMBOL_EXPORT void trum_start_rest_release(int mem) {
+  (void)mem;
 }
 
 CASADI_SYMBOL_EXPORT void trum_start_rest_incref(void) {

@@ -69,8 +69,9 @@ static const casadi_int casadi_s0[3] = {1, 1, 1};
 
 /* trum_start_rest_slopes:(Delta_omega,W,omega_n,psi,s)->(a_A_omega_n,b_A_omega_n,a_B_omega_n,b_B_omega_n,a_A_Delta_omega,b_A_Delta_omega,a_B_Delta_omega,b_B_Delta_omega) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
+  (void)iw, (void)w, (void)mem;
   casadi_real a0, a1, a2, a3, a4;
-  a0=0.;
+  a0=(casadi_real)0.;
   if (res[0]!=0) res[0][0]=a0;
   a1=arg[1]? arg[1][0] : 0;
   a2=arg[3]? arg[3][0] : 0;
@@ -99,6 +100,7 @@ CASADI_SYMBOL_EXPORT int trum_start_rest_slopes_checkout(void) {
 }
 
 CASADI_SYMBOL_EXPORT void trum_start_rest_slopes_release(int mem) {
+  (void)mem;
 }
 
 CASADI_SYMBOL_EXPORT void trum_start_rest_slopes_incref(void) {

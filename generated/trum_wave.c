@@ -83,6 +83,7 @@ static const casadi_int casadi_s0[3] = {1, 1, 1};
 
 /* trum_wave:(D,Delta_omega,W,d_im,d_re,e_im,e_re,f_A_im,f_A_re,f_B_im,f_B_re,g_A,g_B,k_c,omega_n,p_im,p_re,s,xi)->(W_c,R_v,phi,cos_phi,sin_phi) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
+  (void)iw, (void)w, (void)mem;
   casadi_real a00, a01, a02, a03, a04, a05, a06, a07, a08, a09, a10, a11;
   casadi_real a12, a13, a14, a15, a16, a17, a18;
   a00=arg[6]? arg[6][0] : 0;
@@ -140,7 +141,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a12=(a00*a12);
   a01=(a01+a12);
   a01=(a09*a01);
-  a12=1.;
+  a12=(casadi_real)1.;
   a06=casadi_sq(a06);
   a12=(a12-a06);
   a12=sqrt(a12);
@@ -170,7 +171,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a10=(a10-a05);
   a05=atan2(a14,a10);
   if (res[2]!=0) res[2][0]=a05;
-  a05=1.0000000000000000e-300;
+  a05=(casadi_real)1.0000000000000001e-37;
   a02=casadi_sq(a14);
   a18=casadi_sq(a10);
   a02=(a02+a18);
@@ -192,6 +193,7 @@ CASADI_SYMBOL_EXPORT int trum_wave_checkout(void) {
 }
 
 CASADI_SYMBOL_EXPORT void trum_wave_release(int mem) {
+  (void)mem;
 }
 
 CASADI_SYMBOL_EXPORT void trum_wave_incref(void) {

@@ -89,6 +89,7 @@ static const casadi_int casadi_s0[3] = {1, 1, 1};
 
 /* trum_wave_slopes:(D,Delta_omega,W,f_A_im,f_A_im_Delta_omega,f_A_im_omega_n,f_A_re,f_A_re_Delta_omega,f_A_re_omega_n,f_B_im,f_B_im_Delta_omega,f_B_im_omega_n,f_B_re,f_B_re_Delta_omega,f_B_re_omega_n,g_A,g_B,k_c,omega_n,p_im,p_re,s,tau,xi)->(W_c_omega_n,R_v_omega_n,phi_omega_n,W_c_Delta_omega,R_v_Delta_omega,phi_Delta_omega) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
+  (void)iw, (void)w, (void)mem;
   casadi_real a00, a01, a02, a03, a04, a05, a06, a07, a08, a09, a10, a11;
   casadi_real a12, a13, a14, a15, a16, a17, a18, a19, a20, a21, a22, a23;
   casadi_real a24, a25, a26, a27, a28, a29, a30, a31, a32, a33, a34, a35;
@@ -116,7 +117,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a14=(-a14);
   a14=exp(a14);
   a15=(a11*a14);
-  a16=1.;
+  a16=(casadi_real)1.;
   a17=casadi_sq(a13);
   a16=(a16-a17);
   a16=sqrt(a16);
@@ -129,7 +130,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a12=sin(a12);
   a21=(a20*a12);
   a10=(a10-a21);
-  a22=(2.*a10);
+  a22=((casadi_real)2.*a10);
   a23=arg[8]? arg[8][0] : 0;
   a23=(a14*a23);
   a24=(a03/a04);
@@ -170,7 +171,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a09=(a09+a02);
   a02=(a00*a09);
   a02=(a32-a02);
-  a06=(2.*a02);
+  a06=((casadi_real)2.*a02);
   a07=arg[14]? arg[14][0] : 0;
   a07=(a14*a07);
   a35=(a30*a25);
@@ -192,7 +193,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a37=casadi_sq(a02);
   a25=(a25+a37);
   a25=sqrt(a25);
-  a25=(2.*a25);
+  a25=((casadi_real)2.*a25);
   a29=(a29/a25);
   if (res[0]!=0) res[0][0]=a29;
   a29=arg[0]? arg[0][0] : 0;
@@ -210,7 +211,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a21=(a21+a39);
   a39=(a05*a21);
   a37=(a37+a39);
-  a39=(2.*a37);
+  a39=((casadi_real)2.*a37);
   a09=(a09*a01);
   a18=(a18*a13);
   a01=(a38*a26);
@@ -237,7 +238,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a28=(a28+a23);
   a23=(a05*a28);
   a04=(a04+a23);
-  a23=(2.*a04);
+  a23=((casadi_real)2.*a04);
   a08=(a08*a00);
   a32=(a32*a13);
   a00=(a38*a35);
@@ -260,7 +261,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a36=casadi_sq(a04);
   a28=(a28+a36);
   a28=sqrt(a28);
-  a28=(2.*a28);
+  a28=((casadi_real)2.*a28);
   a21=(a21/a28);
   a21=(a29*a21);
   if (res[1]!=0) res[1][0]=a21;
@@ -391,6 +392,7 @@ CASADI_SYMBOL_EXPORT int trum_wave_slopes_checkout(void) {
 }
 
 CASADI_SYMBOL_EXPORT void trum_wave_slopes_release(int mem) {
+  (void)mem;
 }
 
 CASADI_SYMBOL_EXPORT void trum_wave_slopes_incref(void) {

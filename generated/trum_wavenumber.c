@@ -59,6 +59,7 @@ static const casadi_int casadi_s0[3] = {1, 1, 1};
 
 /* trum_wavenumber:(R,n_j)->(k_c) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
+  (void)iw, (void)w, (void)mem;
   casadi_real a0, a1;
   a0=arg[1]? arg[1][0] : 0;
   a1=arg[0]? arg[0][0] : 0;
@@ -76,6 +77,7 @@ CASADI_SYMBOL_EXPORT int trum_wavenumber_checkout(void) {
 }
 
 CASADI_SYMBOL_EXPORT void trum_wavenumber_release(int mem) {
+  (void)mem;
 }
 
 CASADI_SYMBOL_EXPORT void trum_wavenumber_incref(void) {

@@ -64,6 +64,7 @@ static const casadi_int casadi_s0[3] = {1, 1, 1};
 
 /* trum_winkler_balance:(F_c,W,k_N,k_c,n_j,theta)->(residual,slope) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
+  (void)iw, (void)w, (void)mem;
   casadi_real a0, a1, a2, a3, a4;
   a0=arg[5]? arg[5][0] : 0;
   a1=cos(a0);
@@ -72,7 +73,7 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a3=arg[3]? arg[3][0] : 0;
   a2=(a2*a3);
   a3=arg[1]? arg[1][0] : 0;
-  a3=(2.*a3);
+  a3=((casadi_real)2.*a3);
   a4=arg[2]? arg[2][0] : 0;
   a3=(a3*a4);
   a4=arg[4]? arg[4][0] : 0;
@@ -97,6 +98,7 @@ CASADI_SYMBOL_EXPORT int trum_winkler_balance_checkout(void) {
 }
 
 CASADI_SYMBOL_EXPORT void trum_winkler_balance_release(int mem) {
+  (void)mem;
 }
 
 CASADI_SYMBOL_EXPORT void trum_winkler_balance_incref(void) {

@@ -13,7 +13,7 @@ from trum_sym.validate import Array, ArrayLike
 
 __all__ = ["call_in_blocks"]
 
-_BLOCK = 256
+_BLOCK = 512  # NumPy keeps the GIL in loops of 500 points and fewer
 
 
 def call_in_blocks(kernel: str, values: Mapping[str, ArrayLike], label: str | None = None) -> dict[str, Array]:

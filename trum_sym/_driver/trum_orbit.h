@@ -495,8 +495,8 @@ static real trum_quadrature_error(const real* G) {
     for (j = 1; j < NODES; ++j) l[k] = l[k] + N_(L[k][j]) * G[j];
     l[k] = size_of(l[k]);
   }
-  whole = l[0] + l[1] + N_(1e-300);
-  second = l[2] / whole, third = cube_root_of(l[3] / whole + N_(1e-300));
+  whole = l[0] + l[1] + N_(1e-37);
+  second = l[2] / whole, third = cube_root_of(l[3] / whole + N_(1e-37));
   return N_(trum_estimate) * most(l[2] * second * root_of(second), l[3] * third * third);
 }
 
@@ -858,9 +858,10 @@ static void trum_start_lap(trum_lanes* l, int i, trum_job* job) {
 /* Slopes of the phasors at the start of the regions. */
 static void trum_load_slopes(trum_job* job) {
   const trum_orbit_in* in = job->in;
-  double arg_[trum_regions_slopes_n_arg], res_[trum_regions_slopes_n_res];
-  const double* arg[trum_regions_slopes_n_arg];
-  double* res[trum_regions_slopes_n_res];
+  double arg_[trum_regions_slopes_n_arg];
+  trum_real own[trum_regions_slopes_n_arg], res_[trum_regions_slopes_n_res];
+  const trum_real* arg[trum_regions_slopes_n_arg];
+  trum_real* res[trum_regions_slopes_n_res];
   int k, by, phase, r, part;
   arg_[trum_regions_slopes_in_Delta_omega] = in->Delta_omega, arg_[trum_regions_slopes_in_W] = in->W;
   arg_[trum_regions_slopes_in_a_A] = in->a_A, arg_[trum_regions_slopes_in_b_A] = in->b_A;
@@ -876,7 +877,7 @@ static void trum_load_slopes(trum_job* job) {
   arg_[trum_regions_slopes_in_b_A_Delta_omega] = job->slopes_in->by_difference[1];
   arg_[trum_regions_slopes_in_a_B_Delta_omega] = job->slopes_in->by_difference[2];
   arg_[trum_regions_slopes_in_b_B_Delta_omega] = job->slopes_in->by_difference[3];
-  for (k = 0; k < trum_regions_slopes_n_arg; ++k) arg[k] = &arg_[k];
+  for (k = 0; k < trum_regions_slopes_n_arg; ++k) own[k] = (trum_real)arg_[k], arg[k] = &own[k];
   for (k = 0; k < trum_regions_slopes_n_res; ++k) res[k] = &res_[k];
   trum_regions_slopes(arg, res, 0, 0, 0);
   for (by = k = 0; by < 2; ++by)
@@ -908,9 +909,10 @@ static void trum_figures_slopes(const trum_lanes* l, int i, trum_job* job) {
 
 static void trum_load(trum_lanes* l, int i, trum_job* job, const trum_orbit_in* in, trum_orbit_out* out) {
   const double period = 6.283185307179586477 / (in->omega_n + in->Delta_omega);
-  double arg_[trum_regions_n_arg], res_[trum_regions_n_res];
-  const double* arg[trum_regions_n_arg];
-  double* res[trum_regions_n_res];
+  double arg_[trum_regions_n_arg];
+  trum_real own[trum_regions_n_arg], res_[trum_regions_n_res];
+  const trum_real* arg[trum_regions_n_arg];
+  trum_real* res[trum_regions_n_res];
   int k, r, phase;
   put(&l->omega_n, i, in->omega_n), put(&l->Delta_omega, i, in->Delta_omega), put(&l->xi, i, in->xi);
   put(&l->s, i, in->s), put(&l->W, i, in->W), put(&l->D, i, in->D), put(&l->k_c, i, in->k_c);
@@ -922,21 +924,22 @@ static void trum_load(trum_lanes* l, int i, trum_job* job, const trum_orbit_in* 
   arg_[trum_regions_in_a_B] = in->a_B, arg_[trum_regions_in_b_B] = in->b_B;
   arg_[trum_regions_in_m] = in->m, arg_[trum_regions_in_n] = in->n, arg_[trum_regions_in_omega_n] = in->omega_n;
   arg_[trum_regions_in_psi] = in->psi, arg_[trum_regions_in_s] = in->s, arg_[trum_regions_in_xi] = in->xi;
-  for (k = 0; k < trum_regions_n_arg; ++k) arg[k] = &arg_[k];
+  for (k = 0; k < trum_regions_n_arg; ++k) own[k] = (trum_real)arg_[k], arg[k] = &own[k];
   for (k = 0; k < trum_regions_n_res; ++k) res[k] = &res_[k];
   trum_regions(arg, res, 0, 0, 0);
   for (r = 0; r < TRUM_REGIONS; ++r) {
     job->pulses[r] = floor(res_[trum_regions_out_time_redu + r] / period + 0.5);
     for (phase = 0; phase < 2; ++phase) {
-      double to_[trum_phasor_n_arg];
-      const double* to[trum_phasor_n_arg];
-      double* z[trum_phasor_n_res];
+      trum_real to_[trum_phasor_n_arg], phasor[trum_phasor_n_res];
+      const trum_real* to[trum_phasor_n_arg];
+      trum_real* z[trum_phasor_n_res];
       to_[trum_phasor_in_a] = res_[trum_regions_out_a_A_redu + 4 * r + 2 * phase];
       to_[trum_phasor_in_b] = res_[trum_regions_out_a_A_redu + 4 * r + 2 * phase + 1];
-      to_[trum_phasor_in_omega_n] = in->omega_n, to_[trum_phasor_in_xi] = in->xi;
+      to_[trum_phasor_in_omega_n] = (trum_real)in->omega_n, to_[trum_phasor_in_xi] = (trum_real)in->xi;
       for (k = 0; k < trum_phasor_n_arg; ++k) to[k] = &to_[k];
-      z[trum_phasor_out_re] = &job->start[r][2 * phase], z[trum_phasor_out_im] = &job->start[r][2 * phase + 1];
+      for (k = 0; k < trum_phasor_n_res; ++k) z[k] = &phasor[k];
       trum_phasor(to, z, 0, 0, 0);
+      job->start[r][2 * phase] = phasor[trum_phasor_out_re], job->start[r][2 * phase + 1] = phasor[trum_phasor_out_im];
     }
   }
   job->in = in, job->out = out;

@@ -11,8 +11,8 @@
 #include <numpy/arrayobject.h>
 #include <numpy/ufuncobject.h>
 
-#include "cycle.hpp"
 #include "orbit.hpp"
+#include "trum_cycle.h"
 
 namespace {
 
@@ -28,6 +28,21 @@ void kernel_loop(char** args, const npy_intp* dimensions, const npy_intp* steps,
     kernel(arg, res, nullptr, nullptr, 0);
   }
 }
+
+// Lets other threads of the interpreter run meanwhile.  NumPy may have done so already, or not: it keeps the lock in
+// short loops, and in all loops of an iterator that it has not marked as free of Python.
+class Unlocked {
+ public:
+  Unlocked() : state_(PyGILState_Check() ? PyEval_SaveThread() : nullptr) {}
+  ~Unlocked() {
+    if (state_ != nullptr) PyEval_RestoreThread(state_);
+  }
+  Unlocked(const Unlocked&) = delete;
+  Unlocked& operator=(const Unlocked&) = delete;
+
+ private:
+  PyThreadState* state_;
+};
 
 template <int n>
 std::array<double, n> gather(char** args, const npy_intp* steps, npy_intp i) {
@@ -46,17 +61,19 @@ constexpr char half_angle_out[] = "theta";
 void half_angle_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
   for (npy_intp i = 0; i < dimensions[0]; ++i) {
     const auto v = gather<5>(args, steps, i);
-    scatter<1>({trum::contact_half_angle(v[0], v[1], v[2], v[3], v[4])}, args + 5, steps + 5, i);
+    scatter<1>({trum_half_angle(v[0], v[1], v[2], v[3], v[4])}, args + 5, steps + 5, i);
   }
 }
 
 constexpr char cycle_sums_in[] = "omega_n Delta_omega xi psi s m n a_A b_A a_B b_B panels";
 constexpr char cycle_sums_out[] = "q_plus q_minus p_plus p_minus";
 void cycle_sums_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
+  const Unlocked unlocked;
   for (npy_intp i = 0; i < dimensions[0]; ++i) {
     const auto v = gather<12>(args, steps, i);
-    trum::Cycle cycle(v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8], v[9], v[10], 1.0, 1.0, 1.0);
-    const trum::Sums sums = trum::SignedQuadrature(cycle, v[11]).run();
+    trum_cycle cycle = {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8], v[9], v[10], 1.0, 1.0, 1.0,
+                        {}, {}, {}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+    const trum_sums sums = trum_cycle_sums(&cycle, v[11]);
     scatter<4>({sums.q_plus, sums.q_minus, sums.p_plus, sums.p_minus}, args + 12, steps + 12, i);
   }
 }
@@ -66,12 +83,14 @@ constexpr char cycle_response_out[] = "w_A w_B v_A v_B Q";
 void cycle_response_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
   for (npy_intp i = 0; i < dimensions[0]; ++i) {
     const auto v = gather<15>(args, steps, i);
-    trum::Cycle cycle(v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8], v[9], v[10], v[11], v[12], v[13], v[14]);
+    trum_cycle cycle = {v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8], v[9], v[10], v[11], v[12], v[13], v[14],
+                        {}, {}, {}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+    trum_cycle_regions(&cycle);
     double tau = v[0];
     int region = 0;
     while (region < TRUM_REGIONS - 1 && tau >= cycle.duration[region]) tau -= cycle.duration[region++];
-    cycle.enter(region);
-    cycle.at(tau);
+    trum_cycle_enter(&cycle, region);
+    trum_cycle_at(&cycle, tau);
     scatter<5>({cycle.w_A, cycle.w_B, cycle.v_A, cycle.v_B, cycle.Q}, args + 15, steps + 15, i);
   }
 }
@@ -84,6 +103,7 @@ const trum::OrbitCode* orbit_code = &trum::orbit_baseline;
 
 // Blocks of points of one contact law, small enough to keep their inputs in cache.
 void rotor_orbit_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
+  const Unlocked unlocked;
   constexpr npy_intp most = 256;
   std::array<std::array<double, n_orbit_in>, most> in;
   std::array<std::array<double, n_orbit_out>, most> out;
@@ -109,6 +129,7 @@ constexpr char slopes_signature[] =
     "(),(),(),(),(),(),(),(),(),(),(6,6)";
 constexpr int n_slopes_in = n_orbit_in + 8, n_slopes_out = n_orbit_out + 1, n_slopes = 36;
 void rotor_slopes_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
+  const Unlocked unlocked;
   constexpr npy_intp most = 64;
   std::array<std::array<double, n_orbit_in>, most> in;
   std::array<std::array<double, n_slopes_in - n_orbit_in>, most> with;
@@ -141,6 +162,7 @@ constexpr char history_signature[] =
     "(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(k)->(k),(k)";
 constexpr int n_history_in = n_orbit_in + 5, n_history_out = 2;
 void rotor_history_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
+  const Unlocked unlocked;
   const npy_intp k = dimensions[1];
   const npy_intp* core = steps + n_history_in + n_history_out;  // strides of times, speed, distance
   std::vector<double> out(static_cast<std::size_t>(n_history_out * k));

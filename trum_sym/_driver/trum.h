@@ -1,0 +1,84 @@
+/* The operating point of a travelling-wave motor: generated/ and this header are a C99 library (and C++).
+ *
+ * Define TRUM_IMPLEMENTATION before including it in exactly one C file, and compile generated/trum_*.c beside that.
+ * No allocation, no globals, re-entrant.  SI units; trum_real is double, or float with -Dcasadi_real=float
+ * -include tgmath.h for all files.  docs/c-library.md says more. */
+#ifndef TRUM_H
+#define TRUM_H
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "trum_fields.h"
+#include "trum_kernels.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define TRUM_NUMBER_FIELD(name, symbol, unit, low, high, low_open, high_open, integer, required) trum_real name;
+#define TRUM_FIGURE_FIELD(name, unit) trum_real name;
+#define TRUM_CHOICE_FIELD(name, count, words) int name;
+
+/* Units, symbols and domains are in TRUM_MOTOR_FIELDS; where a number need not be given, 0 means not given. */
+struct trum_motor {
+  TRUM_MOTOR_FIELDS(TRUM_NUMBER_FIELD)
+};
+
+/* TRUM_DRIVE_FIELDS and TRUM_CHOICES; the tolerance is of mean and extreme speeds, relative to the largest. */
+struct trum_drive {
+  TRUM_DRIVE_FIELDS(TRUM_NUMBER_FIELD)
+  TRUM_CHOICES(TRUM_CHOICE_FIELD)
+  trum_real tolerance;
+};
+
+/* TRUM_FIGURES; without meaning: NaN, and infinite ratios where the determinant never turns back. */
+struct trum_point {
+  TRUM_FIGURES(TRUM_FIGURE_FIELD)
+  int converged;    /* do mean and extremes meet the tolerance? */
+  int full_contact; /* is the whole wave in contact at times? */
+  int outside_fit;  /* is the prepressure outside those at which the amplitude was measured? */
+  int field;        /* bad input: which, for trum_field_name; else -1 */
+};
+
+#undef TRUM_NUMBER_FIELD
+#undef TRUM_FIGURE_FIELD
+#undef TRUM_CHOICE_FIELD
+
+enum trum_status {
+  TRUM_OK,
+  TRUM_BAD_INPUT,     /* a field outside its domain, or one that does not fit another; point->field */
+  TRUM_NO_SIZE,       /* the motor's values give no finite, positive resonance, amplitude or length */
+  TRUM_UNDAMPED,      /* an undamped resonant drive, or a periodic start that the cycle does not fix */
+  TRUM_NOT_SETTLED,   /* forced amplitude and resonance do not settle */
+  TRUM_RUNAWAY,       /* no speed balances the load: speeds are NaN, the rest is right */
+  TRUM_NOT_CONVERGED, /* speeds are the best found, and miss the tolerance */
+  TRUM_STATUSES
+};
+
+/* The finest tolerance: what the steps of an orbit reach in the precision of trum_real. */
+#define TRUM_FINEST_TOLERANCE (sizeof(trum_real) < sizeof(double) ? 1e-3 : 1e-9)
+
+/* Every figure of the operating point; those that do not follow are NaN. */
+enum trum_status trum_evaluate(const struct trum_motor* motor, const struct trum_drive* drive, struct trum_point* point);
+
+/* The same, with the rotor's speed (rad/s) and its angle since t1 (rad) at count equal times of a cycle, the last at
+ * its end; both are NaN unless the status is TRUM_OK. */
+enum trum_status trum_simulate(const struct trum_motor* motor, const struct trum_drive* drive, struct trum_point* point,
+                               double* speed, double* angle, long count);
+
+/* The name of a field by its number in point->field: the motor's, then the drive's; 0 if it is none. */
+const char* trum_field_name(int field);
+
+/* What a status means, in words. */
+const char* trum_status_text(int status);
+
+#ifdef __cplusplus
+}
+#endif
+
+#ifdef TRUM_IMPLEMENTATION
+#include "trum_point.h"
+#endif
+#endif

@@ -1,0 +1,242 @@
+/* Loops around the generated kernels: where the load balances, and what one drive cycle's determinant sums to.
+ * Formulas live in the generated C; here are only root finding, quadrature and bookkeeping.
+ *
+ * C99 without allocation or globals, which is also C++. */
+#ifndef TRUM_CYCLE_H
+#define TRUM_CYCLE_H
+
+#include <math.h>
+
+#include "trum_kernels.h"
+#include "trum_quadrature.h"
+
+/* A function of one variable and its slope. */
+typedef void (*trum_curve)(void* of, trum_real x, trum_real* value, trum_real* slope);
+
+/* Newton on a bracketed root, with bisection whenever Newton leaves the bracket or stalls.
+ * Zero counts as positive, so f(low) = 0 < f's later fall is no root yet; f(low) and f(high) have different signs in
+ * that sense, and 0 <= low < high. */
+static inline trum_real trum_bracketed_root(trum_curve f, void* of, trum_real low, trum_real high) {
+  trum_real value, slope, smallest, x, width_before;
+  int i, rising;
+  f(of, low, &value, &slope);
+  rising = value < 0;
+  smallest = (trum_real)1e-16 * (high - low);
+  x = (trum_real)0.5 * (low + high), width_before = high - low;
+  for (i = 0; i < 200; ++i) {
+    trum_real width, next, change;
+    int usable;
+    f(of, x, &value, &slope);
+    if ((value < 0) == rising) low = x;
+    else high = x;
+    width = high - low;
+    next = x - value / slope;
+    usable = next > low && next < high && (i % 3 != 2 || width < (trum_real)0.5 * width_before);
+    if (i % 3 == 2) width_before = width;
+    if (!usable) next = (trum_real)0.5 * (low + high);
+    change = next > x ? next - x : x - next;
+    if (width <= smallest || change <= (trum_real)2e-16 * next) return next;
+    x = next;
+  }
+  return x;
+}
+
+typedef struct {
+  trum_real F_c, k_N, W, k_c, n_j;
+} trum_balance;
+
+static inline void trum_balance_at(void* of, trum_real theta, trum_real* value, trum_real* slope) {
+  const trum_balance* b = (const trum_balance*)of;
+  const trum_real* arg[trum_winkler_balance_n_arg];
+  trum_real* res[trum_winkler_balance_n_res];
+  arg[trum_winkler_balance_in_F_c] = &b->F_c, arg[trum_winkler_balance_in_W] = &b->W;
+  arg[trum_winkler_balance_in_k_N] = &b->k_N, arg[trum_winkler_balance_in_k_c] = &b->k_c;
+  arg[trum_winkler_balance_in_n_j] = &b->n_j, arg[trum_winkler_balance_in_theta] = &theta;
+  res[trum_winkler_balance_out_residual] = value, res[trum_winkler_balance_out_slope] = slope;
+  trum_winkler_balance(arg, res, 0, 0, 0);
+}
+
+/* Half-angle in (0, pi] at which the Winkler layer carries the prepressure; pi: the whole wave is in contact. */
+static inline trum_real trum_half_angle(trum_real F_c, trum_real k_N, trum_real W, trum_real k_c, trum_real n_j) {
+  const trum_real pi = (trum_real)3.14159265358979323846;
+  trum_balance b;
+  trum_real residual, slope;
+  b.F_c = F_c, b.k_N = k_N, b.W = W, b.k_c = k_c, b.n_j = n_j;
+  trum_balance_at(&b, pi, &residual, &slope);
+  if (!(residual < 0)) return F_c == F_c && W == W ? pi : F_c + W;
+  return trum_bracketed_root(trum_balance_at, &b, 0, pi);
+}
+
+/* One drive cycle: what the determinant needs to be evaluated anywhere in it. */
+typedef struct {
+  trum_real omega_n, Delta_omega, xi, psi, s, m, n;
+  trum_real a_A, b_A, a_B, b_B;  /* free motion before t1 */
+  trum_real W, D, k_c;
+  trum_real duration[TRUM_REGIONS], start[4 * TRUM_REGIONS];
+  trum_real state[4], g_A, g_B;  /* of the region entered last */
+  trum_real w_A, w_B, v_A, v_B, Q, Q_rate;  /* filled by trum_cycle_at */
+} trum_cycle;
+
+/* Fills the regions of a cycle whose fields down to k_c are set. */
+static inline void trum_cycle_regions(trum_cycle* c) {
+  const trum_real* arg[trum_regions_n_arg];
+  trum_real out[trum_regions_n_res];
+  trum_real* res[trum_regions_n_res];
+  int i;
+  for (i = 0; i < trum_regions_n_res; ++i) res[i] = &out[i];
+  arg[trum_regions_in_Delta_omega] = &c->Delta_omega, arg[trum_regions_in_W] = &c->W;
+  arg[trum_regions_in_a_A] = &c->a_A, arg[trum_regions_in_b_A] = &c->b_A;
+  arg[trum_regions_in_a_B] = &c->a_B, arg[trum_regions_in_b_B] = &c->b_B;
+  arg[trum_regions_in_m] = &c->m, arg[trum_regions_in_n] = &c->n;
+  arg[trum_regions_in_omega_n] = &c->omega_n, arg[trum_regions_in_psi] = &c->psi;
+  arg[trum_regions_in_s] = &c->s, arg[trum_regions_in_xi] = &c->xi;
+  trum_regions(arg, res, 0, 0, 0);
+  for (i = 0; i < TRUM_REGIONS; ++i) c->duration[i] = out[trum_regions_out_time_redu + i];
+  for (i = 0; i < 4 * TRUM_REGIONS; ++i) c->start[i] = out[trum_regions_out_a_A_redu + i];
+}
+
+static inline void trum_cycle_enter(trum_cycle* c, int region) {
+  static const trum_real gates_A[] = TRUM_GATES_A, gates_B[] = TRUM_GATES_B;
+  int i;
+  for (i = 0; i < 4; ++i) c->state[i] = c->start[4 * region + i];
+  c->g_A = gates_A[region], c->g_B = gates_B[region];
+}
+
+/* Both phases and the determinant, tau after the start of the region entered last. */
+static inline void trum_cycle_at(trum_cycle* c, trum_real tau) {
+  const trum_real* arg[trum_response_n_arg];
+  trum_real* res[trum_response_n_res];
+  arg[trum_response_in_D] = &c->D, arg[trum_response_in_Delta_omega] = &c->Delta_omega;
+  arg[trum_response_in_W] = &c->W, arg[trum_response_in_k_c] = &c->k_c;
+  arg[trum_response_in_a_A] = &c->state[0], arg[trum_response_in_b_A] = &c->state[1];
+  arg[trum_response_in_a_B] = &c->state[2], arg[trum_response_in_b_B] = &c->state[3];
+  arg[trum_response_in_g_A] = &c->g_A, arg[trum_response_in_g_B] = &c->g_B;
+  arg[trum_response_in_omega_n] = &c->omega_n, arg[trum_response_in_psi] = &c->psi;
+  arg[trum_response_in_s] = &c->s, arg[trum_response_in_tau] = &tau, arg[trum_response_in_xi] = &c->xi;
+  res[trum_response_out_w_A] = &c->w_A, res[trum_response_out_w_B] = &c->w_B;
+  res[trum_response_out_v_A] = &c->v_A, res[trum_response_out_v_B] = &c->v_B;
+  res[trum_response_out_Q] = &c->Q, res[trum_response_out_Q_rate] = &c->Q_rate;
+  trum_response(arg, res, 0, 0, 0);
+}
+
+/* Integrals over a cycle of Q's positive part, of its negative part's magnitude, and of their squares. */
+typedef struct {
+  trum_real q_plus, q_minus, p_plus, p_minus;
+} trum_sums;
+
+typedef struct {
+  trum_real tau, Q, rate;
+} trum_sample;
+
+static inline trum_sample trum_sample_at(trum_cycle* c, trum_real tau) {
+  trum_sample here;
+  trum_cycle_at(c, tau);
+  here.tau = tau, here.Q = c->Q, here.rate = c->Q_rate;
+  return here;
+}
+
+static inline void trum_determinant_at(void* of, trum_real tau, trum_real* value, trum_real* slope) {
+  const trum_sample here = trum_sample_at((trum_cycle*)of, tau);
+  *value = here.Q, *slope = here.rate;
+}
+
+static inline void trum_add(trum_sums* sums, trum_real integral, trum_real square) {
+  if (integral >= 0) sums->q_plus += integral, sums->p_plus += square;
+  else sums->q_minus -= integral, sums->p_minus += square;
+}
+
+/* Gauss-Legendre over [from, to], where Q keeps its sign. */
+static inline void trum_piece(trum_cycle* c, trum_sums* sums, trum_real from, trum_real to) {
+  static const double nodes[] = TRUM_GAUSS_NODES, weights[] = TRUM_GAUSS_WEIGHTS;
+  const trum_real half = (trum_real)0.5 * (to - from), middle = (trum_real)0.5 * (to + from);
+  trum_real integral = 0, square = 0;
+  int i;
+  if (!(to > from)) return;
+  for (i = 0; i < TRUM_GAUSS_POINTS; ++i) {
+    const trum_real Q = trum_sample_at(c, middle + half * (trum_real)nodes[i]).Q;
+    integral += (trum_real)weights[i] * Q;
+    square += (trum_real)weights[i] * Q * Q;
+  }
+  trum_add(sums, half * integral, half * square);
+}
+
+/* The extremum between two samples, by bisection on the rate; exact enough to see Q's sign there. */
+static inline trum_sample trum_extremum(trum_cycle* c, const trum_sample* p, const trum_sample* q) {
+  trum_real low = p->tau, high = q->tau;
+  trum_sample here = *p;
+  int i;
+  for (i = 0; i < 40; ++i) {
+    here = trum_sample_at(c, (trum_real)0.5 * (low + high));
+    if ((here.Q >= 0) != (p->Q >= 0)) break;
+    if ((here.rate < 0) == (p->rate < 0)) low = here.tau;
+    else high = here.tau;
+  }
+  return here;
+}
+
+/* Zero counts as positive, as in the sign changes: a phase at rest starts a region with Q = 0. */
+static inline int trum_towards_zero(const trum_sample* p) { return p->Q >= 0 ? p->rate < 0 : p->rate > 0; }
+
+/* Gauss-Legendre on a panel short against the fastest oscillation of Q; a panel in which Q changes sign is cut at
+ * every crossing, so that each piece is smooth and of one sign. */
+static inline void trum_panel(trum_cycle* c, trum_sums* sums, const trum_sample* left, const trum_sample* right,
+                              trum_real from, trum_real to) {
+  static const double nodes[] = TRUM_GAUSS_NODES, weights[] = TRUM_GAUSS_WEIGHTS;
+  const trum_real half = (trum_real)0.5 * (to - from), middle = (trum_real)0.5 * (to + from);
+  trum_sample s[TRUM_GAUSS_POINTS + 2];
+  trum_real integral = 0, square = 0, start = from;
+  int i, k, count, pieces = 0;
+  s[0] = *left, s[TRUM_GAUSS_POINTS + 1] = *right;
+  for (i = 0; i < TRUM_GAUSS_POINTS; ++i) {
+    s[i + 1] = trum_sample_at(c, middle + half * (trum_real)nodes[i]);
+    integral += (trum_real)weights[i] * s[i + 1].Q;
+    square += (trum_real)weights[i] * s[i + 1].Q * s[i + 1].Q;
+  }
+  for (i = 0; i <= TRUM_GAUSS_POINTS; ++i) {
+    const trum_sample *p = &s[i], *q = &s[i + 1];
+    trum_real cuts[2];
+    count = 0;
+    if ((p->Q >= 0) != (q->Q >= 0)) {
+      cuts[count++] = trum_bracketed_root(trum_determinant_at, c, p->tau, q->tau);
+    } else if (trum_towards_zero(p) && !trum_towards_zero(q)) { /* |Q| dips between the samples */
+      const trum_sample dip = trum_extremum(c, p, q);
+      if ((dip.Q >= 0) != (p->Q >= 0)) {
+        cuts[count++] = trum_bracketed_root(trum_determinant_at, c, p->tau, dip.tau);
+        cuts[count++] = trum_bracketed_root(trum_determinant_at, c, dip.tau, q->tau);
+      }
+    }
+    for (k = 0; k < count; ++k) {
+      trum_piece(c, sums, start, cuts[k]);
+      start = cuts[k], ++pieces;
+    }
+  }
+  if (pieces) trum_piece(c, sums, start, to);
+  else trum_add(sums, half * integral, half * square);
+}
+
+/* The sums of a cycle whose fields down to k_c are set, on so many panels in a period of drive or resonance. */
+static inline trum_sums trum_cycle_sums(trum_cycle* c, trum_real panels_per_period) {
+  trum_sums sums = {0, 0, 0, 0};
+  int region;
+  trum_cycle_regions(c);
+  for (region = 0; region < TRUM_REGIONS; ++region) {
+    const trum_real length = c->duration[region], driven = c->omega_n + c->Delta_omega;
+    const trum_real fastest = c->omega_n < driven ? driven : c->omega_n;
+    const trum_real turns = panels_per_period * length * fastest / (trum_real)6.283185307179586;
+    const trum_real count = (trum_real)ceil((double)turns - 1e-9);
+    trum_sample left;
+    trum_real i;
+    if (!(length > 0)) continue;
+    trum_cycle_enter(c, region);
+    left = trum_sample_at(c, 0);
+    for (i = 0; i < count; ++i) {
+      const trum_real from = length * (i / count), to = length * ((i + 1) / count);
+      const trum_sample right = trum_sample_at(c, to);
+      trum_panel(c, &sums, &left, &right, from, to);
+      left = right;
+    }
+  }
+  return sums;
+}
+
+#endif

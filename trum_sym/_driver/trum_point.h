@@ -1,0 +1,263 @@
+/* The implementation of trum.h: which kernel follows which, and where to go on or to stop. */
+#ifndef TRUM_POINT_H
+#define TRUM_POINT_H
+
+#include "trum_cycle.h"
+#include "trum_orbit.h"
+#include "trum_values.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define TRUM_FIELD_NAME(name, symbol, unit, low, high, low_open, high_open, integer, required) #name,
+#define TRUM_CHOICE_NAME(name, count, words) #name,
+static const char* const trum_field_names[] = {TRUM_MOTOR_FIELDS(TRUM_FIELD_NAME) TRUM_DRIVE_FIELDS(TRUM_FIELD_NAME)
+                                                   TRUM_CHOICES(TRUM_CHOICE_NAME) "tolerance"};
+#undef TRUM_FIELD_NAME
+#undef TRUM_CHOICE_NAME
+
+/* The numbers of the fields, in the order of trum_field_names. */
+#define TRUM_FIELD_NUMBER(name, symbol, unit, low, high, low_open, high_open, integer, required) trum_motor_##name,
+enum { TRUM_MOTOR_FIELDS(TRUM_FIELD_NUMBER) TRUM_MOTOR_COUNT };
+#undef TRUM_FIELD_NUMBER
+#define TRUM_FIELD_NUMBER(name, symbol, unit, low, high, low_open, high_open, integer, required) trum_drive_##name,
+#define TRUM_CHOICE_NUMBER(name, count, words) trum_drive_##name,
+enum {
+  trum_before_drive = TRUM_MOTOR_COUNT - 1,
+  TRUM_DRIVE_FIELDS(TRUM_FIELD_NUMBER) TRUM_CHOICES(TRUM_CHOICE_NUMBER) trum_drive_tolerance,
+  TRUM_FIELD_COUNT
+};
+#undef TRUM_FIELD_NUMBER
+#undef TRUM_CHOICE_NUMBER
+
+const char* trum_field_name(int field) { return field < 0 || field >= TRUM_FIELD_COUNT ? 0 : trum_field_names[field]; }
+
+const char* trum_status_text(int status) {
+  static const char* const texts[TRUM_STATUSES] = {
+      "ok",
+      "bad input",
+      "the motor's values give no finite size",
+      "without damping this drive has no steady or no repeated state",
+      "forced amplitude and resonance do not settle",
+      "no speed balances the load",
+      "the orbit misses the tolerance"};
+  return status < 0 || status >= TRUM_STATUSES ? 0 : texts[status];
+}
+
+static inline int trum_inside(double x, double low, double high, int low_open, int high_open, int integer) {
+  if (!(x - x == 0.0)) return 0; /* NaN or infinite */
+  if (low_open ? x <= low : x < low) return 0;
+  if (high_open ? x >= high : x > high) return 0;
+  return !integer || floor(x) == x;
+}
+
+/* The first field outside its domain, or one that does not fit another; -1 if all is well. */
+static inline int trum_wrong_field(const struct trum_motor* motor, const struct trum_drive* drive) {
+  int field = 0;
+#define TRUM_CHECK(of, x, low, high, low_open, high_open, integer, required)                                      \
+  if ((required || (double)of->x != 0.0) && !trum_inside((double)of->x, low, high, low_open, high_open, integer)) \
+    return field;                                                                                                 \
+  ++field;
+#define TRUM_CHECK_MOTOR(name, symbol, unit, low, high, low_open, high_open, integer, required) \
+  TRUM_CHECK(motor, name, low, high, low_open, high_open, integer, required)
+#define TRUM_CHECK_DRIVE(name, symbol, unit, low, high, low_open, high_open, integer, required) \
+  TRUM_CHECK(drive, name, low, high, low_open, high_open, integer, required)
+#define TRUM_CHECK_CHOICE(name, count, words)                 \
+  if (drive->name < 0 || drive->name >= (count)) return field; \
+  ++field;
+  TRUM_MOTOR_FIELDS(TRUM_CHECK_MOTOR)
+  TRUM_DRIVE_FIELDS(TRUM_CHECK_DRIVE)
+  TRUM_CHOICES(TRUM_CHECK_CHOICE)
+#undef TRUM_CHECK
+#undef TRUM_CHECK_MOTOR
+#undef TRUM_CHECK_DRIVE
+#undef TRUM_CHECK_CHOICE
+  if (!trum_inside((double)drive->tolerance, TRUM_FINEST_TOLERANCE * (1.0 - 1e-7), 1e-2 * (1.0 + 1e-7), 0, 0, 0))
+    return field;
+  if (motor->tooth_height >= motor->beam_thickness) return trum_motor_tooth_height;
+  if (motor->fit_prepressure_min >= motor->fit_prepressure_max) return trum_motor_fit_prepressure_min;
+  if (motor->tooth_count * motor->slot_width >= motor->perimeter) return trum_motor_slot_width;
+  if (2 * drive->on_periods < drive->periods || drive->on_periods > drive->periods) return trum_drive_on_periods;
+  if (!(drive->phase_lead * drive->phase_lead > 0)) return trum_drive_phase_lead;
+  return -1;
+}
+
+static inline int trum_is_size(trum_real x) { return x - x == 0 && x > 0; }
+
+/* Foundation, resonance and drive frequency at the amplitude in v. */
+static inline void trum_resonate(const struct trum_motor* motor, const struct trum_drive* drive, trum_real* v) {
+  static const int foundations[] = {trum_at_harmonic, trum_at_smeared, trum_at_printed};
+  static const int resonances[] = {trum_at_quartic, trum_at_eq6, trum_at_printed, trum_at_euler};
+  const trum_real pi = (trum_real)3.14159265358979323846;
+  v[trum_at_k_f] = 0;
+  if (drive->foundation != TRUM_FOUNDATION_NONE) {
+    if (drive->contact == TRUM_CONTACT_WINKLER) {
+      v[trum_at_theta] = trum_half_angle(v[trum_at_F_c], v[trum_at_k_N], v[trum_at_W], v[trum_at_k_c], v[trum_at_n_j]);
+    } else {
+      trum_call_hertz_half_angle(v);
+      if (v[trum_at_theta] > pi) v[trum_at_theta] = pi;
+    }
+    trum_call_foundation(v);
+    v[trum_at_k_f] = v[foundations[drive->foundation]];
+  }
+  v[trum_at_k_dx] = v[trum_at_k_f]; /* "printed" takes the number as it stands */
+  trum_call_resonance(v);
+  v[trum_at_omega_n] = v[resonances[drive->resonance]];
+  if (motor->resonance_frequency > 0) v[trum_at_omega_n] = 2 * pi * motor->resonance_frequency;
+  v[trum_at_omega_q] = v[trum_at_omega_n] + v[trum_at_Delta_omega];
+}
+
+/* Section, resonance and amplitude under prepressure. */
+static inline enum trum_status trum_stator(const struct trum_motor* motor, const struct trum_drive* drive,
+                                           struct trum_point* point, trum_real* v) {
+  const int modelled = !(motor->amplitude > 0);
+  /* two amplitudes in turn that differ in the last digits only have settled */
+  const double settled = sizeof(trum_real) < sizeof(double) ? 4.0 * (double)FLT_EPSILON : 1e-13;
+  int i;
+  if (!(motor->neutral_axis > 0)) trum_call_neutral_axis(v);
+  if (!(motor->wavenumber > 0)) trum_call_wavenumber(v);
+  if (!(motor->layer_stiffness > 0)) trum_call_layer_stiffness(v);
+  trum_call_section(v);
+  point->outside_fit = modelled && (drive->prepressure < motor->fit_prepressure_min ||
+                                    drive->prepressure > motor->fit_prepressure_max);
+  if (modelled) trum_call_amplitude_measured(v);
+  else v[trum_at_W] = motor->amplitude;
+  for (i = 0; i < 200; ++i) {
+    trum_real before = v[trum_at_W], change;
+    trum_resonate(motor, drive, v);
+    if (!trum_is_size(v[trum_at_omega_n])) return TRUM_NO_SIZE;
+    if (!(v[trum_at_omega_q] >= (trum_real)0.1 * v[trum_at_omega_n])) {
+      point->field = trum_drive_frequency_difference;
+      return TRUM_BAD_INPUT;
+    }
+    if (!modelled || drive->amplitude == TRUM_AMPLITUDE_MEASURED) break;
+    trum_call_amplitude_forced(v);
+    change = v[trum_at_W] > before ? v[trum_at_W] - before : before - v[trum_at_W];
+    if ((double)change <= settled * (double)v[trum_at_W]) break;
+  }
+  if (i == 200) return TRUM_NOT_SETTLED;
+  if (!trum_is_size(v[trum_at_W]) || !trum_is_size(v[trum_at_D]) || !trum_is_size(v[trum_at_k_c])) return TRUM_NO_SIZE;
+  return TRUM_OK;
+}
+
+/* Free motion before t1 of phases of unit amplitude. */
+static inline enum trum_status trum_begin_cycle(const struct trum_drive* drive, trum_real* v) {
+  v[trum_at_W] = 1;
+  v[trum_at_a_A] = v[trum_at_b_A] = v[trum_at_a_B] = v[trum_at_b_B] = 0;
+  if (drive->start == TRUM_START_REST) trum_call_start_rest(v);
+  if (drive->start == TRUM_START_PERIODIC) {
+    trum_call_start_periodic(v);
+    if (v[trum_at_repetition] < (trum_real)1e-9) return TRUM_UNDAMPED;
+  }
+  return TRUM_OK;
+}
+
+static inline void trum_determinants(trum_real* v) {
+  trum_cycle c;
+  trum_sums sums;
+  memset(&c, 0, sizeof c);
+  c.omega_n = v[trum_at_omega_n], c.Delta_omega = v[trum_at_Delta_omega], c.xi = v[trum_at_xi];
+  c.psi = v[trum_at_psi], c.s = v[trum_at_s], c.m = v[trum_at_m], c.n = v[trum_at_n];
+  c.a_A = v[trum_at_a_A], c.b_A = v[trum_at_b_A], c.a_B = v[trum_at_a_B], c.b_B = v[trum_at_b_B];
+  c.W = c.D = c.k_c = 1;
+  sums = trum_cycle_sums(&c, 4);
+  v[trum_at_q_plus] = sums.q_plus, v[trum_at_q_minus] = sums.q_minus;
+  v[trum_at_p_plus] = sums.p_plus, v[trum_at_p_minus] = sums.p_minus;
+  trum_call_measures(v);
+}
+
+static inline void trum_orbit_of(const struct trum_drive* drive, trum_real* v, trum_orbit_in* in) {
+  const int hertz = drive->contact == TRUM_CONTACT_HERTZ;
+  const double W = (double)v[trum_at_W];
+  trum_call_rotor_coefficients(v);
+  memset(in, 0, sizeof *in);
+  in->omega_n = (double)v[trum_at_omega_n], in->Delta_omega = (double)v[trum_at_Delta_omega];
+  in->xi = (double)v[trum_at_xi], in->psi = (double)v[trum_at_psi], in->s = (double)v[trum_at_s];
+  in->m = (double)v[trum_at_m], in->n = (double)v[trum_at_n], in->W = W;
+  in->a_A = (double)v[trum_at_a_A] * W, in->b_A = (double)v[trum_at_b_A] * W;
+  in->a_B = (double)v[trum_at_a_B] * W, in->b_B = (double)v[trum_at_b_B] * W;
+  in->D = (double)v[trum_at_D], in->k_c = (double)v[trum_at_k_c];
+  in->engagement_per_height = (double)v[trum_at_engagement_per_height];
+  in->W_full = (double)v[hertz ? trum_at_W_full_hertz : trum_at_W_full_winkler], in->hertz = hertz;
+  in->push = (double)v[trum_at_push], in->drag = (double)v[trum_at_drag];
+  in->tolerance = (double)drive->tolerance;
+}
+
+static inline enum trum_status trum_solve_point(const struct trum_motor* motor, const struct trum_drive* drive,
+                                                struct trum_point* point, trum_orbit_in* in, trum_orbit_out* out) {
+  const trum_real turn = (trum_real)6.283185307179586;
+  trum_real v[TRUM_VALUES], W;
+  enum trum_status status;
+  int flags;
+#define TRUM_UNKNOWN(name, unit) point->name = (trum_real)NAN;
+  TRUM_FIGURES(TRUM_UNKNOWN)
+#undef TRUM_UNKNOWN
+  point->converged = point->full_contact = point->outside_fit = 0;
+  point->field = trum_wrong_field(motor, drive);
+  if (point->field >= 0) return TRUM_BAD_INPUT;
+  memset(v, 0, sizeof v);
+#define TRUM_LOAD_MOTOR(name, symbol, unit, low, high, low_open, high_open, integer, required) \
+  v[trum_at_##symbol] = motor->name;
+#define TRUM_LOAD_DRIVE(name, symbol, unit, low, high, low_open, high_open, integer, required) \
+  v[trum_at_##symbol] = drive->name;
+  TRUM_MOTOR_FIELDS(TRUM_LOAD_MOTOR)
+  TRUM_DRIVE_FIELDS(TRUM_LOAD_DRIVE)
+#undef TRUM_LOAD_MOTOR
+#undef TRUM_LOAD_DRIVE
+  v[trum_at_Delta_omega] = turn * drive->frequency_difference;
+  if (!(motor->damping_ratio > 0) && !(drive->frequency_difference < 0) && !(drive->frequency_difference > 0))
+    return TRUM_UNDAMPED;
+  status = trum_stator(motor, drive, point, v);
+  if (status != TRUM_OK) return status;
+  W = v[trum_at_W];
+  status = trum_begin_cycle(drive, v);
+  if (status != TRUM_OK) return status;
+  trum_call_drive(v);
+  trum_determinants(v);
+  point->resonance_frequency = v[trum_at_omega_n] / turn, point->drive_frequency = v[trum_at_omega_q] / turn;
+  point->cycle_time = v[trum_at_T], point->amplitude = W;
+  point->neutral_axis = v[trum_at_D], point->wavenumber = v[trum_at_k_c];
+  point->q_ratio = v[trum_at_q_ratio], point->q_square_ratio = v[trum_at_q_square_ratio];
+  point->q_average = v[trum_at_q_average], point->q_volatility = v[trum_at_q_volatility];
+
+  v[trum_at_W] = W;
+  trum_orbit_of(drive, v, in);
+  trum_orbits(in, out, 0, 0, 1);
+  flags = (int)out->flags;
+  v[trum_at_f] = (trum_real)out->held;
+  trum_call_stall_torque(v);
+  point->stall_torque = v[trum_at_torque], point->contact_fraction = (trum_real)out->contact;
+  point->mean_speed = (trum_real)out->mean / motor->contact_radius;
+  point->min_speed = (trum_real)out->low / motor->contact_radius;
+  point->max_speed = (trum_real)out->high / motor->contact_radius;
+  point->speed_volatility = (trum_real)(sqrt(out->variance) / fabs(out->mean));
+  point->converged = (flags & trum_converged) > 0, point->full_contact = (flags & trum_full_contact) > 0;
+  return flags & trum_runaway ? TRUM_RUNAWAY : point->converged ? TRUM_OK : TRUM_NOT_CONVERGED;
+}
+
+enum trum_status trum_evaluate(const struct trum_motor* motor, const struct trum_drive* drive,
+                               struct trum_point* point) {
+  trum_orbit_in in;
+  trum_orbit_out out;
+  return trum_solve_point(motor, drive, point, &in, &out);
+}
+
+enum trum_status trum_simulate(const struct trum_motor* motor, const struct trum_drive* drive, struct trum_point* point,
+                               double* speed, double* angle, long count) {
+  trum_orbit_in in;
+  trum_orbit_out out;
+  const enum trum_status status = trum_solve_point(motor, drive, point, &in, &out);
+  long i;
+  if (status == TRUM_OK && count > 0) trum_history(&in, &out, speed, angle, count);
+  for (i = 0; i < count; ++i) {
+    speed[i] = status == TRUM_OK ? speed[i] / (double)motor->contact_radius : NAN;
+    angle[i] = status == TRUM_OK ? angle[i] / (double)motor->contact_radius : NAN;
+  }
+  return status;
+}
+
+#ifdef __cplusplus
+}
+#endif
+#endif
