@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import sympy as sp
 
 __all__ = ["integrals", "legendre", "nodes", "outward", "powers"]
@@ -9,16 +11,18 @@ __all__ = ["integrals", "legendre", "nodes", "outward", "powers"]
 COUNT = 4
 
 
-def nodes() -> list[sp.Expr]:
+@cache
+def nodes() -> tuple[sp.Expr, ...]:
     """Lobatto's nodes on [0, 1]: both ends, and where the derivative of a Legendre polynomial vanishes."""
     x = sp.Symbol("x")
     inner = sp.solve(sp.legendre(COUNT - 1, x).diff(x), x)
-    return sorted((sp.nsimplify((1 + root) / 2) for root in [-1, *inner, 1]), key=float)
+    return tuple(sorted((sp.nsimplify((1 + root) / 2) for root in [-1, *inner, 1]), key=float))
 
 
-def powers() -> sp.Matrix:
+@cache
+def powers() -> sp.ImmutableMatrix:
     """Rows k: weights of the values at the nodes in the coefficient of s^k of their polynomial."""
-    return sp.Matrix(COUNT, COUNT, lambda i, k: nodes()[i] ** k).inv().applyfunc(sp.radsimp)
+    return sp.ImmutableMatrix(COUNT, COUNT, lambda i, k: nodes()[i] ** k).inv().applyfunc(sp.radsimp)
 
 
 def integrals() -> sp.Matrix:
@@ -34,7 +38,7 @@ def legendre() -> sp.Matrix:
     for k in range(COUNT):
         shifted = sp.expand(sp.legendre(k, 2 * s - 1) * (2 * k + 1))
         moments = [sp.integrate(shifted * s**j, (s, 0, 1)) for j in range(COUNT)]
-        rows.append([sp.radsimp(sum(moments[j] * powers()[j, i] for j in range(COUNT))) for i in range(COUNT)])
+        rows.append([sp.radsimp(sum(m * powers()[j, i] for j, m in enumerate(moments))) for i in range(COUNT)])
     return sp.Matrix(rows)
 
 
