@@ -19,7 +19,6 @@ _ELEMENTARY: dict[type, Callable[..., ca.SX]] = {
     sp.cos: ca.cos,
     sp.exp: ca.exp,
     sp.atan2: ca.atan2,
-    sp.acos: ca.acos,
     sp.Abs: ca.fabs,
 }
 

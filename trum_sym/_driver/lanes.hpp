@@ -3,7 +3,6 @@
 // Include inside a namespace of its own, with LANES defined.
 
 // plain numbers keep their own functions
-using ::acos;
 using ::atan2;
 using ::cos;
 using ::exp;
@@ -122,7 +121,6 @@ inline Lane atan2(Lane y, Lane x) {
   angle = select(x.v < Vector{}, Lane(3.14159265358979323846) - angle, angle);
   return select(y.v < Vector{}, -angle, angle);
 }
-inline Lane acos(Lane x) { return atan2(sqrt((Lane(1.0) - x) * (Lane(1.0) + x)), x); }
 
 inline Lane exp(Lane x) {
   static constexpr double coefficients[] = TRUM_EXP_COEFFICIENTS;
