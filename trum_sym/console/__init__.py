@@ -1,0 +1,73 @@
+"""``trum-sym``: the console.  One module a command; heavy imports wait until it runs."""
+
+from __future__ import annotations
+
+import click
+
+from trum_sym.console.equations import equations
+from trum_sym.console.evaluate import evaluate
+from trum_sym.console.simulate import simulate
+
+__all__ = ["main"]
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
+@click.version_option(package_name="trum-sym")
+def _cli() -> None:
+    """Travelling-wave ultrasonic motors at very low speed (superimposed pulse driving).
+
+    Exit codes: 0 done; 1 the work was done and its answer is no; 2 bad input.
+    """
+
+
+for _command in (evaluate, simulate, equations):
+    _cli.add_command(_command)
+
+
+def _one_line(message: str) -> str:
+    return " ".join(message.split())
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run the console; returns the exit code and never lets a traceback through for bad input."""
+    import warnings
+
+    def show(message: Warning | str, *_: object, **__: object) -> None:
+        click.echo(f"trum-sym: warning: {_one_line(str(message))}", err=True)
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("always")
+        warnings.showwarning = show
+        try:
+            result = _cli.main(args=arguments, prog_name="trum-sym", standalone_mode=False)
+        except click.exceptions.NoArgsIsHelpError as help_shown:
+            click.echo(help_shown.format_message())
+            return 2
+        except click.ClickException as error:
+            click.echo(f"trum-sym: {_one_line(error.format_message())}", err=True)
+            return 2
+        except click.Abort:
+            click.echo("trum-sym: interrupted", err=True)
+            return 130
+        except ValueError as error:
+            from trum_sym.errors import ParameterError
+
+            if not isinstance(error, ParameterError):
+                raise
+            click.echo(f"trum-sym: {error}", err=True)
+            return 2
+        except ImportError as error:
+            from trum_sym.errors import MissingExtraError
+
+            if not isinstance(error, MissingExtraError):
+                raise
+            click.echo(f"trum-sym: {error}", err=True)
+            return 2
+        except RuntimeError as error:
+            from trum_sym.errors import ConvergenceError
+
+            if not isinstance(error, ConvergenceError):
+                raise
+            click.echo(f"trum-sym: {error}", err=True)
+            return 1
+    return result if isinstance(result, int) else 0

@@ -1,0 +1,26 @@
+"""``trum-sym equations``."""
+
+from __future__ import annotations
+
+import click
+
+__all__ = ["equations"]
+
+
+@click.command()
+@click.option("--equation", metavar="ID", help="The paper's number, such as 6 or A13: its derivation written out.")
+@click.option("--json", "as_json", is_flag=True, help="The records instead of a table.")
+def equations(equation: str | None, as_json: bool) -> None:
+    """The ledger: what the paper printed, what follows from first principles, the verdict and its effect."""
+    from trum_sym.ledger import load_ledger, select, table, written_out
+
+    records = load_ledger()
+    chosen = records if equation is None else [select(records, equation)]
+    if as_json:
+        import json
+
+        click.echo(json.dumps(chosen, indent=1, ensure_ascii=False))
+    elif equation is not None:
+        click.echo(written_out(chosen[0]))
+    else:
+        click.echo(table(chosen))

@@ -1,0 +1,34 @@
+"""``trum-sym evaluate``."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import click
+
+from trum_sym.console.options import LEVELS, chosen_drive, chosen_motor, point_options
+
+__all__ = ["evaluate"]
+
+
+@click.command()
+@point_options
+@click.option("--json", "as_json", is_flag=True, help="One JSON object instead of a table; SI units, speeds in rad/s.")
+def evaluate(motor: str, overrides: tuple[str, ...], as_json: bool, **options: Any) -> None:  # noqa: ANN401
+    """One operating point; with no options, TRUM-60 at the paper's Table 3.
+
+    Numbers are in the unit shown, or carry one: --frequency-difference "3 kHz".
+    """
+    from trum_sym.operating_point import evaluate as evaluate_point
+
+    machine, drive = chosen_motor(motor, overrides), chosen_drive(options)
+    levels = {name: options[name] for name in LEVELS}
+    point = evaluate_point(machine, drive, **levels)
+    if as_json:
+        from trum_sym.tables import as_json_text
+
+        click.echo(as_json_text(point))
+    else:
+        from trum_sym.tables import as_table
+
+        click.echo(as_table(machine, drive, point, levels))

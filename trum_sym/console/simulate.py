@@ -1,0 +1,56 @@
+"""``trum-sym simulate``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from trum_sym.console.options import LEVELS, chosen_drive, chosen_motor, number_option, point_options
+
+__all__ = ["simulate"]
+
+
+@click.command()
+@point_options
+@number_option("--cycles", "1", 1, "Drive cycles.", "K")
+@number_option("--samples-per-period", "1", 64, "Samples in a drive period.", "K")
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Write the histories: .nc (NetCDF, with every setting and unit) or .csv.  [default: a summary]",
+)
+def simulate(
+    motor: str,
+    overrides: tuple[str, ...],
+    cycles: float,
+    samples_per_period: float,
+    out: Path | None,
+    **options: Any,  # noqa: ANN401
+) -> None:
+    """Time histories of one operating point on its periodic orbit.
+
+    Phases, surface, determinant, contact, friction, and the rotor's speed and angle.
+    """
+    from trum_sym.files import check_target, write
+    from trum_sym.histories import simulate as simulate_point
+
+    if out is not None:
+        check_target("--out", out)
+    levels = {name: options[name] for name in LEVELS}
+    histories = simulate_point(
+        chosen_motor(motor, overrides),
+        chosen_drive(options),
+        cycles=cycles,
+        samples_per_period=samples_per_period,
+        **levels,
+    )
+    if out is not None:
+        write("--out", histories, out)
+        click.echo(f"{out}: {histories.sizes['time']} times of {len(histories.data_vars)} histories")
+    else:
+        from trum_sym.tables import histories_table
+
+        click.echo(histories_table(histories))
