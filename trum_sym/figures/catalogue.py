@@ -183,9 +183,9 @@ PICTURES: tuple[Picture, ...] = (
     ),
     Picture(
         "fig-29", _MOTOR, "Speed as the encoder reads it",
-        "A hundred readings of 2 ms at Table 3's drive, for each start. Table 4 prints a mean of 633 arcsec/s and a "
+        "Sixty readings of 2 ms at Table 3's drive, for each start. Table 4 prints a mean of 633 arcsec/s and a "
         "volatility of 17.3 %.",
-        "Deviation of a hundred encoder readings from their mean for three starts.",
+        "Deviation of sixty encoder readings from their mean for three starts.",
         figures.measured_speed,
     ),
     Picture(

@@ -56,10 +56,10 @@ def maps(motor: Motor | None = None, drive: Drive | None = None, *, axes: Panels
     ranges: tuple[dict[str, tuple[float, float]], ...] = ({**BOX}, BEYOND)
     for row, (spans, shape) in enumerate(zip(ranges, ((31, 26), (46, 31)), strict=True)):
         difference, force, found = _grid(motor, drive, spans, *shape)
-        speed = found["mean_speed"]
+        speed, volatility = found["mean_speed"], np.log10(found["speed_volatility"])
         shown = (
             ("v_s (10⁶ arcsec/s)", speed, "cividis", _span(speed)),
-            ("log₁₀ of σ_s in %", np.log10(found["speed_volatility"]), "cividis", {"vmax": 3.0}),
+            ("log₁₀ of σ_s in %", volatility, "cividis", _span(np.minimum(volatility, 3.0))),
             ("Q_aver (1/s)", found["q_average"], "cividis", _span(found["q_average"])),
         )
         for ax, (label, values, colours, limits) in zip(six[3 * row : 3 * row + 3], shown, strict=True):
@@ -97,11 +97,11 @@ def prediction(motor: Motor | None = None, drive: Drive | None = None, *, axes: 
     ranges: tuple[dict[str, tuple[float, float]], ...] = ({**BOX}, BEYOND)
     for column, (spans, title) in enumerate(zip(ranges, ("the paper's box", "around it"), strict=True)):
         for reading, colour, mark in zip(READINGS, COLOURS, "osD", strict=False):
-            _, _, found = _grid(motor, reading.of(drive), spans, 16, 16)
+            _, _, found = _grid(motor, reading.of(drive), spans, 12, 12)
             for ax, x, y in ((four[column], "q_average", "mean_speed"), (four[2 + column], "q_volatility", "speed_volatility")):
                 rank = rank_correlation(found[x], found[y])
                 ax.plot(found[x].ravel(), found[y].ravel(), mark, color=colour, markersize=2.2, alpha=0.7,
-                        markeredgewidth=0, label=f"{reading.label}: rank {rank:+.2f}")  # fmt: skip
+                        markeredgewidth=0, label=f"{reading.label}: rank correlation {rank:+.2f}".replace("-", "−"))  # fmt: skip
         four[column].set_title(title, pad=44)
     for ax in four[:2]:
         ax.set_xlabel("Q_aver (1/s)")
@@ -111,6 +111,7 @@ def prediction(motor: Motor | None = None, drive: Drive | None = None, *, axes: 
         ax.set_xlabel("Q_vib (1/s)")
         ax.set_ylabel("σ_s (%)")
         ax.set_yscale("log")
+    four[3].set_xscale("symlog", linthresh=1e3)  # Q_vib has poles where Q_aver is 0
     for ax in four:
         legend(ax, ncols=1, fontsize=7, markerscale=2)
     return four[0].get_figure(root=True)

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 __all__ = ["measured_speed", "torque_speed"]
 
-_READINGS = 100
+_COUNT = 60
 
 
 @styled
@@ -44,13 +44,13 @@ def measured_speed(motor: Motor | None = None, drive: Drive | None = None, *, ax
         cycle = solve(motor, reading.of(drive))
         distance = history(cycle.case.arguments, cycle.orbit.raw, 64 * int(np.asarray(drive.periods)))["distance"]
         lap = float(cycle.edges[-1])
-        starts = np.arange(_READINGS) * (ENCODER / lap) % 1.0
+        starts = np.arange(_COUNT) * (ENCODER / lap) % 1.0
         speed = encoder_readings(distance, lap, ENCODER, starts) / np.asarray(cycle.case.symbols["r_c"])
         mean = float(cycle.orbit.mean_speed)
-        time = 1e3 * ENCODER * np.arange(_READINGS)
-        ax.plot(time, 100 * (speed / mean - 1), ".-", color=colour, linewidth=0.5, markersize=3)
+        time = 1e3 * ENCODER * np.arange(_COUNT)
+        ax.plot(time, 100 * (speed / mean - 1), ".-", color=colour, linewidth=0.3, markersize=3.5)
         ax.axhline(0, color=INK, linewidth=0.6)
-        ax.set_title(f"{reading.label}\nmean {mean / (1e6 * ARCSEC):.4g}·10⁶ arcsec/s")
+        ax.set_title(f"{reading.label}\nmean {mean / (1e6 * ARCSEC):.4g}·10⁶ arcsec/s".replace("-", "−"))
         ax.set_xlabel("time (ms)")
     three[0].set_ylabel("reading less mean (% of the mean)")
     return three[0].get_figure(root=True)

@@ -120,11 +120,11 @@ def transfer_models(
             ax.fill_between(u, found["v_x"], v, where=list(where), color=colour, alpha=0.4, linewidth=0)
             runs = np.flatnonzero(np.diff(np.concatenate([[False], where, [False]]).astype(int))).reshape(-1, 2)
             for begin, end in runs:
-                ax.text(u[(begin + end - 1) // 2], -1.05, mark, ha="center", va="center", color=colour, fontsize=11)
+                ax.text(u[(begin + end - 1) // 2], -1.3, mark, ha="center", va="center", color=colour, fontsize=11)
         ax.plot(u, found["v_x"], color=INK, linewidth=1.0)
         ax.axhline(v, color=INK, linestyle="--", linewidth=0.8)
         ax.axhline(0, color=INK, linewidth=0.4)
-        ax.set_ylim(-1.2, 1.15)
+        ax.set_ylim(-1.5, 1.15)
         ax.set_title(model.label.replace(", ", ",\n", 1) + f"\n{100 * shares[model]:.1f} % of the cycle", fontsize=8)
     for ax in eight[4:]:
         ax.set_xlabel("angle from crest u (rad)")
@@ -146,11 +146,11 @@ def contact_zone(motor: Motor | None = None, drive: Drive | None = None, *, axes
     cycle = solve(motor, drive)
     upper, lower = panels(axes, 2, 1, 4.0, sharex=True, height_ratios=(3, 1))
     time, speed, _ = cycle.rotor(int(np.asarray(cycle.case.drive.periods)) * 32)
-    u = np.linspace(-np.pi, np.pi, 121)
     v = speed * np.asarray(cycle.case.symbols["r_c"])
     inside = np.minimum(time, np.nextafter(time[-1], 0))
-    traction = cycle.interface(inside[None, :], u[:, None], v[None, :])["traction"]
     theta = np.asarray(cycle.touching(inside)["theta"])
+    u = np.linspace(-1, 1, 121) * min(np.pi, 1.15 * float(np.max(theta)))
+    traction = cycle.interface(inside[None, :], u[:, None], v[None, :])["traction"]
     limit = float(np.quantile(abs(traction[traction != 0]), 0.98))
     mesh = upper.pcolormesh(1e3 * time, u, 1e-3 * traction, cmap="RdBu", vmin=-1e-3 * limit, vmax=1e-3 * limit,
                             shading="nearest", rasterized=True)  # fmt: skip

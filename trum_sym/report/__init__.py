@@ -1,0 +1,8 @@
+"""The report: the paper's figures, tables and claims redrawn and judged, as one page that needs no network."""
+
+from __future__ import annotations
+
+from trum_sym.report.page import page
+from trum_sym.report.output import check_folder, write_report
+
+__all__ = ["check_folder", "page", "write_report"]
