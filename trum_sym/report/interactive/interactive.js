@@ -83,7 +83,7 @@
   /* Axes of one picture: returns functions from data to pixels and helpers that draw. */
   function axes(svg, x, y, names, height = HEIGHT, marks = {}) {
     const width = Math.max(220, svg.parentElement.clientWidth);
-    const left = 48, right = width - 8, top = 8, bottom = height - 32;
+    const left = 48, right = width - 14, top = 8, bottom = height - 32;
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     svg.replaceChildren();
     if (!(y[1] > y[0])) y = [-1, 1];
@@ -159,7 +159,7 @@
     say("determinant", `Direction determinant over the cycle; Q_aver is ${shown(figures.q_average)} per second`);
 
     const angle = scaled(histories.theta, 180 / Math.PI);
-    over("zone", [-180, 180], "degrees", (box) => {
+    over("zone", [-215, 215], "°", (box) => {
       box.path([...time, ...[...time].reverse()], [...angle, ...angle.map((v) => -v).reverse()], "touch", "Z");
     }, { y: quarters });
     say("zone", `Half-angle of the contact from ${shown(Math.min(...angle))} to ${shown(Math.max(...angle))} degrees`);
