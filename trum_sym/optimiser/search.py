@@ -34,7 +34,7 @@ OBJECTIVES: Mapping[str, str] = MappingProxyType(
     }
 )
 PAPER_BOX = {"prepressure": (160.0, 210.0), "frequency_difference": (2800.0, 3300.0)}
-_VARIABLES = ("prepressure", "frequency_difference")
+_VARIABLES = ("prepressure", "frequency_difference", "switching_phase")
 _PULSES = ("periods", "on_periods")
 _COARSE = 8  # divisions of the maps that rank pulse counts
 _MARGIN = 0.25  # by which such a map may overrate a pair's objective
