@@ -32,9 +32,10 @@ _OPTIONS = {
     "ipopt.bound_push": 1e-3,
     "ipopt.bound_frac": 1e-3,
     "ipopt.mu_strategy": "adaptive",
-    "ipopt.tol": 1e-6,
+    "ipopt.tol": 1e-5,
     "ipopt.acceptable_tol": 1e-4,
-    "ipopt.acceptable_iter": 4,
+    "ipopt.acceptable_iter": 2,
+    "ipopt.accept_after_max_steps": 3,
     "ipopt.max_iter": 40,
 }
 _MOST_PLACES = 60  # of one start: where orbits are too rough for IPOPT, its line search would go on
