@@ -128,6 +128,11 @@ int trum_contact_hertz(const trum_real** arg, trum_real** res, long long int* iw
 enum { trum_contact_hertz_in_W_c, trum_contact_hertz_in_W_full, trum_contact_hertz_n_arg };
 enum { trum_contact_hertz_out_theta, trum_contact_hertz_out_sin_theta, trum_contact_hertz_out_share, trum_contact_hertz_out_engagement, trum_contact_hertz_n_res };
 
+/* Contact pressure under a crest (eqs. 28, 30, 31) */
+int trum_peak_pressure(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_peak_pressure_in_F_c, trum_peak_pressure_in_b_m, trum_peak_pressure_in_engagement, trum_peak_pressure_in_k_c, trum_peak_pressure_in_n_j, trum_peak_pressure_in_share, trum_peak_pressure_n_arg };
+enum { trum_peak_pressure_out_pressure, trum_peak_pressure_n_res };
+
 /* Torque on a held rotor (eq. 38) */
 int trum_stall_torque(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_stall_torque_in_F_c, trum_stall_torque_in_f, trum_stall_torque_in_mu, trum_stall_torque_in_r_c, trum_stall_torque_n_arg };
@@ -164,9 +169,9 @@ enum { trum_friction_slopes_in_R_v, trum_friction_slopes_in_cos_phi, trum_fricti
 enum { trum_friction_slopes_out_f_phi, trum_friction_slopes_out_f_E, trum_friction_slopes_out_theta_E, trum_friction_slopes_out_E_height, trum_friction_slopes_n_res };
 
 /* A point of the surface within a region: displacements, tangential velocity, envelope, crest (eqs. 11, 12, 16, 20) */
-int trum_surface(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
-enum { trum_surface_in_D, trum_surface_in_Delta_omega, trum_surface_in_W, trum_surface_in_a_A, trum_surface_in_a_B, trum_surface_in_b_A, trum_surface_in_b_B, trum_surface_in_g_A, trum_surface_in_g_B, trum_surface_in_k_c, trum_surface_in_omega_n, trum_surface_in_psi, trum_surface_in_s, trum_surface_in_tau, trum_surface_in_x, trum_surface_in_xi, trum_surface_n_arg };
-enum { trum_surface_out_zeta_z, trum_surface_out_zeta_x, trum_surface_out_v_x, trum_surface_out_A_Q, trum_surface_out_x_max, trum_surface_n_res };
+int trum_particle(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_particle_in_D, trum_particle_in_Delta_omega, trum_particle_in_W, trum_particle_in_a_A, trum_particle_in_a_B, trum_particle_in_b_A, trum_particle_in_b_B, trum_particle_in_g_A, trum_particle_in_g_B, trum_particle_in_k_c, trum_particle_in_omega_n, trum_particle_in_psi, trum_particle_in_s, trum_particle_in_tau, trum_particle_in_x, trum_particle_in_xi, trum_particle_n_arg };
+enum { trum_particle_out_zeta_z, trum_particle_out_zeta_x, trum_particle_out_v_x, trum_particle_out_A_Q, trum_particle_out_x_max, trum_particle_n_res };
 
 /* Surface speed about the crest, line pressure, traction on the rotor (eqs. 16, 32, 36) */
 int trum_interface(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
@@ -198,6 +203,7 @@ enum { trum_interface_out_v_x, trum_interface_out_v_x_slope, trum_interface_out_
   X(trum_filling, 2, 2, "W_c engagement_per_height", "engagement fullness") \
   X(trum_contact_winkler, 2, 3, "fullness fullness_root", "theta sin_theta share") \
   X(trum_contact_hertz, 2, 4, "W_c W_full", "theta sin_theta share engagement") \
+  X(trum_peak_pressure, 6, 1, "F_c b_m engagement k_c n_j share", "pressure") \
   X(trum_stall_torque, 4, 1, "F_c f mu r_c", "torque") \
   X(trum_friction, 9, 4, "R_v cos_phi engagement phi share sin_phi sin_theta theta v", "f f_v p_1 p_2") \
   X(trum_start_periodic_slopes, 8, 8, "Delta_omega W m n omega_n psi s xi", "a_A_omega_n b_A_omega_n a_B_omega_n b_B_omega_n a_A_Delta_omega b_A_Delta_omega a_B_Delta_omega b_B_Delta_omega") \
@@ -205,7 +211,7 @@ enum { trum_interface_out_v_x, trum_interface_out_v_x_slope, trum_interface_out_
   X(trum_regions_slopes, 20, 24, "Delta_omega W a_A a_A_Delta_omega a_A_omega_n a_B a_B_Delta_omega a_B_omega_n b_A b_A_Delta_omega b_A_omega_n b_B b_B_Delta_omega b_B_omega_n m n omega_n psi s xi", "re_A_redu_omega_n im_A_redu_omega_n re_A_addredu_omega_n im_A_addredu_omega_n re_A_add_omega_n im_A_add_omega_n re_B_redu_omega_n im_B_redu_omega_n re_B_addredu_omega_n im_B_addredu_omega_n re_B_add_omega_n im_B_add_omega_n re_A_redu_Delta_omega im_A_redu_Delta_omega re_A_addredu_Delta_omega im_A_addredu_Delta_omega re_A_add_Delta_omega im_A_add_Delta_omega re_B_redu_Delta_omega im_B_redu_Delta_omega re_B_addredu_Delta_omega im_B_addredu_Delta_omega re_B_add_Delta_omega im_B_add_Delta_omega") \
   X(trum_wave_slopes, 24, 6, "D Delta_omega W f_A_im f_A_im_Delta_omega f_A_im_omega_n f_A_re f_A_re_Delta_omega f_A_re_omega_n f_B_im f_B_im_Delta_omega f_B_im_omega_n f_B_re f_B_re_Delta_omega f_B_re_omega_n g_A g_B k_c omega_n p_im p_re s tau xi", "W_c_omega_n R_v_omega_n phi_omega_n W_c_Delta_omega R_v_Delta_omega phi_Delta_omega") \
   X(trum_friction_slopes, 9, 4, "R_v cos_phi engagement phi share sin_phi sin_theta theta v", "f_phi f_E theta_E E_height") \
-  X(trum_surface, 16, 5, "D Delta_omega W a_A a_B b_A b_B g_A g_B k_c omega_n psi s tau x xi", "zeta_z zeta_x v_x A_Q x_max") \
+  X(trum_particle, 16, 5, "D Delta_omega W a_A a_B b_A b_B g_A g_B k_c omega_n psi s tau x xi", "zeta_z zeta_x v_x A_Q x_max") \
   X(trum_interface, 12, 4, "F_c R_v cos_phi engagement k_c mu n_j share sin_phi v x x_max", "v_x v_x_slope p traction")
 
 /* gates of the phases in the regions of a cycle */

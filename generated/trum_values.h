@@ -154,6 +154,7 @@ enum {
   trum_at_phi,
   trum_at_phi_Delta_omega,
   trum_at_phi_omega_n,
+  trum_at_pressure,
   trum_at_printed,
   trum_at_psi,
   trum_at_push,
@@ -355,6 +356,12 @@ static inline void trum_call_contact_hertz(trum_real* v) {
   trum_contact_hertz(arg, res, 0, 0, 0);
 }
 
+static inline void trum_call_peak_pressure(trum_real* v) {
+  const trum_real* arg[trum_peak_pressure_n_arg] = {v + trum_at_F_c, v + trum_at_b_m, v + trum_at_engagement, v + trum_at_k_c, v + trum_at_n_j, v + trum_at_share};
+  trum_real* res[trum_peak_pressure_n_res] = {v + trum_at_pressure};
+  trum_peak_pressure(arg, res, 0, 0, 0);
+}
+
 static inline void trum_call_stall_torque(trum_real* v) {
   const trum_real* arg[trum_stall_torque_n_arg] = {v + trum_at_F_c, v + trum_at_f, v + trum_at_mu, v + trum_at_r_c};
   trum_real* res[trum_stall_torque_n_res] = {v + trum_at_torque};
@@ -397,10 +404,10 @@ static inline void trum_call_friction_slopes(trum_real* v) {
   trum_friction_slopes(arg, res, 0, 0, 0);
 }
 
-static inline void trum_call_surface(trum_real* v) {
-  const trum_real* arg[trum_surface_n_arg] = {v + trum_at_D, v + trum_at_Delta_omega, v + trum_at_W, v + trum_at_a_A, v + trum_at_a_B, v + trum_at_b_A, v + trum_at_b_B, v + trum_at_g_A, v + trum_at_g_B, v + trum_at_k_c, v + trum_at_omega_n, v + trum_at_psi, v + trum_at_s, v + trum_at_tau, v + trum_at_x, v + trum_at_xi};
-  trum_real* res[trum_surface_n_res] = {v + trum_at_zeta_z, v + trum_at_zeta_x, v + trum_at_v_x, v + trum_at_A_Q, v + trum_at_x_max};
-  trum_surface(arg, res, 0, 0, 0);
+static inline void trum_call_particle(trum_real* v) {
+  const trum_real* arg[trum_particle_n_arg] = {v + trum_at_D, v + trum_at_Delta_omega, v + trum_at_W, v + trum_at_a_A, v + trum_at_a_B, v + trum_at_b_A, v + trum_at_b_B, v + trum_at_g_A, v + trum_at_g_B, v + trum_at_k_c, v + trum_at_omega_n, v + trum_at_psi, v + trum_at_s, v + trum_at_tau, v + trum_at_x, v + trum_at_xi};
+  trum_real* res[trum_particle_n_res] = {v + trum_at_zeta_z, v + trum_at_zeta_x, v + trum_at_v_x, v + trum_at_A_Q, v + trum_at_x_max};
+  trum_particle(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_interface(trum_real* v) {

@@ -19,7 +19,7 @@ from trum_sym.figures.catalogue import PICTURES
 from trum_sym.figures.motion import SECTION_5
 from trum_sym.figures.transfer import MODELS
 
-ARCSEC = np.pi / 642000
+ARCSEC = np.pi / 648000
 SPEED = 1e6 * ARCSEC
 
 

@@ -6,6 +6,7 @@ import click
 
 from trum_sym.console.equations import equations
 from trum_sym.console.evaluate import evaluate
+from trum_sym.console.optimize import optimize
 from trum_sym.console.report import report
 from trum_sym.console.simulate import simulate
 
@@ -21,7 +22,7 @@ def _cli() -> None:
     """
 
 
-for _command in (evaluate, simulate, equations, report):
+for _command in (evaluate, simulate, optimize, equations, report):
     _cli.add_command(_command)
 
 

@@ -86,7 +86,7 @@ class Cycle:
             for phase in "AB"
         }
         gates = {f"g_{phase}": gate[region] for phase, gate in _GATES.items()}
-        found = call("trum_surface", {**arguments, **free, **gates, "tau": now - self.edges[region], "x": x})
+        found = call("trum_particle", {**arguments, **free, **gates, "tau": now - self.edges[region], "x": x})
         return {name: np.asarray(value) for name, value in found.items()}
 
     def touching(self, time: ArrayLike) -> dict[str, ArrayLike]:

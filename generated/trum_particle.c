@@ -32,7 +32,7 @@
   #define _CASADI_NAMESPACE_CONCAT(NS, ID) NS ## ID
   #define CASADI_PREFIX(ID) CASADI_NAMESPACE_CONCAT(CODEGEN_PREFIX, ID)
 #else
-  #define CASADI_PREFIX(ID) trum_surface_ ## ID
+  #define CASADI_PREFIX(ID) trum_particle_ ## ID
 #endif
 
 #include <math.h>
@@ -68,17 +68,17 @@
 casadi_real casadi_sq(casadi_real x) { return x*x;}
 
 /* Configuration this file was compiled with */
-CASADI_SYMBOL_EXPORT void trum_surface_casadi_version(int* major, int* minor, int* patch) {
+CASADI_SYMBOL_EXPORT void trum_particle_casadi_version(int* major, int* minor, int* patch) {
   *major = 3;
   *minor = 8;
   *patch = 2;
 }
-CASADI_SYMBOL_EXPORT int trum_surface_casadi_int_size(void) { return (int) sizeof(casadi_int); }
-CASADI_SYMBOL_EXPORT int trum_surface_casadi_real_size(void) { return (int) sizeof(casadi_real); }
+CASADI_SYMBOL_EXPORT int trum_particle_casadi_int_size(void) { return (int) sizeof(casadi_int); }
+CASADI_SYMBOL_EXPORT int trum_particle_casadi_real_size(void) { return (int) sizeof(casadi_real); }
 
 static const casadi_int casadi_s0[3] = {1, 1, 1};
 
-/* trum_surface:(D,Delta_omega,W,a_A,a_B,b_A,b_B,g_A,g_B,k_c,omega_n,psi,s,tau,x,xi)->(zeta_z,zeta_x,v_x,A_Q,x_max) */
+/* trum_particle:(D,Delta_omega,W,a_A,a_B,b_A,b_B,g_A,g_B,k_c,omega_n,psi,s,tau,x,xi)->(zeta_z,zeta_x,v_x,A_Q,x_max) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   (void)iw, (void)w, (void)mem;
   casadi_real a00, a01, a02, a03, a04, a05, a06, a07, a08, a09, a10, a11;
@@ -234,35 +234,35 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   return 0;
 }
 
-CASADI_SYMBOL_EXPORT int trum_surface(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem){
+CASADI_SYMBOL_EXPORT int trum_particle(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem){
   return casadi_f0(arg, res, iw, w, mem);
 }
 
-CASADI_SYMBOL_EXPORT int trum_surface_checkout(void) {
+CASADI_SYMBOL_EXPORT int trum_particle_checkout(void) {
   return 0;
 }
 
-CASADI_SYMBOL_EXPORT void trum_surface_release(int mem) {
+CASADI_SYMBOL_EXPORT void trum_particle_release(int mem) {
   (void)mem;
 }
 
-CASADI_SYMBOL_EXPORT void trum_surface_incref(void) {
+CASADI_SYMBOL_EXPORT void trum_particle_incref(void) {
 }
 
-CASADI_SYMBOL_EXPORT void trum_surface_decref(void) {
+CASADI_SYMBOL_EXPORT void trum_particle_decref(void) {
 }
 
-CASADI_SYMBOL_EXPORT casadi_int trum_surface_n_in(void) { return 16;}
+CASADI_SYMBOL_EXPORT casadi_int trum_particle_n_in(void) { return 16;}
 
-CASADI_SYMBOL_EXPORT casadi_int trum_surface_n_out(void) { return 5;}
+CASADI_SYMBOL_EXPORT casadi_int trum_particle_n_out(void) { return 5;}
 
-CASADI_SYMBOL_EXPORT casadi_real trum_surface_default_in(casadi_int i) {
+CASADI_SYMBOL_EXPORT casadi_real trum_particle_default_in(casadi_int i) {
   switch (i) {
     default: return 0;
   }
 }
 
-CASADI_SYMBOL_EXPORT const char* trum_surface_name_in(casadi_int i) {
+CASADI_SYMBOL_EXPORT const char* trum_particle_name_in(casadi_int i) {
   switch (i) {
     case 0: return "D";
     case 1: return "Delta_omega";
@@ -284,7 +284,7 @@ CASADI_SYMBOL_EXPORT const char* trum_surface_name_in(casadi_int i) {
   }
 }
 
-CASADI_SYMBOL_EXPORT const char* trum_surface_name_out(casadi_int i) {
+CASADI_SYMBOL_EXPORT const char* trum_particle_name_out(casadi_int i) {
   switch (i) {
     case 0: return "zeta_z";
     case 1: return "zeta_x";
@@ -295,7 +295,7 @@ CASADI_SYMBOL_EXPORT const char* trum_surface_name_out(casadi_int i) {
   }
 }
 
-CASADI_SYMBOL_EXPORT const casadi_int* trum_surface_sparsity_in(casadi_int i) {
+CASADI_SYMBOL_EXPORT const casadi_int* trum_particle_sparsity_in(casadi_int i) {
   switch (i) {
     case 0: return casadi_s0;
     case 1: return casadi_s0;
@@ -317,7 +317,7 @@ CASADI_SYMBOL_EXPORT const casadi_int* trum_surface_sparsity_in(casadi_int i) {
   }
 }
 
-CASADI_SYMBOL_EXPORT const casadi_int* trum_surface_sparsity_out(casadi_int i) {
+CASADI_SYMBOL_EXPORT const casadi_int* trum_particle_sparsity_out(casadi_int i) {
   switch (i) {
     case 0: return casadi_s0;
     case 1: return casadi_s0;
@@ -328,7 +328,7 @@ CASADI_SYMBOL_EXPORT const casadi_int* trum_surface_sparsity_out(casadi_int i) {
   }
 }
 
-CASADI_SYMBOL_EXPORT int trum_surface_work(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
+CASADI_SYMBOL_EXPORT int trum_particle_work(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
   if (sz_arg) *sz_arg = 16;
   if (sz_res) *sz_res = 5;
   if (sz_iw) *sz_iw = 0;
@@ -336,7 +336,7 @@ CASADI_SYMBOL_EXPORT int trum_surface_work(casadi_int *sz_arg, casadi_int* sz_re
   return 0;
 }
 
-CASADI_SYMBOL_EXPORT int trum_surface_work_bytes(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
+CASADI_SYMBOL_EXPORT int trum_particle_work_bytes(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
   if (sz_arg) *sz_arg = 16*sizeof(const casadi_real*);
   if (sz_res) *sz_res = 5*sizeof(casadi_real*);
   if (sz_iw) *sz_iw = 0*sizeof(casadi_int);
