@@ -345,10 +345,10 @@ def test_figs_30_31_average_over_the_encoder_and_31_is_at_3300_hz():
     for label in READ:
         assert np.all(by_label(read, label)[1] < by_label(continuous, label)[1])
     motor = ts.load_motor("trum60")
-    drawn = {picture.anchor: picture.draw(motor) for picture in PICTURES if picture.anchor in ("fig-30", "fig-31")}
-    _, sigma = by_label(drawn["fig-30"].axes[2], READ[0])
+    drawn = {picture.anchor: picture.draw(motor) for picture in PICTURES if picture.anchor in ("figure-30", "figure-31")}
+    _, sigma = by_label(drawn["figure-30"].axes[2], READ[0])
     assert sigma == pytest.approx(by_label(read, READ[0])[1])
-    x, sigma = by_label(drawn["fig-31"].axes[2], READ[2])
+    x, sigma = by_label(drawn["figure-31"].axes[2], READ[2])
     drive = ts.Drive(prepressure=float(x[3]), frequency_difference=3300.0, start="rest", phase_lead=-1)
     assert sigma[3] == pytest.approx(100 * windows(drive).std() / abs(reference(drive).orbit().mean), rel=0.02)
 
@@ -560,7 +560,7 @@ def test_a_motor_of_ones_own_is_drawn():
 def test_the_catalogue_has_every_figure_of_the_paper_that_can_be_drawn():
     anchors = [picture.anchor for picture in PICTURES]
     numbers = ["3", "6", "7", "8", *map(str, range(9, 24)), "25b", "26b", "27b", *map(str, range(29, 33))]
-    assert [anchor.removeprefix("fig-") for anchor in anchors if anchor.startswith("fig-")] == numbers
-    assert set(anchors) - {f"fig-{n}" for n in numbers} == {
+    assert [anchor.removeprefix("figure-") for anchor in anchors if anchor.startswith("figure-")] == numbers
+    assert set(anchors) - {f"figure-{n}" for n in numbers} == {
         "map-periodic", "map-rest", "scatter", "torque-speed", "contact-zone"
     }  # fmt: skip

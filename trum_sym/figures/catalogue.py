@@ -26,7 +26,7 @@ class Picture:
     Attributes
     ----------
     anchor : str
-        Its id on the page: ``fig-`` and the paper's number, or a word.
+        Its id on the page: ``figure-`` and the paper's number, or a word.
     place : str
         The paper's section that it belongs to, or what else.
     title : str
@@ -48,7 +48,7 @@ class Picture:
     @property
     def number(self) -> str:
         """``Figure 9``, or nothing."""
-        name = self.anchor.removeprefix("fig-")
+        name = self.anchor.removeprefix("figure-")
         return f"Figure {name}" if name != self.anchor else ""
 
 
@@ -75,20 +75,20 @@ def _section_5() -> Iterator[Picture]:
         first = 9 + 3 * region
         settings = f"{meaning}, 180 N, 3000 Hz, each cycle begun in steady state."
         yield Picture(
-            f"fig-{first}", _MOTION, f"Path of a surface point, {name}",
+            f"figure-{first}", _MOTION, f"Path of a surface point, {name}",
             f"In {settings} The four panels are the quarters of the region's first beat, 1/(4 Δf) each; the dot is where "
             "the quarter begins. Blue turns clockwise (Q > 0), orange counter-clockwise. The point lies at k_c x = π/4.",
             f"Four small plots of the surface point's path in the quarters of a beat while {name}.",
             partial(figures.ellipse, region=region),
         )  # fmt: skip
         yield Picture(
-            f"fig-{first + 1}", _MOTION, f"Vertical displacement, {name}",
+            f"figure-{first + 1}", _MOTION, f"Vertical displacement, {name}",
             f"In {settings} The orange envelope is the length of the rotating vectors' sum (eq. 12), in closed form.",
             f"Vertical displacement of a surface point over the region {name}, oscillating inside a beating envelope.",
             partial(figures.vertical_displacement, region=region),
         )  # fmt: skip
         yield Picture(
-            f"fig-{first + 2}", _MOTION, f"Direction determinant, {name}",
+            f"figure-{first + 2}", _MOTION, f"Direction determinant, {name}",
             f"In {settings} Above Q, the exact determinant of eq. A5; below, the crest's tangential velocity, whose "
             "sign is Q's (eq. 42).",
             f"Determinant Q and tangential velocity of the crest over the region {name}, with the signs of Q shaded.",
@@ -98,14 +98,14 @@ def _section_5() -> Iterator[Picture]:
 
 PICTURES: tuple[Picture, ...] = (
     Picture(
-        "fig-3", _DRIVE, "Both phases over a drive cycle",
+        "figure-3", _DRIVE, "Both phases over a drive cycle",
         "Table 3's drive: 20 periods, 14 on, in its periodic state. A phase that is switched off rings down at the "
         "resonance; one that is switched on beats before it settles. Dashed: envelopes.",
         "Displacements of phase A and phase B over a drive cycle in three shaded regions: A off, B off, both on.",
         figures.phase_responses,
     ),
     Picture(
-        "fig-6", _CONTACT, "Tangential velocity along the surface",
+        "figure-6", _CONTACT, "Tangential velocity along the surface",
         "One wavelength in the middle of each region, at Table 3's drive. The velocity is a sine along x; dots mark "
         "the crest, which is the fastest point only when the wave does not grow or shrink.",
         "Three sine curves of the tangential velocity over one wavelength, with dots at the wave's crest.",
@@ -113,7 +113,7 @@ PICTURES: tuple[Picture, ...] = (
     ),
     *(
         Picture(
-            f"fig-{number}", _CONTACT, f"Transfer models, rotor running {word}",
+            f"figure-{number}", _CONTACT, f"Transfer models, rotor running {word}",
             "The half zone from the crest to the contact's edge. Line: surface speed; dashed: the rotor's. Blue (+) "
             "drives the rotor, orange (−) brakes it, by the sign of the kernel's traction. Each panel says which share "
             "of Table 3's cycle the rotor's orbit spends in the model; both figures together make 100 %.",
@@ -124,78 +124,78 @@ PICTURES: tuple[Picture, ...] = (
     ),
     *_section_5(),
     Picture(
-        "fig-18", _OUTPUT, "Instantaneous speed, its mean and deviation",
+        "figure-18", _OUTPUT, "Instantaneous speed, its mean and deviation",
         "Two cycles at Table 3's drive on the periodic orbit. v_s is the mean over time (eq. 39), S_k the standard "
         "deviation (eq. 41); sigma_s is their ratio (eq. 40).",
         "Rotor speed over two cycles with its mean as a dashed line and a band of one standard deviation.",
         figures.instantaneous_speed,
     ),
     Picture(
-        "fig-19", _OUTPUT, "Forward and backward parts of the determinant",
+        "figure-19", _OUTPUT, "Forward and backward parts of the determinant",
         "Table 3's drive. The blue and the orange area are the sums of eqs. 43 and 44; dotted lines separate the regions.",
         "Determinant Q over a cycle with its positive parts shaded blue and its negative parts orange.",
         figures.forward_and_backward,
     ),
     Picture(
-        "fig-20", _OUTPUT, "Speed and determinant over a cycle, by frequency difference",
+        "figure-20", _OUTPUT, "Speed and determinant over a cycle, by frequency difference",
         "180 N, load 0.3 N m. Left as the motor keeps running, right as if every cycle began from rest with the other "
         "phase leading, which is the reading closest to Table 4.",
         "Rotor speed and determinant over a cycle for six frequency differences, two readings side by side.",
         figures.cycles,
     ),
     Picture(
-        "fig-21", _OUTPUT, "Trends with the frequency difference",
+        "figure-21", _OUTPUT, "Trends with the frequency difference",
         f"180 N, load 0.3 N m. {_LEADS} Stars: what Table 4 prints.",
         "Mean speed, Q_aver, volatility and Q_vib against the frequency difference for three starts.",
         figures.trends,
     ),
     Picture(
-        "fig-22", _OUTPUT, "Speed and determinant over a cycle, by prepressure",
+        "figure-22", _OUTPUT, "Speed and determinant over a cycle, by prepressure",
         "3000 Hz, load 0.3 N m; left and right as in Figure 20.",
         "Rotor speed and determinant over a cycle for six prepressures, two readings side by side.",
         partial(figures.cycles, variable="prepressure"),
     ),
     Picture(
-        "fig-23", _OUTPUT, "Trends with the prepressure",
+        "figure-23", _OUTPUT, "Trends with the prepressure",
         f"3000 Hz, load 0.3 N m. {_LEADS} Stars: what Table 4 prints.",
         "Mean speed, Q_aver, volatility and Q_vib against the prepressure for three starts.",
         partial(figures.trends, variable="prepressure"),
     ),
     Picture(
-        "fig-25b", _STATOR, "Resonance against prepressure, every level",
+        "figure-25b", _STATOR, "Resonance against prepressure, every level",
         "Colour: level of the resonance; line: how the friction layer stiffens the stator. The grey line was measured "
         "(prepressure not stated). The paper's own points are not printed as numbers.",
         "Resonance frequency against prepressure for sixteen combinations of levels, with the measured 39703 Hz.",
         figures.resonance_levels,
     ),
     Picture(
-        "fig-26b", _STATOR, "Power-off of one phase",
+        "figure-26b", _STATOR, "Power-off of one phase",
         "45 kHz until t_off, then free at the measured resonance of 39.703 kHz with Table 1's damping ratio. The "
         "amplitude at 80 V is not printed, so velocity is over its amplitude.",
         "Velocity of phase A, constant amplitude until power-off, then decaying.",
         figures.power_off,
     ),
     Picture(
-        "fig-27b", _STATOR, "Beat after power-off of one of two phases",
+        "figure-27b", _STATOR, "Beat after power-off of one of two phases",
         "Both phases at 45 kHz until A is switched off; bands last 1/(f_q − f_n), the paper's 0.188 ms.",
         "Velocity of a surface point: steady until power-off, then a beat that dies away.",
         figures.beat,
     ),
     Picture(
-        "fig-29", _MOTOR, "Speed as the encoder reads it",
+        "figure-29", _MOTOR, "Speed as the encoder reads it",
         "Sixty readings of 2 ms at Table 3's drive, for each start. Table 4 prints a mean of 633 arcsec/s and a "
         "volatility of 17.3 %.",
         "Deviation of sixty encoder readings from their mean for three starts.",
         figures.measured_speed,
     ),
     Picture(
-        "fig-30", _MOTOR, "Trends with the frequency difference, as measured",
+        "figure-30", _MOTOR, "Trends with the frequency difference, as measured",
         f"As Figure 21, with the volatility that the encoder of 2 ms reads. {_LEADS}",
         "Mean speed, Q_aver, volatility of a 2 ms encoder and Q_vib against the frequency difference.",
         partial(figures.trends, sampling_period=ENCODER),
     ),
     Picture(
-        "fig-31", _MOTOR, "Trends with the prepressure, as measured",
+        "figure-31", _MOTOR, "Trends with the prepressure, as measured",
         f"At 3300 Hz, as the paper's experiment, with the volatility that the encoder of 2 ms reads. {_LEADS}",
         "Mean speed, Q_aver, volatility of a 2 ms encoder and Q_vib against the prepressure at 3300 Hz.",
         lambda motor: figures.trends(
@@ -203,7 +203,7 @@ PICTURES: tuple[Picture, ...] = (
         ),
     ),
     Picture(
-        "fig-32", _MOTOR, "The six points of Table 5",
+        "figure-32", _MOTOR, "The six points of Table 5",
         f"Prepressure and frequency difference change together. {_LEADS}",
         "Mean speed, Q_aver, volatility and Q_vib at the six numbered points of Table 5.",
         figures.multivariable,

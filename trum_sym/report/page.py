@@ -17,6 +17,8 @@ from trum_sym.figures.style import COLOURS, GRID, INK
 from trum_sym.ledger import Record, load_ledger
 from trum_sym.motor import Motor
 from trum_sym.operating_point import evaluate
+from trum_sym.report.interactive import fragment
+from trum_sym.report.judged import Judged, judge
 from trum_sym.report.paper_tables import tables
 
 __all__ = ["page"]
@@ -49,37 +51,48 @@ def page(motor: Motor, *, progress: bool = False) -> str:
     )  # fmt: skip
     folder = files("trum_sym.report") / "templates"
     drawn = _drawn(motor, progress)
+    judged = judge(motor, progress)
     records = load_ledger()
     return environment.get_template("page.html").render(
         motor=motor.name,
         version=version("trum-sym"),
         style=(folder / "style.css").read_text("utf-8"),
         script=(folder / "page.js").read_text("utf-8"),
-        facts=_facts(motor, records),
+        facts=_facts(motor, records, judged),
         parts=[
             {"place": place, "anchor": _slug(place), "items_": list(group)}
             for place, group in groupby(drawn, lambda item: item["picture"].place)
         ],
         tables=list(tables(motor)),
-        interactive="",
-        claims=[],
-        verdicts=[],
-        reading_tables=[],
+        interactive=fragment(motor),
+        judged=judged,
+        labels=_labels(),
         ledger={"all": len(records), "erratum": sum(record["verdict"] == "erratum" for record in records)},
     )
 
 
-def _facts(motor: Motor, records: list[Record]) -> list[dict[str, str]]:
+def _facts(motor: Motor, records: list[Record], judged: Judged | None) -> list[dict[str, str]]:
     """What a reader takes away within a minute."""
     point = evaluate(motor)
     found = float(point.resonance_frequency)
     measured = next((entry.value for entry in motor.published if entry.output == "resonance_frequency"), None)
-    facts = [{
+    facts = []
+    if judged is not None:
+        facts += [{
+            "value": f"{len(judged.claims)} claims judged:",
+            "text": ", ".join(f"{count} {verdict}" for verdict, count in judged.verdicts) + ".",
+            "link": "#claims", "label": "The claims",
+        }, {
+            "value": f"{judged.distance:.2f} %",
+            "text": f"is how near the best reading of what the paper leaves open comes to both determinants of Table 4: "
+            f"{judged.best}.", "link": "#readings", "label": "All readings",
+        }]  # fmt: skip
+    facts.append({
         "value": f"{1e-3 * found:.2f} kHz",
         "text": "resonance at 180 N by the full Timoshenko root"
         + ("" if measured is None else f"; {1e-3 * measured:.2f} kHz was measured."),
-        "link": "#fig-25b", "label": "Every level",
-    }]  # fmt: skip
+        "link": "#figure-25b", "label": "Every level",
+    })  # fmt: skip
     errata = sum(record["verdict"] == "erratum" and record["id"].removeprefix("A").isdigit() for record in records)
     numbered = sum(record["id"].removeprefix("A").isdigit() for record in records)
     facts.append({
@@ -100,6 +113,12 @@ def _drawn(motor: Motor, progress: bool) -> list[dict[str, Any]]:
         for picture in bar:
             found.append({"picture": picture, "svg": _themed(svg(picture.draw(motor), picture.anchor, picture.alt))})
     return found
+
+
+def _labels() -> dict[str, str]:
+    """What an anchor of a claim is called."""
+    named = {picture.anchor: picture.number or picture.title for picture in PICTURES}
+    return named | {f"table-{number}": f"Table {number}" for number in range(1, 6)}
 
 
 def _themed(element: str) -> str:
