@@ -21,7 +21,7 @@ from trum_sym.figures.motion import (
     vertical_displacement,
 )
 from trum_sym.figures.speed import measured_speed, torque_speed
-from trum_sym.figures.style import svg
+from trum_sym.figures.style import blank, save, svg
 from trum_sym.figures.transfer import contact_zone, transfer_models
 from trum_sym.figures.trends import cycles, multivariable, trends
 from trum_sym.figures.vibration import beat, power_off, resonance_levels
@@ -30,6 +30,7 @@ __all__ = [
     "READINGS",
     "Reading",
     "beat",
+    "blank",
     "contact_zone",
     "cycles",
     "determinant",
@@ -43,6 +44,7 @@ __all__ = [
     "power_off",
     "prediction",
     "resonance_levels",
+    "save",
     "svg",
     "tangential_velocity",
     "torque_speed",

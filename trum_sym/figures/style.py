@@ -5,7 +5,9 @@ from __future__ import annotations
 import io
 import re
 from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager
 from functools import wraps
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeAlias
 
 import numpy as np
@@ -16,10 +18,11 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["COLOURS", "GRID", "INK", "Panels", "legend", "panels", "styled", "svg"]
+__all__ = ["COLOURS", "GRID", "INK", "Panels", "blank", "legend", "panels", "save", "styled", "svg"]
 
 Panels: TypeAlias = "Axes | Sequence[Axes] | None"
 P = ParamSpec("P")
+_BACKGROUND = '</title><rect width="100%" height="100%" fill="white"/>'
 
 # Okabe and Ito's colours, in an order in which neighbours also differ in lightness
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
@@ -68,15 +71,35 @@ def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
 
     @wraps(draw)
     def in_style(*arguments: P.args, **options: P.kwargs) -> Figure:
-        try:
-            import matplotlib
-            from cycler import cycler
-        except ImportError as error:
-            raise MissingExtraError("figures", str(error.name), "report") from None
-        with matplotlib.rc_context({**_RC, "axes.prop_cycle": cycler(color=COLOURS)}):
+        with _style():
             return draw(*arguments, **options)
 
     return in_style
+
+
+def _style() -> AbstractContextManager[None]:
+    try:
+        import matplotlib
+        from cycler import cycler
+    except ImportError as error:
+        raise MissingExtraError("figures", str(error.name), "report") from None
+    settings: AbstractContextManager[None] = matplotlib.rc_context({**_RC, "axes.prop_cycle": cycler(color=COLOURS)})
+    return settings
+
+
+def blank(rows: int = 1, columns: int = 1, height: float = 2.8, **options: Any) -> list[Axes]:  # noqa: ANN401
+    """Empty axes of a new figure in the house style, row by row, for several pictures in one.
+
+    Parameters
+    ----------
+    rows, columns : int
+    height : float, inch
+        The figure is 7.2 inches wide.
+    options
+        For ``Figure.subplots``.
+    """
+    with _style():
+        return panels(None, rows, columns, height, **options)
 
 
 def panels(axes: Panels, rows: int = 1, columns: int = 1, height: float = 2.8, **options: Any) -> list[Axes]:  # noqa: ANN401
@@ -112,6 +135,21 @@ def legend(axes: Axes, **options: Any) -> None:  # noqa: ANN401
     count = len(axes.get_legend_handles_labels()[1])
     axes.legend(**{"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "ncols": min(count, 4), "borderaxespad": 0.2,
                    "columnspacing": 1.2, **options})  # fmt: skip
+
+
+def save(figure: Figure, target: Path) -> None:
+    """Write the figure as an SVG file on white: the same bytes on every run.
+
+    Parameters
+    ----------
+    figure : Figure
+    target : Path
+        Its stem starts the ids inside.
+    """
+    element = svg(figure, target.stem, target.stem)
+    space = ' xmlns="http://www.w3.org/2000/svg"'
+    opened = element.replace("<svg", f"<svg{space}", 1).replace("</title>", _BACKGROUND, 1)
+    target.write_text(opened + "\n", encoding="utf-8", newline="\n")
 
 
 def svg(figure: Figure, salt: str, title: str) -> str:
