@@ -562,5 +562,5 @@ def test_the_catalogue_has_every_figure_of_the_paper_that_can_be_drawn():
     numbers = ["3", "6", "7", "8", *map(str, range(9, 24)), "25b", "26b", "27b", *map(str, range(29, 33))]
     assert [anchor.removeprefix("figure-") for anchor in anchors if anchor.startswith("figure-")] == numbers
     assert set(anchors) - {f"figure-{n}" for n in numbers} == {
-        "map-periodic", "map-rest", "scatter", "torque-speed", "contact-zone"
+        "map-periodic", "map-rest", "speed-determinant", "torque-speed", "contact-zone"
     }  # fmt: skip

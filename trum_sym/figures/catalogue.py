@@ -222,7 +222,7 @@ PICTURES: tuple[Picture, ...] = (
         lambda motor: figures.maps(motor, READINGS[-1].of(Drive())),
     ),
     Picture(
-        "scatter", _MORE, "Do the determinants predict speed and volatility?",
+        "speed-determinant", _MORE, "Do the determinants predict speed and volatility?",
         "Each dot is an operating point at 0.3 N m. The paper concludes that Q_aver and Q_vib follow v_s and sigma_s; "
         "the legend gives the rank correlation in each reading (+1: always; 0: not at all).",
         "Scatter of mean speed against Q_aver and of volatility against Q_vib, over the box and around it.",
