@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,31 +14,58 @@ from trum_sym.errors import MissingExtraError, ParameterError
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["check_target", "write"]
+__all__ = ["check_target", "replaced", "write"]
 
 _SUFFIXES = (".nc", ".csv")
 
 
-def check_target(name: str, target: Path) -> None:
+def check_target(name: str, target: Path, suffixes: tuple[str, ...] = _SUFFIXES) -> None:
     """Refuse, before any work is done, a file that cannot be written.
 
     Raises
     ------
     ParameterError
-        For another suffix than .nc and .csv, a folder that is not there or not ours to write in.
+        For another suffix than these, a folder that is not there or not ours to write in.
     """
-    if target.suffix not in _SUFFIXES:
-        raise ParameterError(name, str(target), f"a file name that ends in {' or '.join(_SUFFIXES)}")
+    if target.suffix not in suffixes:
+        raise ParameterError(name, str(target), f"a file name that ends in {' or '.join(suffixes)}")
     if target.is_dir():
         raise ParameterError(name, str(target), "a file; this is a folder")
     if not target.parent.is_dir() or not os.access(target.parent, os.W_OK):
         raise ParameterError(name, str(target), "a file in a folder that exists and can be written to")
 
 
+@contextmanager
+def replaced(name: str, target: Path) -> Iterator[Path]:
+    """A file beside the target to write to; it takes the target's place at the end, if nothing failed until then.
+
+    Raises
+    ------
+    ParameterError
+        If the file cannot be written.
+    """
+    beside = None
+    try:
+        handle, path = tempfile.mkstemp(prefix=f".{target.stem}-", suffix=target.suffix, dir=target.parent)
+        os.close(handle)
+        beside = Path(path)
+        yield beside
+        mask = os.umask(0)
+        os.umask(mask)
+        beside.chmod(0o666 & ~mask)  # as any other new file; mkstemp's are private
+        beside.replace(target)
+        beside = None
+    except OSError as error:
+        raise ParameterError(name, str(target), f"a file that can be written ({error.strerror or error})") from None
+    finally:
+        if beside is not None:
+            beside.unlink(missing_ok=True)
+
+
 def write(name: str, dataset: xr.Dataset, target: Path) -> None:
     """Write beside the file and rename, so that no half-written one is ever seen.
 
-    CSV has one row per time and the units in its header; NetCDF keeps the attributes too.
+    CSV has one row per point and the units in its header; NetCDF keeps the attributes too.
 
     Raises
     ------
@@ -46,11 +75,7 @@ def write(name: str, dataset: xr.Dataset, target: Path) -> None:
         For NetCDF without h5netcdf.
     """
     check_target(name, target)
-    beside = None
-    try:
-        handle, path = tempfile.mkstemp(prefix=f".{target.stem}-", suffix=target.suffix, dir=target.parent)
-        os.close(handle)
-        beside = Path(path)
+    with replaced(name, target) as beside:
         if target.suffix == ".nc":
             try:
                 import h5netcdf  # noqa: F401
@@ -66,13 +91,3 @@ def write(name: str, dataset: xr.Dataset, target: Path) -> None:
             }
             table = dataset.to_dataframe().reset_index().rename(columns=units)
             table.to_csv(beside, index=False, float_format="%.17g")
-        mask = os.umask(0)
-        os.umask(mask)
-        beside.chmod(0o666 & ~mask)  # as any other new file; mkstemp's are private
-        beside.replace(target)
-        beside = None
-    except OSError as error:
-        raise ParameterError(name, str(target), f"a file that can be written ({error.strerror or error})") from None
-    finally:
-        if beside is not None:
-            beside.unlink(missing_ok=True)

@@ -1,0 +1,122 @@
+"""A tolerance study as a picture: how each output is distributed, and its Sobol indices with their intervals."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from trum_sym.errors import MissingExtraError
+from trum_sym.files import check_target, replaced
+from trum_sym.outputs import OUTPUTS
+from trum_sym.uncertainty.propagation import CONFIDENCE, Estimate, Indices
+from trum_sym.uncertainty.study import BALANCED, MISSED, Study
+from trum_sym.uncertainty.tables import label, shown
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+__all__ = ["PICTURES", "draw"]
+
+PICTURES = (".png", ".svg", ".pdf")
+
+
+def draw(name: str, study: Study, target: Path) -> None:
+    """Write the picture, whole or not at all.
+
+    One row an output: left its distribution over A and B, right the indices.  What decides whether a speed balances
+    the load, or a target is missed, follows where that varies.
+
+    Raises
+    ------
+    ParameterError
+        If the file cannot be written.
+    MissingExtraError
+        Without matplotlib.
+    """
+    check_target(name, target, PICTURES)
+    try:
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.figure import Figure
+    except ImportError:
+        raise MissingExtraError("a picture", "matplotlib", "report") from None
+    found = {output: indices for output, indices in study.propagation.indices.items() if indices is not None}
+    height = 0.9 + 0.34 * len(study.distributions)
+    figure = Figure(figsize=(11, len(found) * max(2.6, height) + 0.5), layout="constrained")
+    FigureCanvasAgg(figure)
+    rows = figure.subplots(len(found), 2, squeeze=False)
+    for (left, right), (output, indices) in zip(rows, found.items(), strict=True):
+        if output in (BALANCED, MISSED):
+            _draw_share(left, study, output)
+        else:
+            _draw_distribution(left, study, output)
+        _draw_indices(right, indices)
+        right.set_title(f"variance of {label(output)}" if output in study.outputs else label(output), fontsize="medium")
+    rows[-1][1].set_xlabel(f"Sobol index, interval at {CONFIDENCE:.0%}")
+    drive = study.drive
+    figure.suptitle(
+        f"{study.motor.name}, {drive.prepressure:g} N, {drive.frequency_difference:+g} Hz, {drive.on_periods:g} of "
+        f"{drive.periods:g} periods on, load {drive.load_torque:g} N m; {study.samples} samples, seed {study.seed}"
+    )
+    with replaced(name, target) as beside:
+        figure.savefig(beside, dpi=120)
+
+
+def _draw_distribution(axes: Axes, study: Study, output: str) -> None:
+    drawn = study.propagation.values[output][:2].ravel()
+    values = np.array([shown(output, value) for value in drawn[np.isfinite(drawn)]])
+    spread, unit = study.propagation.spread(output), OUTPUTS[output].shown
+    # a few far values would squeeze all others into one bar
+    low, high = np.quantile(values, (0.005, 0.995))
+    beyond = int(((values < low) | (values > high)).sum())
+    axes.hist(values, bins="auto", range=(low, high), color="0.75")
+    for level, style in ((0.05, ":"), (0.5, "-"), (0.95, ":")):
+        at = spread.quantiles[level]
+        text = "median" if level == 0.5 else ("5 % and 95 %" if level == 0.05 else None)
+        axes.axvline(shown(output, at.value), color="C0", linestyle=style, label=text)
+        axes.axvspan(shown(output, at.low), shown(output, at.high), color="C0", alpha=0.15, linewidth=0)
+    nominal = getattr(study.nominal, output)
+    if np.isfinite(nominal):
+        axes.axvline(shown(output, nominal), color="C3", linestyle="--", label="nominal")
+    for target in study.targets:
+        if target.output == output:
+            axes.axvline(shown(output, target.bound), color="k", label=target.text)
+    axes.set_xlabel(label(output) + (f", {unit}" if unit != "1" else "") + (f"; {beyond} beyond" if beyond else ""))
+    axes.set_ylabel("points")
+    axes.legend(fontsize="small")
+
+
+def _draw_share(axes: Axes, study: Study, output: str) -> None:
+    estimates: dict[str, Estimate]
+    if output == BALANCED:
+        estimates = {"no speed balances the load": study.unbalanced}
+    else:
+        estimates = {f"missing {target.text}": study.missing(target) for target in study.targets}
+        if len(study.targets) > 1:
+            estimates["missing any"] = study.missing()
+    _draw_bars(axes, list(estimates), [list(estimates.values())], ("C3",), (None,))
+    axes.set_xlim(0, 1)
+    axes.set_xlabel("probability")
+
+
+def _draw_indices(axes: Axes, indices: Indices) -> None:
+    names = sorted(indices.total, key=lambda name: -indices.total[name].value)
+    series = [[order[name] for name in names] for order in (indices.first, indices.total)]
+    _draw_bars(axes, names, series, ("C0", "C1"), ("alone (first order)", "with others (total)"))
+    axes.legend(fontsize="small", loc="lower right")
+
+
+def _draw_bars(
+    axes: Axes, names: list[str], series: list[list[Estimate]], colours: tuple[str, ...], labels: tuple[str | None, ...]
+) -> None:
+    """Horizontal bars with intervals, the first name on top."""
+    thick = 0.8 / len(series)
+    for place, (estimates, colour, text) in enumerate(zip(series, colours, labels, strict=True)):
+        at = np.arange(len(names)) + (place - (len(series) - 1) / 2) * thick
+        values = np.array([e.value for e in estimates])
+        # a percentile interval need not hold the estimate itself
+        reach = np.maximum([values - [e.low for e in estimates], [e.high for e in estimates] - values], 0)
+        axes.barh(at, values, thick, xerr=reach, color=colour, label=text, capsize=2, ecolor="0.2")
+    axes.set_yticks(np.arange(len(names)), names)
+    axes.invert_yaxis()
