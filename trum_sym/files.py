@@ -14,7 +14,7 @@ from trum_sym.errors import MissingExtraError, ParameterError
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["check_target", "replaced", "write"]
+__all__ = ["check_packages", "check_target", "replaced", "write"]
 
 _SUFFIXES = (".nc", ".csv")
 
@@ -33,6 +33,24 @@ def check_target(name: str, target: Path, suffixes: tuple[str, ...] = _SUFFIXES)
         raise ParameterError(name, str(target), "a file; this is a folder")
     if not target.parent.is_dir() or not os.access(target.parent, os.W_OK):
         raise ParameterError(name, str(target), "a file in a folder that exists and can be written to")
+
+
+def check_packages(target: Path) -> None:
+    """Refuse a data set's file for which a package is missing.
+
+    Raises
+    ------
+    MissingExtraError
+        Without xarray or, for NetCDF, h5netcdf.
+    """
+    try:
+        import xarray  # noqa: F401
+
+        if target.suffix == ".nc":
+            import h5netcdf  # noqa: F401
+            import h5py  # noqa: F401
+    except ImportError as error:
+        raise MissingExtraError(f"a {target.suffix} file", str(error.name), "data") from None
 
 
 @contextmanager
@@ -75,13 +93,9 @@ def write(name: str, dataset: xr.Dataset, target: Path) -> None:
         For NetCDF without h5netcdf.
     """
     check_target(name, target)
+    check_packages(target)
     with replaced(name, target) as beside:
         if target.suffix == ".nc":
-            try:
-                import h5netcdf  # noqa: F401
-                import h5py  # noqa: F401
-            except ImportError as error:
-                raise MissingExtraError("a .nc file", str(error.name), "data") from None
             dataset.to_netcdf(beside, engine="h5netcdf")
         else:
             units = {

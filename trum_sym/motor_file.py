@@ -84,7 +84,7 @@ def _read_parameter(name: str, entry: object) -> Parameter:
         for key in ("mean", "standard_deviation")
         if key in entry
     }
-    distribution = _read_distribution(name, entry.get("distribution"), value, limits, moments, wanted)
+    distribution = _read_distribution(name, entry.get("distribution"), float(value), limits, moments, wanted)
     return Parameter(value, wanted.unit, wanted.symbol, source, limits, reason, distribution)
 
 

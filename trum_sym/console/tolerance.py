@@ -61,7 +61,7 @@ _OF_POINT = ("prepressure", "frequency_difference", "periods", "on_periods")
     help="Write every point: .nc (NetCDF, with every setting and unit) or .csv.",
 )
 @click.option("--json", "as_json", is_flag=True, help="One JSON object instead of tables; SI units.")
-def tolerance(  # noqa: D417
+def tolerance(
     motor: str,
     overrides: tuple[str, ...],
     vary: tuple[str, ...],
@@ -77,14 +77,15 @@ def tolerance(  # noqa: D417
     **options: Any,  # noqa: ANN401
 ) -> None:  # fmt: skip
     """How uncertain parameters spread an operating point's figures, and which to measure first."""
-    from trum_sym.files import check_target, write
+    from trum_sym.files import check_packages, check_target, write
 
     if plot is not None:
-        from trum_sym.uncertainty.pictures import PICTURES
+        from trum_sym.uncertainty.pictures import check_picture
 
-        check_target("--plot", plot, PICTURES)
+        check_picture("--plot", plot)
     if out is not None:
         check_target("--out", out)
+        check_packages(out)
     expected = _take_point(point, options) if point is not None else None
     from trum_sym.uncertainty.study import tolerance as study_of
 

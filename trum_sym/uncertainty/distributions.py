@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, fields, replace
+from typing import Any
 
 import numpy as np
 
@@ -55,7 +56,7 @@ class Distribution:
         share = below + np.clip(level, _LEAST, 1 - _LEAST) * (upto - below)
         return np.asarray(np.clip(base.ppf(share), self.low, self.high))
 
-    def _frozen(self):  # type: ignore[no-untyped-def]  # noqa: ANN202
+    def _frozen(self) -> Any:  # noqa: ANN401
         from scipy import stats
 
         width = self.high - self.low

@@ -17,9 +17,26 @@ from trum_sym.uncertainty.tables import label, shown
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["PICTURES", "draw"]
+__all__ = ["check_picture", "draw"]
 
-PICTURES = (".png", ".svg", ".pdf")
+_PICTURES = (".png", ".svg", ".pdf")
+
+
+def check_picture(name: str, target: Path) -> None:
+    """Refuse, before any work is done, a picture that cannot be written.
+
+    Raises
+    ------
+    ParameterError
+        For another suffix than .png, .svg and .pdf, or a place that is not ours to write in.
+    MissingExtraError
+        Without matplotlib.
+    """
+    check_target(name, target, _PICTURES)
+    try:
+        import matplotlib  # noqa: F401
+    except ImportError:
+        raise MissingExtraError("a picture", "matplotlib", "report") from None
 
 
 def draw(name: str, study: Study, target: Path) -> None:
@@ -30,17 +47,13 @@ def draw(name: str, study: Study, target: Path) -> None:
 
     Raises
     ------
-    ParameterError
-        If the file cannot be written.
-    MissingExtraError
-        Without matplotlib.
+    ParameterError, MissingExtraError
+        As :func:`check_picture` does, or if the file cannot be written.
     """
-    check_target(name, target, PICTURES)
-    try:
-        from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.figure import Figure
-    except ImportError:
-        raise MissingExtraError("a picture", "matplotlib", "report") from None
+    check_picture(name, target)
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
     found = {output: indices for output, indices in study.propagation.indices.items() if indices is not None}
     height = 0.9 + 0.34 * len(study.distributions)
     figure = Figure(figsize=(11, len(found) * max(2.6, height) + 0.5), layout="constrained")
@@ -52,7 +65,7 @@ def draw(name: str, study: Study, target: Path) -> None:
         else:
             _draw_distribution(left, study, output)
         _draw_indices(right, indices)
-        right.set_title(f"variance of {label(output)}" if output in study.outputs else label(output), fontsize="medium")
+        right.set_title(_title(study, output), fontsize="medium")
     rows[-1][1].set_xlabel(f"Sobol index, interval at {CONFIDENCE:.0%}")
     drive = study.drive
     figure.suptitle(
@@ -61,6 +74,12 @@ def draw(name: str, study: Study, target: Path) -> None:
     )
     with replaced(name, target) as beside:
         figure.savefig(beside, dpi=120)
+
+
+def _title(study: Study, output: str) -> str:
+    if output in study.unbounded:
+        return f"{label(output)}: no variance, the mean speed passes zero"
+    return f"variance of {label(output)}" if output in study.outputs else label(output)
 
 
 def _draw_distribution(axes: Axes, study: Study, output: str) -> None:
@@ -82,6 +101,9 @@ def _draw_distribution(axes: Axes, study: Study, output: str) -> None:
     for target in study.targets:
         if target.output == output:
             axes.axvline(shown(output, target.bound), color="k", label=target.text)
+    marks = [line.get_xdata()[0] for line in axes.lines]  # type: ignore[index]
+    ends = min(low, *marks), max(high, *marks)
+    axes.set_xlim(ends[0] - 0.02 * (ends[1] - ends[0]), ends[1] + 0.02 * (ends[1] - ends[0]))
     axes.set_xlabel(label(output) + (f", {unit}" if unit != "1" else "") + (f"; {beyond} beyond" if beyond else ""))
     axes.set_ylabel("points")
     axes.legend(fontsize="small")
@@ -104,6 +126,7 @@ def _draw_indices(axes: Axes, indices: Indices) -> None:
     names = sorted(indices.total, key=lambda name: -indices.total[name].value)
     series = [[order[name] for name in names] for order in (indices.first, indices.total)]
     _draw_bars(axes, names, series, ("C0", "C1"), ("alone (first order)", "with others (total)"))
+    axes.axvline(0, color="0.2", linewidth=0.8)
     axes.legend(fontsize="small", loc="lower right")
 
 

@@ -25,6 +25,7 @@ LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)  # of the quantiles
 _MIN_SAMPLES = 64
 _MAX_SAMPLES = 2**20
 _RESAMPLES = 999
+_BATCH = 2**16  # numbers that the bootstrap works on at once
 
 Function = Callable[[Mapping[str, Array]], Mapping[str, npt.ArrayLike]]
 Quantile = Callable[[Array], npt.ArrayLike]
@@ -135,15 +136,15 @@ def check_design(samples: object, seed: object) -> tuple[int, int]:
         Without SciPy.
     """
     low, high = _MIN_SAMPLES, _MAX_SAMPLES
+    allowed = f"a power of two from {low} to {high}: only then do the quasi-random points fill space evenly"
     try:
-        rows = int(
-            number("samples", samples, Domain(low=low, low_open=False, high=high, high_open=False, integer=True), "1")
+        count = number(
+            "samples", samples, Domain(low=low, low_open=False, high=high, high_open=False, integer=True), "1"
         )
-        if rows & (rows - 1):
-            raise ParameterError("samples", samples, "")
-    except (ParameterError, TypeError):
-        allowed = f"a power of two from {low} to {high}: only then do the quasi-random points fill space evenly"
+    except ParameterError:
         raise ParameterError("samples", samples, allowed) from None
+    if np.ndim(count) or int(count) & (int(count) - 1):
+        raise ParameterError("samples", samples, allowed)
     start = number("seed", seed, Domain(low=0, low_open=False, high=2**53, integer=True), "1")
     if np.ndim(start):
         raise ParameterError("seed", seed, "one whole number >= 0")
@@ -151,7 +152,7 @@ def check_design(samples: object, seed: object) -> tuple[int, int]:
         import scipy  # noqa: F401
     except ImportError:
         raise MissingExtraError("a tolerance study", "scipy", "sweep") from None
-    return rows, int(start)
+    return int(count), int(start)
 
 
 def propagate(
@@ -256,14 +257,18 @@ def _indices(
     from scipy import stats
 
     table = np.stack([values for values, _ in outputs.values()], axis=1)  # (d + 2, s, n)
-    if len(outputs) * len(names) == 1:
-        table = np.repeat(table, 2, axis=1)  # SciPy cannot index a single number
-    shape = (table.shape[1], len(names))
 
-    def estimate(chosen: npt.NDArray[np.int64]) -> Array:
-        drawn = table[..., chosen]
+    def estimate(chosen: npt.NDArray[np.int64], axis: int = -1) -> Array:  # noqa: ARG001
+        """Of chosen rows (..., n): (2, s, d, ...).  SciPy takes each choice of rows for another output."""
+        drawn = table[..., np.atleast_2d(chosen)]
+        count = drawn.shape[2]
+        drawn = drawn.reshape(len(drawn), -1, rows)
+        if drawn.shape[1] == 1:
+            drawn = drawn.repeat(2, axis=1)  # it cannot return a single number
         found = stats.sobol_indices(func={"f_A": drawn[0], "f_B": drawn[1], "f_AB": drawn[2:]}, n=rows)
-        return np.stack([found.first_order.reshape(shape), found.total_order.reshape(shape)])
+        both = np.stack([found.first_order, found.total_order]).reshape(2, drawn.shape[1], len(names))
+        shaped = both[:, : len(outputs) * count].reshape(2, len(outputs), count, len(names)).swapaxes(2, 3)
+        return np.asarray(shaped if np.ndim(chosen) > 1 else shaped[..., 0])
 
     every = np.arange(rows)
     best = estimate(every)
@@ -271,8 +276,8 @@ def _indices(
         (every,),
         estimate,
         n_resamples=_RESAMPLES,
-        batch=1,
-        vectorized=False,
+        batch=max(1, _BATCH // table.size),
+        vectorized=True,
         method="percentile",
         confidence_level=CONFIDENCE,
         rng=np.random.default_rng([seed, 1]),

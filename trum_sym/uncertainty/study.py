@@ -88,6 +88,13 @@ class Study:
         """The probability that no speed balances the load."""
         return share(self.propagation.values[BALANCED][:2] == 0)
 
+    @property
+    def unbounded(self) -> tuple[str, ...]:
+        """Outputs without a variance: the volatility, if the mean speed passes zero among the points."""
+        speed = self.propagation.values["mean_speed"]
+        passes = bool((speed > 0).any() and (speed < 0).any())
+        return ("speed_volatility",) if passes and "speed_volatility" in self.outputs else ()
+
     def points_where(self, chosen: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]) -> list[dict[str, float]]:
         """The uncertain parameters at the chosen points of A and B."""
         drawn = {name: values[:2][chosen[:2]] for name, values in self.propagation.points.items()}
@@ -170,6 +177,15 @@ def _check_output(name: str, output: object) -> None:
         raise ParameterError(name, output, f"one of {', '.join(OUTPUTS)}")
 
 
+def _texts(name: str, given: object) -> tuple[str, ...]:
+    """One text, or several, each once."""
+    if isinstance(given, str):
+        return (given,)
+    if not isinstance(given, Sequence) or not all(isinstance(text, str) for text in given):
+        raise ParameterError(name, given, "text, or a list of it")
+    return tuple(dict.fromkeys(given))
+
+
 def _check_one_point(motor: Motor, drive: Drive) -> None:
     numbers = {**drive.numbers(), **{name: p.value for name, p in motor.parameters()}}
     for name, value in numbers.items():
@@ -199,6 +215,7 @@ def tolerance(
     Parameters
     ----------
     motor : Motor
+        Of plain numbers, no arrays; so is the drive.
     drive : Drive, optional
         The paper's Table 3 if not given.
     parameters : mapping or sequence of names, optional
@@ -236,12 +253,12 @@ def tolerance(
     if not isinstance(drive, Drive):
         raise ParameterError("drive", drive, "a Drive")
     _check_one_point(motor, drive)
-    outputs = (outputs,) if isinstance(outputs, str) else tuple(dict.fromkeys(outputs))
+    outputs = _texts("outputs", outputs)
     for output in outputs:
         _check_output("outputs", output)
     if not outputs:
         raise ParameterError("outputs", "none", f"at least one of {', '.join(OUTPUTS)}")
-    targets = tuple(map(_read_target, (target,) if isinstance(target, str) else target))
+    targets = tuple(map(_read_target, _texts("target", target)))
     distributions = _chosen(motor, parameters)
     sampled = {name: checked(name, given, _spec_of(name)) for name, given in distributions.items()}
     levels = {

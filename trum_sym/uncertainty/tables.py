@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from importlib.metadata import version
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -71,7 +71,7 @@ def as_text(study: Study) -> str:
     return "\n".join([*lines, "", *_balance(study), *_targets(study)])
 
 
-def _table(rows: list[tuple[str, ...]], headers: tuple[str, ...], align: str) -> list[str]:
+def _table(rows: Sequence[tuple[str, ...]], headers: tuple[str, ...], align: str) -> list[str]:
     from tabulate import tabulate
 
     names = {"l": "left", "r": "right"}
@@ -102,19 +102,8 @@ def _spreads(study: Study) -> list[str]:
     for output in study.outputs:
         missing = study.propagation.spread(output).without_value
         if missing:
-            lines += [
-                "",
-                f"{label(output)} has no value at {missing} of {2 * study.samples} points, which these leave out",
-            ]
-    if "speed_volatility" in study.outputs and _passes_zero(study):
-        lines += ["", "the mean speed passes zero, where the volatility grows without bound: read its quantiles, for its",
-                  "mean, deviation and indices do not settle with more samples"]  # fmt: skip
+            lines.append(f"{label(output)} has no value at {missing} of {2 * study.samples} points, which are left out")
     return lines
-
-
-def _passes_zero(study: Study) -> bool:
-    speed = study.propagation.values["mean_speed"]
-    return bool(np.nanmin(speed) < 0 < np.nanmax(speed)) if np.isfinite(speed).any() else False
 
 
 def _indices(study: Study, output: str, indices: Indices) -> list[str]:
@@ -127,6 +116,12 @@ def _indices(study: Study, output: str, indices: Indices) -> list[str]:
     lines = _table(rows, (label(output), "alone", "interval", "with others", "interval"), "lrlrl")
     if indices.rows < study.samples:
         lines.append(f"over the {indices.rows} of {study.samples} rows of points that all have a value")
+    if output in study.unbounded:
+        return [
+            *lines,
+            f"the mean speed passes zero, where the {label(output)} grows without bound: read its quantiles, for its",
+            "mean, deviation and indices do not settle with more samples",
+        ]
     return [*lines, *_advice(output, indices)]
 
 
@@ -154,7 +149,8 @@ def _balance(study: Study) -> Iterator[str]:
     if not (lost.any() or loose.any()):
         yield f"a speed balances the load at all {lost.size} points, and every orbit met its tolerance"
         return
-    yield f"no speed balances the load at {int(lost.sum())} of {lost.size} points, probability {_percent(study.unbalanced)}"
+    share = _percent(study.unbalanced)
+    yield f"no speed balances the load at {int(lost.sum())} of {lost.size} points, probability {share}"
     if lost.any():
         yield "  these have no speed, no volatility and no extremes, and miss every target set on them"
         yield from _named(study, lost)
@@ -223,6 +219,7 @@ def _output_record(study: Study, output: str) -> dict[str, object]:
         "standard_deviation": spread.standard_deviation,
         "quantiles": [{"probability": p, **estimate.as_dict()} for p, estimate in spread.quantiles.items()],
         "without_value": spread.without_value,
+        "unbounded": output in study.unbounded,
         "indices": _indices_record(study.propagation.indices[output]),
     }
 
@@ -260,7 +257,9 @@ def as_dataset(study: Study) -> xr.Dataset:
         raise MissingExtraError("a data set", str(error.name), "sweep") from None
     dims = ("matrix", "sample")
     found = study.propagation
-    variables = {name: (dims, values, {"units": unit_of(name)}) for name, values in found.points.items()}
+    variables: dict[str, Any] = {
+        name: (dims, values, {"units": unit_of(name)}) for name, values in found.points.items()
+    }
     for name, output in OUTPUTS.items():
         # an uncertain amplitude is both, and the same
         variables[name] = (dims, found.values[name], {"units": output.unit, "long_name": output.label})
