@@ -16,7 +16,7 @@ import trum_sym as ts
 from trum_sym import batch
 from trum_sym.modal import cycle_sums, modal_values
 from trum_sym.uncertainty.propagation import propagate
-from trum_sym.uncertainty.tables import as_dataset, as_json_text, as_text
+from trum_sym.uncertainty.tables import as_json_text, as_text
 
 # few pulses a cycle: a point costs a fifth of Table 3's
 SHORT = ts.Drive(periods=4, on_periods=3, load_torque=0.05)
@@ -103,7 +103,7 @@ def test_indices_of_a_determinant_are_those_of_a_double_loop():
     indices = propagate(determinant, parameters, samples=256).indices["y"]
     rng = np.random.default_rng(5)
     for name in parameters:
-        brute, error = double_loop(determinant, parameters, name, rng, 100, 30)
+        brute, error = double_loop(determinant, parameters, name, rng, 160, 10)
         assert error < 0.1
         found = indices.first[name]
         assert abs(found.value - brute) < 3 * error
@@ -227,7 +227,7 @@ def test_the_motor_file_says_what_is_uncertain():
     assert set(found.distributions) == assumed - {"piezo_width"}
     more = ts.tolerance(MOTOR, SHORT, samples=64, parameters={"motor": None, "load_torque": "normal:0.05:0.01"})
     assert set(more.distributions) == assumed | {"load_torque"}
-    assert "no effect at all: piezo_strain_constant, piezo_compliance, curvature_radius" in as_text(found)
+    assert "no effect at any point: piezo_strain_constant, piezo_compliance, curvature_radius" in as_text(found)
 
 
 def test_the_same_seed_gives_the_same_bits_on_any_number_of_threads(study, monkeypatch):
@@ -248,7 +248,6 @@ def test_the_data_set_has_every_point_and_setting(study):
     assert data.attrs["seed"] == 0
     assert "prepressure: uniform, 150 to 210" in data.attrs["distributions"]
     assert data.attrs["motor_rotor_inertia"] == 4.5e-6
-    assert as_dataset(study).equals(data)
 
 
 def test_an_interruption_stops_the_work(monkeypatch):

@@ -66,7 +66,7 @@ def draw(name: str, study: Study, target: Path) -> None:
             _draw_distribution(left, study, output)
         _draw_indices(right, indices)
         right.set_title(_title(study, output), fontsize="medium")
-    rows[-1][1].set_xlabel(f"Sobol index, interval at {CONFIDENCE:.0%}")
+    rows[-1][1].set_xlabel(f"Sobol index, interval at {100 * CONFIDENCE:g} %")
     drive = study.drive
     figure.suptitle(
         f"{study.motor.name}, {drive.prepressure:g} N, {drive.frequency_difference:+g} Hz, {drive.on_periods:g} of "

@@ -59,7 +59,7 @@ def as_text(study: Study) -> str:
         f"{study.motor.name} at {drive.prepressure:g} N, {drive.frequency_difference:+g} Hz, {drive.on_periods:g} of "
         f"{drive.periods:g} periods on, load {drive.load_torque:g} N m, start {drive.start}",
         f"{count} uncertain parameter{'s' * (count != 1)}, {study.samples} samples, "
-        f"{study.samples * (count + 2)} points, seed {study.seed}; intervals at {CONFIDENCE:.0%}",
+        f"{study.samples * (count + 2)} points, seed {study.seed}; intervals at {100 * CONFIDENCE:g} %",
         "",
         *_parameters(study),
         "",
@@ -140,7 +140,7 @@ def _advice(output: str, indices: Indices) -> Iterator[str]:
         yield f"more samples are needed to tell it from {max(rest, key=rest.__getitem__)}"
     idle = [name for name, total in indices.total.items() if total.value == 0]
     if idle:
-        yield f"no effect at all: {', '.join(idle)}"
+        yield f"no effect at any point: {', '.join(idle)}"
 
 
 def _balance(study: Study) -> Iterator[str]:
