@@ -64,7 +64,7 @@ def draw(name: str, study: Study, target: Path) -> None:
             _draw_share(left, study, output)
         else:
             _draw_distribution(left, study, output)
-        _draw_indices(right, indices)
+        _draw_indices(right, indices, legend=right is rows[0][1])
         right.set_title(_title(study, output), fontsize="medium")
     rows[-1][1].set_xlabel(f"Sobol index, interval at {100 * CONFIDENCE:g} %")
     drive = study.drive
@@ -106,7 +106,7 @@ def _draw_distribution(axes: Axes, study: Study, output: str) -> None:
     axes.set_xlim(ends[0] - 0.02 * (ends[1] - ends[0]), ends[1] + 0.02 * (ends[1] - ends[0]))
     axes.set_xlabel(label(output) + (f", {unit}" if unit != "1" else "") + (f"; {beyond} beyond" if beyond else ""))
     axes.set_ylabel("points")
-    axes.legend(fontsize="small")
+    axes.legend(fontsize="small", loc="lower left", bbox_to_anchor=(0, 1), ncols=2, borderaxespad=0.3)
 
 
 def _draw_share(axes: Axes, study: Study, output: str) -> None:
@@ -117,24 +117,35 @@ def _draw_share(axes: Axes, study: Study, output: str) -> None:
         estimates = {f"missing {target.text}": study.missing(target) for target in study.targets}
         if len(study.targets) > 1:
             estimates["missing any"] = study.missing()
-    _draw_bars(axes, list(estimates), [list(estimates.values())], ("C3",), (None,))
+    values = list(estimates.values())
+    _draw_bars(axes, [""] * len(values), [values], ("C3",), (None,), room=0.4)
+    for place, text in enumerate(estimates):  # above its bar: a long label beside it would squeeze all rows
+        axes.text(0.01, place - 0.22, text, va="bottom", fontsize="small")
+    axes.set_yticks([])
+    axes.set_ylim(len(values) - 0.6, -0.7)
     axes.set_xlim(0, 1)
     axes.set_xlabel("probability")
 
 
-def _draw_indices(axes: Axes, indices: Indices) -> None:
+def _draw_indices(axes: Axes, indices: Indices, legend: bool) -> None:
     names = sorted(indices.total, key=lambda name: -indices.total[name].value)
     series = [[order[name] for name in names] for order in (indices.first, indices.total)]
     _draw_bars(axes, names, series, ("C0", "C1"), ("alone (first order)", "with others (total)"))
     axes.axvline(0, color="0.2", linewidth=0.8)
-    axes.legend(fontsize="small", loc="lower right")
+    if legend:
+        axes.legend(fontsize="small", loc="lower right")
 
 
 def _draw_bars(
-    axes: Axes, names: list[str], series: list[list[Estimate]], colours: tuple[str, ...], labels: tuple[str | None, ...]
+    axes: Axes,
+    names: list[str],
+    series: list[list[Estimate]],
+    colours: tuple[str, ...],
+    labels: tuple[str | None, ...],
+    room: float = 0.8,
 ) -> None:
     """Horizontal bars with intervals, the first name on top."""
-    thick = 0.8 / len(series)
+    thick = room / len(series)
     for place, (estimates, colour, text) in enumerate(zip(series, colours, labels, strict=True)):
         at = np.arange(len(names)) + (place - (len(series) - 1) / 2) * thick
         values = np.array([e.value for e in estimates])

@@ -115,7 +115,10 @@ def _indices(study: Study, output: str, indices: Indices) -> list[str]:
     ]
     lines = _table(rows, (label(output), "alone", "interval", "with others", "interval"), "lrlrl")
     if indices.rows < study.samples:
-        lines.append(f"over the {indices.rows} of {study.samples} rows of points that all have a value")
+        lines.append(
+            f"over the {indices.rows} of {study.samples} rows of points that all have a value, not over the whole "
+            "distribution"
+        )
     if output in study.unbounded:
         return [
             *lines,
