@@ -9,6 +9,7 @@ from trum_sym.console.evaluate import evaluate
 from trum_sym.console.optimize import optimize
 from trum_sym.console.report import report
 from trum_sym.console.simulate import simulate
+from trum_sym.console.tolerance import tolerance
 
 __all__ = ["main"]
 
@@ -22,7 +23,7 @@ def _cli() -> None:
     """
 
 
-for _command in (evaluate, simulate, optimize, equations, report):
+for _command in (evaluate, simulate, tolerance, optimize, equations, report):
     _cli.add_command(_command)
 
 
