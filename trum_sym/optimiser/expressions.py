@@ -218,11 +218,10 @@ def parse_expression(name: str, text: object) -> Expression:
     term = reader.read(tree.body)
     if not reader.names:
         raise reader.refuse("no figure occurs in it")
-    body = tree.body
-    if isinstance(body, ast.Name):
-        unit = FIGURES[body.id]
-    else:
-        unit = str(term.dimension or Dimension())
+    dimension = term.dimension or Dimension()
+    if any(exponent.denominator != 1 for exponent in dimension):
+        raise reader.refuse(f"the root of a unit is left, {dimension}")
+    unit = FIGURES[tree.body.id] if isinstance(tree.body, ast.Name) else str(dimension)
     return Expression(text.strip(), term.graph, frozenset(reader.names), unit)
 
 

@@ -75,8 +75,12 @@ def finish(model: Model, functions: Functions, bounds: Bounds, found: Visit) -> 
 
     Parameters
     ----------
+    model : Model
+        Gives the figures.
     functions : Functions
         The objective, then the constraints.
+    bounds : Bounds
+        Of the constraints.
     found : Visit
         Where the descent ended, with these functions' slopes.
     """
