@@ -11,9 +11,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-import casadi
 import numpy as np
 
+from trum_sym.optimiser.extra import casadi
 from trum_sym.optimiser.model import Functions, Model
 from trum_sym.validate import Array
 

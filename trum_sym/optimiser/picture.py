@@ -69,7 +69,7 @@ def draw(optimum: Optimum, target: Path, name: str = "plot") -> None:
     pulses = f"{drive.on_periods:g} of {drive.periods:g} periods on"
     title = f"{problem.motor.name}, load {drive.load_torque:g} N m, {pulses}\n{optimum.status}: {optimum.message}"
     axes.set_title(title, fontsize=9, wrap=True)
-    axes.legend(loc="upper left", bbox_to_anchor=(0, -0.12), ncols=3, fontsize=8, frameon=False)
+    figure.legend(loc="outside lower center", ncols=2, fontsize=8, frameon=False)
     content = BytesIO()
     figure.savefig(content, format=target.suffix[1:], dpi=150)
     write_bytes(name, content.getvalue(), target)
@@ -113,8 +113,8 @@ def _map(axes: Any, problem: Problem, points: Array, shape: tuple[int, ...], val
     for k, value, text in _targets(problem):
         column = values[:, k].reshape(shape)
         if np.nanmin(column) < value < np.nanmax(column):
-            axes.contour(right, up, column, [value], colors="w", linewidths=2)
-            axes.plot([], [], color="lightgrey", linewidth=2, label=_words(text))
+            axes.contour(right, up, column, [value], colors="magenta", linewidths=2)
+            axes.plot([], [], color="magenta", linewidth=2, label=_words(text))
     for number, (text, inside) in enumerate(_beyond(problem, values)):
         color = f"C{1 + number}"
         grid = inside.reshape(shape)

@@ -33,6 +33,9 @@ class Evidence:
         Objectives of the distinct local optima, the best first.
     places : tuple of dict
         Where these are, by the names of what varies.
+    stationarity : float or None
+        Slope of the objective across the box, over the objective, that the constraints and edges leave where IPOPT
+        ended; above 3e-3 a kink has stopped it, and a compass search has gone on from there.
     pulses : int
         Pairs of periods and on_periods in the ranges.
     pruned : int
@@ -46,6 +49,7 @@ class Evidence:
     starts: int
     optima: tuple[float, ...]
     places: tuple[dict[str, float], ...]
+    stationarity: float | None
     pulses: int
     pruned: int
     reachable_speed: tuple[float, float] | None

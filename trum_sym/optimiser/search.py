@@ -123,9 +123,10 @@ def _check_scalars(motor: Motor, drive: Drive) -> None:
 def _number(name: str, value: object, unit: str) -> float:
     """A finite number in its SI unit, from a number or text."""
     given = parse_quantity(name, value, unit) if isinstance(value, str) else value
-    if np.ndim(given):  # type: ignore[arg-type]
+    checked = number(name, given, Domain(), unit)
+    if np.ndim(checked):
         raise ParameterError(name, value, f"one number in {unit}")
-    return float(number(name, given, Domain(), unit))
+    return float(checked)
 
 
 def _box(drive: Drive, bounds: Mapping[str, Bound] | None) -> tuple[Box, list[tuple[int, int]], Drive]:
@@ -293,6 +294,7 @@ def _optimum(
     places = tuple(dict(zip(problem.box.names, place, strict=True)) for place in at)
     evidence = Evidence(
         map_shape=answer.map_shape, basins=answer.basins, starts=answer.starts, optima=optima, places=places,
+        stationarity=answer.stationarity,
         pulses=pulses, pruned=pruned, reachable_speed=reachable,
     )  # fmt: skip
     drive = problem.drive
