@@ -69,8 +69,12 @@ class Map:
         deviation = self.point.speed_volatility * np.abs(self.speed)
         ends, rank = [], []
         for axis in (0, 1):
-            first = [np.moveaxis(a, axis, 0)[:-1].reshape(-1, *a.shape[2:]) for a in (self.share, self.speed, deviation)]
-            second = [np.moveaxis(a, axis, 0)[1:].reshape(-1, *a.shape[2:]) for a in (self.share, self.speed, deviation)]
+            first = [
+                np.moveaxis(a, axis, 0)[:-1].reshape(-1, *a.shape[2:]) for a in (self.share, self.speed, deviation)
+            ]
+            second = [
+                np.moveaxis(a, axis, 0)[1:].reshape(-1, *a.shape[2:]) for a in (self.share, self.speed, deviation)
+            ]
             crossed = (first[1] - target) * (second[1] - target) <= 0
             along = (target - first[1][crossed]) / (second[1][crossed] - first[1][crossed] + 1e-300)
             ends.append(np.stack([first[0][crossed], second[0][crossed]], axis=1))
@@ -219,7 +223,9 @@ def report(file):
             print(f"  objective over the map's: median {np.median(ratio):+.1e}, worst {ratio.max():+.1e}")
             print(f"  largest violation {max(record['violation'] for record in solved):.1e}")
             times = np.array([record["seconds"] for record in solved])
-            print(f"  seconds: median {np.median(times):.2f}, 95 % {np.quantile(times, 0.95):.2f}, most {times.max():.2f}")
+            print(
+                f"  seconds: median {np.median(times):.2f}, 95 % {np.quantile(times, 0.95):.2f}, most {times.max():.2f}"
+            )
         for record, why in bad:
             print(f"  seed {record['seed']}, target {record['target']:.10g}: {why}")
 

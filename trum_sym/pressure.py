@@ -7,7 +7,7 @@ import numpy as np
 from trum_sym.kernels import call
 from trum_sym.modal import response
 from trum_sym.operating_point import Case
-from trum_sym.validate import Array
+from trum_sym.validate import Array, ArrayLike
 
 __all__ = ["peak_pressure"]
 
@@ -43,8 +43,8 @@ def peak_pressure(case: Case) -> Array:
 def _highest(values: dict[str, Array]) -> Array:
     """The wave's greatest height W_c in the cycle, m."""
     shape = values["m"].shape
-    column = {name: value[..., np.newaxis] for name, value in values.items()}
-    period = 2 * np.pi / (column["omega_n"] + column["Delta_omega"])
+    column: dict[str, ArrayLike] = {name: value[..., np.newaxis] for name, value in values.items()}
+    period = 2 * np.pi / np.add(column["omega_n"], column["Delta_omega"])
 
     def height(turns: Array) -> Array:
         both = response(np.clip(turns, 0.0, column["m"]) * period, column)

@@ -7,6 +7,7 @@ import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 
@@ -20,7 +21,7 @@ from trum_sym.optimiser.result import Evidence, Optimum
 from trum_sym.optimiser.solve import Answer, Problem, solve
 from trum_sym.stator import Amplitude, Contact, Foundation, Levels, Resonance
 from trum_sym.units import parse_quantity
-from trum_sym.validate import number
+from trum_sym.validate import Domain, number
 
 __all__ = ["OBJECTIVES", "optimize"]
 
@@ -63,7 +64,7 @@ def optimize(
     motor : Motor
         Of single values, no arrays.
     drive : Drive, optional
-        What does not vary: load torque, start, and whatever ``bounds`` does not name.  The paper's Table 3 if not given.
+        What does not vary: load torque, start, and whatever ``bounds`` does not name.  By default the paper's Table 3.
     objective : str
         ``"volatility"`` (speed_volatility, eq. 40), ``"q-volatility"`` (the magnitude of Q_vib, eq. 44),
         ``"speed-error"`` (distance of the mean speed from the target, and among points without, the volatility),
@@ -121,12 +122,11 @@ def _check_scalars(motor: Motor, drive: Drive) -> None:
 
 def _number(name: str, value: object, unit: str) -> float:
     """A finite number in its SI unit, from a number or text."""
-    from trum_sym.validate import Domain
-
     given = parse_quantity(name, value, unit) if isinstance(value, str) else value
-    if np.ndim(given):  # type: ignore[arg-type]
+    checked = number(name, given, Domain(), unit)
+    if np.ndim(checked):
         raise ParameterError(name, value, f"one number in {unit}")
-    return float(number(name, given, Domain(), unit))
+    return float(checked)
 
 
 def _box(drive: Drive, bounds: Mapping[str, Bound] | None) -> tuple[Box, list[tuple[int, int]], Drive]:
@@ -151,16 +151,18 @@ def _box(drive: Drive, bounds: Mapping[str, Bound] | None) -> tuple[Box, list[tu
             empty = "one number holds it there" if low == high else "these are reversed"
             raise ParameterError(f"bounds of {name}", f"{low:g} to {high:g}", f"low < high in {unit} ({empty})")
         ranges[name] = (low, high)
-    drive = replace(drive, **{name: value for name, value in held.items() if name not in _PULSES})
-    axes = [
-        ranges.get(name, (held.get(name, float(getattr(drive, name))),) * 2)
-        for name in _PULSES  # type: ignore[arg-type]
-    ]
+    continuous: dict[str, Any] = {name: value for name, value in held.items() if name not in _PULSES}
+    drive = replace(drive, **continuous)
+    axes = []
+    for name in _PULSES:
+        alone = held.get(name, float(getattr(drive, name)))
+        axes.append(ranges.get(name, (alone, alone)))
     counts = [range(int(low), int(high) + 1) for low, high in axes]
     pulses = [(m, n) for m in counts[0] for n in counts[1] if m <= 2 * n <= 2 * m]
     if not pulses:
-        raise ParameterError("bounds of on_periods", f"{axes[1][0]:g} to {axes[1][1]:g}",
-                             f"a range with periods/2 to periods in it, with periods {axes[0][0]:g} to {axes[0][1]:g}")  # fmt: skip
+        of, m = axes[1], axes[0]
+        wanted = f"a range with periods/2 to periods in it, with periods {m[0]:g} to {m[1]:g}"
+        raise ParameterError("bounds of on_periods", f"{of[0]:g} to {of[1]:g}", wanted)
     names = tuple(name for name in _VARIABLES if name in ranges)
     if not names:
         raise ParameterError("bounds", "every variable held", "a range for prepressure or frequency_difference")
@@ -182,13 +184,10 @@ def _aim(
     if target == 0 and objective in ("volatility", "ripple"):
         raise ParameterError("target_speed", target, f"a speed other than 0 for the objective {objective}, which is "
                              "relative to it; speed_deviation and max_speed - min_speed are not")  # fmt: skip
-    if objective.isidentifier() or ("-" in objective and objective.replace("-", "").isalpha()):
-        from trum_sym.optimiser.expressions import FIGURES
-
-        if objective not in OBJECTIVES and not any(part.strip() in FIGURES for part in objective.split("-")):
-            raise ParameterError("objective", objective, f"one of {', '.join(OBJECTIVES)}, or arithmetic on figures "
-                                 "such as speed_volatility")  # fmt: skip
-    aim = parse_expression("objective", OBJECTIVES.get(objective, objective))
+    try:
+        aim = parse_expression("objective", OBJECTIVES.get(objective, objective))
+    except ParameterError as error:
+        raise ParameterError("objective", objective, f"one of {', '.join(OBJECTIVES)}, or {error.allowed}") from None
     if target is not None:
         limits.insert(0, Constraint(parse_expression("target_speed", "mean_speed"), target, target))
         if aim.text == "speed_volatility":  # the same where the speed is the target, and smooth everywhere
@@ -284,16 +283,18 @@ def _optimum(
     figures = {} if best is None else best.figures
     if objective == "speed-error" and best is not None and target is not None:
         error = abs(figures["mean_speed"] - target)
-        others = [c for c in problem.constraints[1:]]
-        if status == "infeasible" and not others:
+        if status == "infeasible" and len(problem.constraints) == 1:
             status = "solved"
         value: float | None = error
         optima = tuple([error] if status == "solved" else [])
     else:
         value = None if best is None else best.objective
         optima = tuple(entry for _, entry in answer.optima)
+    at = [problem.box.at(share).tolist() for share, _ in answer.optima[: len(optima)]]
+    places = tuple(dict(zip(problem.box.names, place, strict=True)) for place in at)
     evidence = Evidence(
-        map_shape=answer.map_shape, basins=answer.basins, starts=answer.starts, optima=optima,
+        map_shape=answer.map_shape, basins=answer.basins, starts=answer.starts, optima=optima, places=places,
+        stationarity=answer.stationarity,
         pulses=pulses, pruned=pruned, reachable_speed=reachable,
     )  # fmt: skip
     drive = problem.drive
@@ -320,6 +321,7 @@ def _optimum(
         message=_message(status, objective, target, answer, reachable),
         evidence=evidence,
         figures=MappingProxyType(dict(figures)),
+        problem=problem,
     )
 
 

@@ -5,15 +5,16 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
-import casadi
 import numpy as np
 
 from trum_sym.drive import Drive
 from trum_sym.motor import Motor
 from trum_sym.optimiser.chart import Chart, basins, chart
-from trum_sym.optimiser.descent import Task, descend
+from trum_sym.optimiser.descent import Task, Visit, descend
 from trum_sym.optimiser.expressions import Constraint, Expression
-from trum_sym.optimiser.finish import Bounds, Finished, checked, finish
+from trum_sym.optimiser.extra import casadi
+from trum_sym.optimiser.finish import ALLOWED, Bounds, Finished, checked, finish
+from trum_sym.optimiser.kinks import compass, stationarity
 from trum_sym.optimiser.model import Box, Functions, Model, functions
 from trum_sym.stator import Levels
 from trum_sym.validate import Array
@@ -24,6 +25,7 @@ _MOST_STARTS = 8
 _DESCENT = 1e-6  # tolerance of IPOPT's orbits
 _CLOSE = 1e-3  # objectives closer than this share are finished too; optima closer than this in the box are one
 _STEPS = 60  # of a bisection
+_STATIONARY = 3e-3  # slope of the scaled objective across the box that is left to a minimum
 
 
 @dataclass(frozen=True)
@@ -58,13 +60,16 @@ class Answer:
         ``failed``: neither a point nor such evidence was found.
     best : Finished or None
         The optimum, or the nearest point that can be reached; None where no speed balances the load anywhere.
-    optima : list of Finished or (share, objective)
+    optima : list of (share, objective)
         Local optima that are distinct, best first, as IPOPT left them.
     map_shape : tuple of int
     basins : int
         Places of the map that no place around beats.
     starts : int
         Those that IPOPT started from.
+    stationarity : float or None
+        Slope of the objective across the box, over the objective, that the constraints and edges leave at the best of
+        IPOPT's places; above 3e-3 a kink has stopped it, and a compass search has gone on from there.
     ranges : dict
         Lowest and highest value of an equality's expression in the box, where they were looked for.
     evaluations : int
@@ -77,6 +82,7 @@ class Answer:
     map_shape: tuple[int, ...]
     basins: int
     starts: int
+    stationarity: float | None
     ranges: dict[int, tuple[float, float]]
     evaluations: int
 
@@ -94,13 +100,16 @@ class _Search:
     optima: list[tuple[Array, float]] = field(default_factory=list)
     basins: int = 0
     starts: int = 0
+    stationarity: float | None = None
     ranges: dict[int, tuple[float, float]] = field(default_factory=dict)
 
     def answer(self, status: str, best: Finished | None) -> Answer:
         """As it stands."""
         return Answer(
-            status, best, self.optima, self.map.shape, self.basins, self.starts, self.ranges, self.model.evaluations
-        )
+            status=status, best=best, optima=self.optima, map_shape=self.map.shape, basins=self.basins,
+            starts=self.starts, stationarity=self.stationarity, ranges=self.ranges,
+            evaluations=self.model.evaluations,
+        )  # fmt: skip
 
 
 def solve(problem: Problem, model: Model | None = None, known: Chart | None = None) -> Answer:
@@ -109,6 +118,7 @@ def solve(problem: Problem, model: Model | None = None, known: Chart | None = No
     Parameters
     ----------
     problem : Problem
+        Objective, constraints and box.
     model : Model, optional
         From a problem that names the same figures; counts the evaluations.
     known : Chart, optional
@@ -128,12 +138,12 @@ def solve(problem: Problem, model: Model | None = None, known: Chart | None = No
     places, objective, violation = basins(known, rows, low, high, span)
     met = violation <= 1e-12
     search.basins = int(met.sum())
-    best = _descend_and_finish(search, places[met]) if met.any() else None
+    best = _descend_and_finish(search, places[met], objective[met]) if met.any() else None
     if best is None or not best.feasible:
         begun, nearest = _towards_feasible(search, places[~met])
-        again = _descend_and_finish(search, begun) if len(begun) else None
+        again = _descend_and_finish(search, begun, objective) if len(begun) else None
         found = [point for point in (best, again, nearest) if point is not None]
-        best = min(found, key=lambda point: (max(point.violation, 1e-8), point.objective), default=None)
+        best = min(found, key=_order, default=None)
     if best is not None and best.feasible:
         return search.answer("solved", best)
     return search.answer("infeasible" if _excluded(search, best) else "failed", best)
@@ -149,26 +159,23 @@ def _extent(values: Array) -> tuple[Array, Array]:
     return np.where(span > 0, span, np.where(size > 0, size, 1.0)), np.where(size > 0, size, 1.0)
 
 
-def _descend_and_finish(search: _Search, starts: Array) -> Finished | None:
+def _descend_and_finish(search: _Search, starts: Array, objective: Array) -> Finished | None:
     """IPOPT from each start; the best of what comes out, onto its constraints and checked."""
-    starts = starts[:_MOST_STARTS]
     model, rows, bounds = search.model, search.functions, search.bounds
-    first = rows.values(model.figures(model.box.at(starts), _DESCENT))[:, 0]
-    sizes = np.abs(first[np.isfinite(first)])
-    scale = np.concatenate([[float(np.min(sizes, initial=np.inf))], search.span])
-    scale[0] = scale[0] if 0 < scale[0] < np.inf else 1.0
-    tasks = [Task(rows, bounds.low, bounds.high, scale, start) for start in starts]
+    scale = np.concatenate([[_size(search, objective)], search.span])
+    tasks = [Task(rows, bounds.low, bounds.high, scale, start) for start in starts[:_MOST_STARTS]]
     found = descend(model, tasks, _DESCENT)
     search.starts += len(tasks)
-    values = rows.values(model.figures(model.box.at(np.array(found)), _DESCENT))
-    near = np.array([np.max(np.abs(bounds.excess(g)) * bounds.unit / search.span, initial=0.0) for g in values[:, 1:]])
-    near = np.where(np.isfinite(near) & np.isfinite(values[:, 0]), near, np.inf)
-    order = np.lexsort((values[:, 0], np.maximum(near, 1e-5)))
+    missed = [
+        float(np.max(np.abs(bounds.excess(v.values[1:])) * bounds.unit / search.span, initial=0.0)) for v in found
+    ]
+    missed = [miss if np.isfinite(miss) and np.isfinite(v.values[0]) else math.inf
+              for miss, v in zip(missed, found, strict=True)]  # fmt: skip
     best: Finished | None = None
-    for k in order:
-        place, value = found[k], float(values[k, 0])
+    for k in sorted(range(len(found)), key=lambda k: (max(missed[k], 1e-5), found[k].values[0])):
+        place, value = found[k].share, float(found[k].values[0])
         distinct = all(np.max(np.abs(place - other)) > _CLOSE for other, _ in search.optima)
-        if distinct and near[k] <= 1e-4:
+        if distinct and missed[k] <= 1e-4:
             search.optima.append((place, value))
         if (
             best is not None
@@ -176,11 +183,29 @@ def _descend_and_finish(search: _Search, starts: Array) -> Finished | None:
             and (not distinct or value > best.objective + _CLOSE * abs(best.objective))
         ):
             continue
-        point = finish(model, rows, bounds, place)
-        if best is None or (max(point.violation, 1e-8), point.objective) < (max(best.violation, 1e-8), best.objective):
-            best = point
+        point, left = finish(model, rows, bounds, found[k]), stationarity(found[k], bounds, scale)
+        if left > _STATIONARY and missed[k] <= 1e-4:
+            further = compass(model, rows, bounds, scale, found[k], _DESCENT)
+            if further.values[0] < value:
+                point = min(point, finish(model, rows, bounds, further), key=_order)
+        if best is None or _order(point) < _order(best):
+            best, search.stationarity = point, left
     search.optima.sort(key=lambda optimum: optimum[1])
     return best
+
+
+def _size(search: _Search, objective: Array) -> float:
+    """What the objective is divided by: its least size at the basins, but not much less than its range in the box."""
+    of_map = search.functions.values(search.map.figures)[:, 0]
+    quarters = np.quantile(of_map[np.isfinite(of_map)], (0.25, 0.75)) if np.isfinite(of_map).any() else np.zeros(2)
+    least = float(np.min(np.abs(objective[np.isfinite(objective)]), initial=np.inf))
+    size = max(least if np.isfinite(least) else 0.0, 0.01 * float(quarters[1] - quarters[0]))
+    return size if 0 < size < np.inf else 1.0
+
+
+def _order(point: Finished) -> tuple[float, float]:
+    """By violation, and among points without by the objective."""
+    return max(point.violation, ALLOWED), point.objective
 
 
 def _towards_feasible(search: _Search, places: Array) -> tuple[Array, Finished | None]:
@@ -193,35 +218,47 @@ def _towards_feasible(search: _Search, places: Array) -> tuple[Array, Finished |
         if started is not None:
             return started[np.newaxis], nearest
     starts = places[:_MOST_STARTS]
-    excess = casadi.vertcat(
-        *(
-            casadi.fmax(0, (constraint.low if math.isfinite(constraint.low) else -1e300) - constraint.expression.graph)
-            / unit
-            if not math.isfinite(constraint.high)
-            else casadi.fmax(0, constraint.expression.graph - constraint.high) / unit
-            if not math.isfinite(constraint.low)
-            else (constraint.expression.graph - constraint.low) / unit
-            for constraint, unit in zip(search.problem.constraints, search.span, strict=True)
-        )
-    )
-    names = search.problem.names
-    merit = functions([Expression("violation", casadi.sumsqr(excess), names, "1")])
+    merit = functions([_merit(search)])
     none = np.empty(0)
     found = descend(model, [Task(merit, none, none, np.ones(1), start) for start in starts], _DESCENT)
     search.starts += len(found)
-    points = [finish(model, rows, bounds, place) for place in _distinct(found)]
+    places = np.array([visit.share for visit in _distinct(found)])
+    points = [finish(model, rows, bounds, visit) for visit in _looked(search, rows, places)]
     if nearest is not None:
         points.append(nearest)
-    best = min(points, key=lambda point: (max(point.violation, 1e-8), point.objective), default=None)
     good = [point.share for point in points if point.feasible]
-    return np.array(good).reshape(len(good), len(model.box.names)), best
+    return np.array(good).reshape(len(good), len(model.box.names)), min(points, key=_order, default=None)
 
 
-def _distinct(places: list[Array]) -> list[Array]:
-    kept: list[Array] = []
-    for place in places:
-        if all(np.max(np.abs(place - other)) > _CLOSE for other in kept):
-            kept.append(place)
+def _merit(search: _Search) -> Expression:
+    """The sum of the violations' squares, over the constraints' ranges in the box."""
+    terms = []
+    for constraint, span in zip(search.problem.constraints, search.span, strict=True):
+        graph = constraint.expression.graph
+        if constraint.low == constraint.high:
+            terms.append((graph - constraint.low) / span)
+        elif math.isfinite(constraint.low):
+            terms.append(casadi.fmax(0, constraint.low - graph) / span)
+        else:
+            terms.append(casadi.fmax(0, graph - constraint.high) / span)
+    return Expression("violation", casadi.sumsqr(casadi.vertcat(*terms)), search.problem.names, "1")
+
+
+def _looked(search: _Search, rows: Functions, places: Array) -> list[Visit]:
+    """Places with values and slopes of other functions than those that led to them."""
+    if not len(places):
+        return []
+    model = search.model
+    figures, by = model.figures_with_slopes(model.box.at(places), _DESCENT)
+    slopes = rows.slopes(figures, {name: slope * model.box.width for name, slope in by.items()})
+    return [Visit(*entry) for entry in zip(places, rows.values(figures), slopes, strict=True)]
+
+
+def _distinct(found: list[Visit]) -> list[Visit]:
+    kept: list[Visit] = []
+    for visit in found:
+        if all(np.max(np.abs(visit.share - other.share)) > _CLOSE for other in kept):
+            kept.append(visit)
     return kept
 
 
@@ -250,11 +287,9 @@ def _by_extremes(search: _Search, k: int) -> tuple[Array | None, Finished | None
     found = descend(model, tasks, _DESCENT)
     search.starts += len(found)
     rows = functions([own, *(constraint.expression for constraint in others)])
-    ends = []
-    for place in _distinct(found):
-        point = finish(model, rows, rest, place)
-        if point.feasible:
-            ends.append(point)
+    for visit, sign in zip(found, signs, strict=True):
+        visit.values[0], visit.slopes[0] = sign * visit.values[0], sign * visit.slopes[0]
+    ends = [point for point in (finish(model, rows, rest, visit) for visit in _distinct(found)) if point.feasible]
     if not ends:
         return None, None
     lowest, highest = min(ends, key=lambda e: e.objective), max(ends, key=lambda e: e.objective)
