@@ -20,7 +20,7 @@ def main(folder: Path | None = None) -> None:
     """Write a motor file, load it, compare."""
     text = (files("trum_sym") / "data" / "trum60.toml").read_text("utf-8")
     text = text[: text.index("[[published]]")].replace('name = "TRUM-60"', 'name = "soft layer"')
-    text = text.replace('layer_young_modulus = { value = 5.0,', 'layer_young_modulus = { value = 1.0,')
+    text = text.replace("layer_young_modulus = { value = 5.0,", "layer_young_modulus = { value = 1.0,")
     with tempfile.TemporaryDirectory() as place:
         path = Path(place) / "soft.toml"
         path.write_text(text, encoding="utf-8")

@@ -235,9 +235,7 @@ def test_figs_7_8_each_panel_is_its_model_and_the_zones_have_the_signs_of_fricti
 def test_figs_7_8_the_shares_are_those_of_the_independent_friction():
     other = reference(ts.Drive())
     orbit = other.orbit()
-    assert sum(panel_shares(figures.transfer_models())) == pytest.approx(
-        100 * forward_share(other, orbit), abs=1.5
-    )
+    assert sum(panel_shares(figures.transfer_models())) == pytest.approx(100 * forward_share(other, orbit), abs=1.5)
 
 
 def forward_share(other, orbit):
@@ -345,7 +343,9 @@ def test_figs_30_31_average_over_the_encoder_and_31_is_at_3300_hz():
     for label in READ:
         assert np.all(by_label(read, label)[1] < by_label(continuous, label)[1])
     motor = ts.load_motor("trum60")
-    drawn = {picture.anchor: picture.draw(motor) for picture in PICTURES if picture.anchor in ("figure-30", "figure-31")}
+    drawn = {
+        picture.anchor: picture.draw(motor) for picture in PICTURES if picture.anchor in ("figure-30", "figure-31")
+    }
     _, sigma = by_label(drawn["figure-30"].axes[2], READ[0])
     assert sigma == pytest.approx(by_label(read, READ[0])[1])
     x, sigma = by_label(drawn["figure-31"].axes[2], READ[2])
@@ -382,9 +382,7 @@ def test_fig_32_is_table_5():
         number, v = by_label(speed, label)
         assert list(number) == [1, 2, 3, 4, 5, 6]
         for i in (0, 3, 5):
-            drive = ts.Drive(
-                prepressure=forces[i], frequency_difference=differences[i], start=start, phase_lead=lead
-            )
+            drive = ts.Drive(prepressure=forces[i], frequency_difference=differences[i], start=start, phase_lead=lead)
             orbit = reference(drive).orbit()
             assert v[i] * SPEED == pytest.approx(orbit.mean, abs=2e-3 * orbit.largest)
     assert np.argmin(by_label(average, READ[0])[1]) == 3  # 2800 Hz, the lowest of the six
@@ -441,8 +439,9 @@ def test_fig_26b_changes_from_45_khz_to_the_resonance_and_decays_with_the_dampin
     before, after = (np.diff(crossings(time[part], velocity[part])) for part in (time < 0, time > 0))
     assert 1 / before == pytest.approx(45.0, rel=1e-3)  # kHz
     assert 1 / np.mean(after) == pytest.approx(39.703 * np.sqrt(1 - 0.006**2), rel=1e-4)
-    peaks = np.abs(velocity[time < 0]).max(), *(
-        np.abs(velocity[(time >= 1e3 * n / 39703) & (time < 1e3 * (n + 1) / 39703)]).max() for n in (2, 30)
+    peaks = (
+        np.abs(velocity[time < 0]).max(),
+        *(np.abs(velocity[(time >= 1e3 * n / 39703) & (time < 1e3 * (n + 1) / 39703)]).max() for n in (2, 30)),
     )
     assert peaks[0] == pytest.approx(1.0)
     assert peaks[2] / peaks[1] == pytest.approx(np.exp(-0.006 * 2 * np.pi * 28), rel=0.01)

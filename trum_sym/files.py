@@ -14,11 +14,7 @@ from trum_sym.errors import MissingExtraError, ParameterError
 if TYPE_CHECKING:
     import xarray as xr
 
-<<<<<<< HEAD
-__all__ = ["check_packages", "check_target", "replaced", "write"]
-=======
-__all__ = ["check_target", "write", "write_bytes"]
->>>>>>> optimize
+__all__ = ["check_packages", "check_target", "replaced", "write", "write_bytes"]
 
 _SUFFIXES = (".nc", ".csv")
 
@@ -29,11 +25,7 @@ def check_target(name: str, target: Path, suffixes: tuple[str, ...] = _SUFFIXES)
     Raises
     ------
     ParameterError
-<<<<<<< HEAD
         For another suffix than these, a folder that is not there or not ours to write in.
-=======
-        For another suffix than those allowed, a folder that is not there or not ours to write in.
->>>>>>> optimize
     """
     if target.suffix not in suffixes:
         raise ParameterError(name, str(target), f"a file name that ends in {' or '.join(suffixes)}")
@@ -88,21 +80,15 @@ def replaced(name: str, target: Path) -> Iterator[Path]:
             beside.unlink(missing_ok=True)
 
 
-<<<<<<< HEAD
 def write(name: str, dataset: xr.Dataset, target: Path) -> None:
     """Write beside the file and rename, so that no half-written one is ever seen.
 
     CSV has one row per point and the units in its header; NetCDF keeps the attributes too.
-=======
-def write_bytes(name: str, content: bytes, target: Path) -> None:
-    """Write what is there already in the same way: beside the file, then rename.
->>>>>>> optimize
 
     Raises
     ------
     ParameterError
         If the file cannot be written.
-<<<<<<< HEAD
     MissingExtraError
         For NetCDF without h5netcdf.
     """
@@ -119,20 +105,15 @@ def write_bytes(name: str, content: bytes, target: Path) -> None:
             }
             table = dataset.to_dataframe().reset_index().rename(columns=units)
             table.to_csv(beside, index=False, float_format="%.17g")
-=======
+
+
+def write_bytes(name: str, content: bytes, target: Path) -> None:
+    """Write what is there already in the same way: beside the file, then rename.
+
+    Raises
+    ------
+    ParameterError
+        If the file cannot be written.
     """
-    try:
-        handle, path = tempfile.mkstemp(prefix=f".{target.stem}-", suffix=target.suffix, dir=target.parent)
-        beside = Path(path)
-        try:
-            with os.fdopen(handle, "wb") as stream:
-                stream.write(content)
-            mask = os.umask(0)
-            os.umask(mask)
-            beside.chmod(0o666 & ~mask)
-            beside.replace(target)
-        finally:
-            beside.unlink(missing_ok=True)
-    except OSError as error:
-        raise ParameterError(name, str(target), f"a file that can be written ({error.strerror or error})") from None
->>>>>>> optimize
+    with replaced(name, target) as beside:
+        beside.write_bytes(content)

@@ -98,7 +98,10 @@ def prediction(motor: Motor | None = None, drive: Drive | None = None, *, axes: 
     for column, (spans, title) in enumerate(zip(ranges, ("the paper's box", "around it"), strict=True)):
         for reading, colour, mark in zip(READINGS, COLOURS, "osD", strict=False):
             _, _, found = _grid(motor, reading.of(drive), spans, 12, 12)
-            for ax, x, y in ((four[column], "q_average", "mean_speed"), (four[2 + column], "q_volatility", "speed_volatility")):
+            for ax, x, y in (
+                (four[column], "q_average", "mean_speed"),
+                (four[2 + column], "q_volatility", "speed_volatility"),
+            ):
                 rank = rank_correlation(found[x], found[y])
                 ax.plot(found[x].ravel(), found[y].ravel(), mark, color=colour, markersize=2.2, alpha=0.7,
                         markeredgewidth=0, label=f"{reading.label}: rank correlation {rank:+.2f}".replace("-", "−"))  # fmt: skip

@@ -107,9 +107,7 @@ def _beat(cycle: Cycle, region: int, per_period: int) -> Array:
 
 
 @styled
-def ellipse(
-    motor: Motor | None = None, drive: Drive | None = None, *, region: int = 0, axes: Panels = None
-) -> Figure:
+def ellipse(motor: Motor | None = None, drive: Drive | None = None, *, region: int = 0, axes: Panels = None) -> Figure:
     """Figs. 9, 12, 15: path of particle Q in the four quarters of a region's first beat, clockwise or not.
 
     Parameters
@@ -167,7 +165,9 @@ def vertical_displacement(
     shown = 1e3 * (time - time[0])
     ax.plot(shown, 1e6 * found["zeta_z"], color=COLOURS[0], linewidth=0.8, label="ζ_z of particle Q")
     for sign in (1, -1):
-        ax.plot(shown, sign * 1e6 * found["A_Q"], color=COLOURS[1], linewidth=1.1, label="envelope" if sign > 0 else None)
+        ax.plot(
+            shown, sign * 1e6 * found["A_Q"], color=COLOURS[1], linewidth=1.1, label="envelope" if sign > 0 else None
+        )
     ax.set_xlabel(f"time since the region's start, {REGIONS[region]} (ms)")
     ax.set_ylabel("ζ_z (µm)")
     legend(ax)

@@ -69,7 +69,9 @@ def torque_speed(motor: Motor | None = None, drive: Drive | None = None, *, axes
     machine = load_motor("trum60") if motor is None else motor
     drive = Drive() if drive is None else drive
     (ax,) = panels(axes, height=3.2)
-    limit = float(np.asarray(call("trum_stall_torque", {**machine.symbols(), "F_c": drive.prepressure, "f": 1.0})["torque"]))
+    limit = float(
+        np.asarray(call("trum_stall_torque", {**machine.symbols(), "F_c": drive.prepressure, "f": 1.0})["torque"])
+    )
     load = np.linspace(-0.98, 0.98, 57) * limit
     for reading, colour, line in zip(READINGS, COLOURS, ("-", "--", "-."), strict=False):
         point = evaluate(machine, replace(reading.of(drive), load_torque=load))

@@ -174,9 +174,9 @@ def svg(figure: Figure, salt: str, title: str) -> str:
     element = re.sub(r"<metadata>.*?</metadata>", "", text[text.index("<svg") :], flags=re.S)
     element = re.sub(r' xmlns(:xlink)?="[^"]*"', "", element).replace("xlink:href", "href")
     names = {old: f"{salt}-{old}" for old in re.findall(r'id="([^"]+)"', element)}
+    element = re.sub(r'(id="|="#|url\(#)([^")]+)', lambda found: found[1] + names.get(found[2], found[2]), element)
     element = re.sub(
-        r'(id="|="#|url\(#)([^")]+)', lambda found: found[1] + names.get(found[2], found[2]), element
+        r'width="[^"]+pt" height="[^"]+pt" ', "", re.sub(r"<!--.*?-->\s*", "", element, flags=re.S), count=1
     )
-    element = re.sub(r'width="[^"]+pt" height="[^"]+pt" ', "", re.sub(r"<!--.*?-->\s*", "", element, flags=re.S), count=1)
     label = title.replace("&", "&amp;").replace("<", "&lt;")
     return re.sub(r"<svg([^>]*)>", rf'<svg\1 role="img"><title>{label}</title>', element, count=1).strip()

@@ -156,7 +156,9 @@ def contact_zone(motor: Motor | None = None, drive: Drive | None = None, *, axes
                             shading="nearest", rasterized=True)  # fmt: skip
     upper.get_figure(root=True).colorbar(mesh, ax=upper, label="traction (N/mm)", extend="both")
     for sign in (1, -1):
-        upper.plot(1e3 * time, sign * theta, color=INK, linewidth=0.7, label="edge of the contact" if sign > 0 else None)
+        upper.plot(
+            1e3 * time, sign * theta, color=INK, linewidth=0.7, label="edge of the contact" if sign > 0 else None
+        )
     lower.plot(1e3 * time, theta / np.pi, color=COLOURS[0], linewidth=0.9)
     for ax in (upper, lower):
         for edge in cycle.edges[1:3]:

@@ -168,4 +168,3 @@ def _print_marks(axes: Axes, motor: Motor | None, drive: Drive, variable: Variab
         if entry.output == measure.name and variable in entry.drive and same:
             size = parse_unit(entry.unit).to_si(entry.value) / measure.unit
             axes.plot([entry.drive[variable]], [size], "*", color=INK, markersize=8, label=entry.source)
-

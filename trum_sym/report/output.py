@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import os
 import tempfile
 from pathlib import Path
 
 from trum_sym.errors import ParameterError
+from trum_sym.files import write_bytes
 from trum_sym.ledger import ledger_page
 from trum_sym.motor import Motor
 from trum_sym.report.page import page
@@ -52,26 +52,6 @@ def write_report(motor: Motor, folder: Path, *, progress: bool = False) -> Path:
     """
     check_folder("DIR", folder)
     text = page(motor, progress=progress)
-    _replace(folder / "ledger.html", ledger_page())
-    _replace(folder / "index.html", text)
+    write_bytes("DIR", ledger_page().encode(), folder / "ledger.html")
+    write_bytes("DIR", text.encode(), folder / "index.html")
     return folder / "index.html"
-
-
-def _replace(target: Path, text: str) -> None:
-    """Write beside the file and rename, so that no half-written one is ever seen."""
-    beside = None
-    try:
-        handle, path = tempfile.mkstemp(prefix=f".{target.stem}-", suffix=target.suffix, dir=target.parent)
-        beside = Path(path)
-        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as stream:
-            stream.write(text)
-        mask = os.umask(0)
-        os.umask(mask)
-        beside.chmod(0o666 & ~mask)  # as any other new file; mkstemp's are private
-        beside.replace(target)
-        beside = None
-    except OSError as error:
-        raise ParameterError("DIR", str(target), f"a file that can be written ({error.strerror or error})") from None
-    finally:
-        if beside is not None:
-            beside.unlink(missing_ok=True)

@@ -106,7 +106,9 @@ def _parameters(motor: Motor) -> Table:
     for name, symbol, description, printed, unit in TABLE_1:
         parameter: Parameter = getattr(motor, name)
         ours = float(np.asarray(parameter.value)) / parse_unit(unit).to_si(1.0)
-        rows.append((symbol, description, _text(printed), _unit(unit), _text(ours), _off(ours, printed), _WHY.get(name, "")))
+        rows.append(
+            (symbol, description, _text(printed), _unit(unit), _text(ours), _off(ours, printed), _WHY.get(name, ""))
+        )
     return Table(
         "table-1", "Table 1: parameters", "As printed, and as the motor file has it. The print's second κ, a height-width "
         "ratio, enters no equation; the load torque stands in Table 3.",
