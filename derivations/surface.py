@@ -46,7 +46,7 @@ def vector(phase: str) -> tuple[sp.Expr, sp.Expr]:
 
 @cache
 def point() -> dict[str, sp.Expr]:
-    """Displacements and tangential velocity of the point at x, its vertical envelope, the crest (eqs. 11, 12, 16, 20)."""
+    """Displacements and velocity of the point at x, its vertical envelope, the crest (eqs. 11, 12, 16, 20)."""
     t = sp.Symbol("t", real=True)
     moving = {phase: sp.Function(f"w_{phase}")(t) for phase in PHASES}
     zeta_z = moving["A"] * sp.sin(k_c * x) + moving["B"] * sp.cos(k_c * x)

@@ -69,7 +69,7 @@ def vectors(other, times, region):
     return np.array(found)
 
 
-# --- Figs. 3 and 6 ----------------------------------------------------------------------------------------------
+# --- Figs. 3 and 6 -------------------------------------------------------------------------------------------
 def test_fig_3_is_both_phases_and_they_ring_down_with_the_damping():
     figure = figures.phase_responses()
     other = reference(ts.Drive())
@@ -105,7 +105,7 @@ def test_fig_6_is_a_sine_along_the_wave_of_both_phases_velocities():
         assert height == pytest.approx(np.hypot(w[0], w[1]), rel=1e-9)
 
 
-# --- Figs. 9 to 17 ------------------------------------------------------------------------------------------------
+# --- Figs. 9 to 17 -------------------------------------------------------------------------------------------
 # which quarters of the region's first beat turn clockwise for the most part; with B off it is the end of the fourth
 @pytest.mark.parametrize(
     ("region", "clockwise"),
@@ -171,7 +171,7 @@ def test_figs_11_14_17_q_and_the_crests_velocity_have_one_sign_pattern(region):
     assert tuple(signs[np.flatnonzero(np.diff(signs, prepend=0))]) == SIGNS[region]
 
 
-# --- Figs. 18 and 19 ----------------------------------------------------------------------------------------------
+# --- Figs. 18 and 19 -----------------------------------------------------------------------------------------
 def test_fig_18_is_the_independent_orbit_with_its_mean_and_deviation():
     (axes,) = figures.instantaneous_speed().axes
     orbit = reference(ts.Drive()).orbit()
@@ -203,7 +203,7 @@ def test_fig_19_shades_the_sums_of_eq_43():
     assert Q[:-1:9] == pytest.approx(1e6 * reference(ts.Drive()).p[6] * (w[2] * w[1] - w[3] * w[0]), abs=1e-3)
 
 
-# --- Figs. 7 and 8, the contact zone --------------------------------------------------------------------------------
+# --- Figs. 7 and 8, the contact zone -------------------------------------------------------------------------
 def panel_shares(figure):
     return [float(axes.get_title(loc="left").split("\n")[-1].split(" ")[0]) for axes in figure.axes]
 
@@ -278,7 +278,7 @@ def test_the_contact_zone_carries_the_prepressures_friction_within_its_edges():
     assert np.corrcoef(ours[:-1], net)[0, 1] > 0.998
 
 
-# --- Figs. 20 to 23 and 30 to 32 -------------------------------------------------------------------------------------
+# --- Figs. 20 to 23 and 30 to 32 -----------------------------------------------------------------------------
 @pytest.mark.parametrize("variable", ["frequency_difference", "prepressure"])
 def test_figs_20_22_are_independent_orbits_and_the_swing_dwarfs_the_mean(variable):
     four = figures.cycles(variable=variable).axes
@@ -298,7 +298,7 @@ def test_figs_20_22_are_independent_orbits_and_the_swing_dwarfs_the_mean(variabl
             w = states(other, 1e-3 * time[:-1:7])
             exact = 1e6 * other.p[6] * (w[2] * w[1] - w[3] * w[0])
             assert Q[:-1:7] == pytest.approx(exact, abs=1e-6 * np.abs(Q).max())
-        assert [line.get_label() for line in four[column].lines[:6]][0].split()[0] == f"{values[0]:g}"
+        assert four[column].lines[0].get_label().split()[0] == f"{values[0]:g}"
 
 
 def trend(values):
@@ -388,7 +388,7 @@ def test_fig_32_is_table_5():
     assert np.argmin(by_label(average, READ[0])[1]) == 3  # 2800 Hz, the lowest of the six
 
 
-# --- Figs. 25b to 29 ----------------------------------------------------------------------------------------------------
+# --- Figs. 25b to 29 -----------------------------------------------------------------------------------------
 def test_fig_25b_orders_the_levels_and_the_layer_only_stiffens():
     (axes,) = figures.resonance_levels().axes
     bare = {level: by_label(axes, f"{level}, none")[1] for level in ("quartic", "eq6", "printed", "euler")}
@@ -419,12 +419,12 @@ def timoshenko(motor):
     D = (E_e * A_e * h_e / 2 + E_p * A_p * (h_e + h_p / 2)) / (E_e * A_e + E_p * A_p)
     I_e = b_e * h_e**3 / 12 + A_e * (D - h_e / 2) ** 2
     I_p = b_p * h_p**3 / 12 + A_p * (h_e + h_p / 2 - D) ** 2
-    I, A = I_e + I_p, A_e + A_p
+    inertia_of_area, A = I_e + I_p, A_e + A_p
     rho = (kept * value["beam_density"] * A_e + value["piezo_density"] * A_p) / A
     G = (kept * value["beam_shear_modulus"] * A_e + value["piezo_shear_modulus"] * A_p) / A
     EI, shear, k = E_e * I_e + E_p * I_p, value["shear_correction"] * G * A, 9 / value["radius"]
     stiffness = np.array([[shear * k**2, shear * k], [shear * k, EI * k**2 + shear]])
-    inertia = np.diag([rho * A, rho * I])
+    inertia = np.diag([rho * A, rho * inertia_of_area])
     return np.sqrt(np.linalg.eigvals(np.linalg.solve(inertia, stiffness)).min().real) / (2 * np.pi)
 
 
@@ -478,7 +478,7 @@ def test_fig_29_is_what_an_encoder_reads():
         assert np.std(deviation) == pytest.approx(np.std(expected), rel=0.1)
 
 
-# --- what the paper does not show ---------------------------------------------------------------------------------------
+# --- what the paper does not show ----------------------------------------------------------------------------
 def test_torque_against_speed_falls_and_passes_the_independent_orbits():
     (axes,) = figures.torque_speed().axes
     for label, (start, lead) in zip(READ, (("periodic", 1), ("steady", -1), ("rest", -1)), strict=True):
@@ -536,7 +536,7 @@ def test_the_scatter_states_the_rank_correlation_of_its_own_dots():
     assert abs(ranks[READ[2]]) < 0.5  # from rest it does not
 
 
-# --- all of them ---------------------------------------------------------------------------------------------------------
+# --- all of them ---------------------------------------------------------------------------------------------
 def test_figures_draw_in_axes_that_are_given_and_refuse_another_number():
     from matplotlib.figure import Figure
 

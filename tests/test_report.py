@@ -76,7 +76,7 @@ def test_every_figure_and_table_is_there_with_words_for_who_does_not_see_it(read
     assert set(TABLES) <= set(reader.ids)
 
 
-def test_every_claim_is_shown_with_its_verdict_and_linked_from_what_shows_it(reader, text):
+def test_every_claim_is_shown_with_its_verdict_and_linked_from_what_shows_it(text):
     shown = re.findall(r'<article class="claim" id="(claim-[^"]+)" data-verdict="([^"]+)"', text)
     assert len(shown) >= 25
     assert len({verdict for _, verdict in shown}) == 4
@@ -93,7 +93,7 @@ def test_the_page_is_the_same_in_another_process(folder, tmp_path):
     assert (tmp_path / "index.html").read_bytes() == (folder / "index.html").read_bytes()
 
 
-# --- tables ------------------------------------------------------------------------------------------------------
+# --- tables --------------------------------------------------------------------------------------------------
 def test_tables_hold_what_the_paper_prints_and_what_the_motor_has(trum60):
     one, assumed, two, three, four, five = tables(trum60)
     assert [table.anchor for table in (one, assumed, two, three, four, five)] == TABLES
@@ -131,7 +131,7 @@ def test_table_4_is_evaluate_in_every_reading_and_table_5_the_six_points(trum60)
     assert number(five.rows[9][5]) == pytest.approx(ts.evaluate(trum60, drive).q_average, rel=1e-4)
 
 
-# --- what is refused, and what is left when something fails -----------------------------------------------------------
+# --- what is refused, and what is left when something fails --------------------------------------------------
 def test_a_file_in_place_of_the_folder_is_refused(console_refuses, tmp_path):
     file = tmp_path / "file"
     file.write_text("mine")
@@ -173,7 +173,7 @@ def test_a_page_that_fails_leaves_the_old_one(monkeypatch, tmp_path, trum60):
     assert (tmp_path / "index.html").read_text() == "old"
 
 
-# --- in a browser: run with -m browser --------------------------------------------------------------------------------
+# --- in a browser: run with -m browser -----------------------------------------------------------------------
 @pytest.fixture
 def browser(tmp_path):
     from selenium import webdriver

@@ -76,8 +76,9 @@ def _section_5() -> Iterator[Picture]:
         settings = f"{meaning}, 180 N, 3000 Hz, each cycle begun in steady state."
         yield Picture(
             f"figure-{first}", _MOTION, f"Path of a surface point, {name}",
-            f"In {settings} The four panels are the quarters of the region's first beat, 1/(4 Δf) each; the dot is where "
-            "the quarter begins. Blue turns clockwise (Q > 0), orange counter-clockwise. The point lies at k_c x = π/4.",
+            f"In {settings} The four panels are the quarters of the region's first beat, 1/(4 Δf) each; the dot is "
+            "where the quarter begins. Blue turns clockwise (Q > 0), orange counter-clockwise. The point lies "
+            "at k_c x = π/4.",
             f"Four small plots of the surface point's path in the quarters of a beat while {name}.",
             partial(figures.ellipse, region=region),
         )  # fmt: skip
@@ -117,7 +118,7 @@ PICTURES: tuple[Picture, ...] = (
             "The half zone from the crest to the contact's edge. Line: surface speed; dashed: the rotor's. Blue (+) "
             "drives the rotor, orange (−) brakes it, by the sign of the kernel's traction. Each panel says which share "
             "of Table 3's cycle the rotor's orbit spends in the model; both figures together make 100 %.",
-            f"Eight panels of surface speed against the angle from the crest, with driving and braking zones, rotor {word}.",
+            f"Eight panels of surface speed against the angle from the crest, driving and braking zones, rotor {word}.",
             partial(figures.transfer_models, forward=forward),
         )
         for number, word, forward in ((7, "forward", True), (8, "backward", False))
@@ -132,7 +133,7 @@ PICTURES: tuple[Picture, ...] = (
     ),
     Picture(
         "figure-19", _OUTPUT, "Forward and backward parts of the determinant",
-        "Table 3's drive. The blue and the orange area are the sums of eqs. 43 and 44; dotted lines separate the regions.",
+        "Table 3's drive. Blue and orange areas are the sums of eqs. 43 and 44; dotted lines separate the regions.",
         "Determinant Q over a cycle with its positive parts shaded blue and its negative parts orange.",
         figures.forward_and_backward,
     ),

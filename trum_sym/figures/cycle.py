@@ -98,6 +98,10 @@ class Cycle:
 
         Parameters
         ----------
+        time : float or array, s
+            Since t1, within a cycle.
+        u : float or array, rad
+            Angle.
         speed : float or array, m/s
             Of the rotor's rim.
         """

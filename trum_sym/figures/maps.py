@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from trum_sym.drive import Drive
 from trum_sym.figures.cycle import READINGS
-from trum_sym.figures.style import COLOURS, INK, Panels, legend, panels, styled
-from trum_sym.figures.trends import BOX, measures
+from trum_sym.figures.style import COLOURS, INK, Panels, figure_of, legend, panels, styled
+from trum_sym.figures.trends import BOX, Variable, measures
 from trum_sym.motor import Motor
 from trum_sym.motor_file import load_motor
 from trum_sym.operating_point import evaluate
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 
 __all__ = ["BEYOND", "maps", "prediction", "rank_correlation"]
 
-BEYOND = {"frequency_difference": (500.0, 5000.0), "prepressure": (100.0, 220.0)}
+BEYOND: dict[Variable, tuple[float, float]] = {"frequency_difference": (500.0, 5000.0), "prepressure": (100.0, 220.0)}
 """Around the box: from near resonance to twice its middle, Hz; the range of Table 2, N."""
 
 
@@ -32,7 +33,7 @@ def rank_correlation(first: Array, second: Array) -> float:
 
 
 def _grid(
-    motor: Motor | None, drive: Drive, ranges: dict[str, tuple[float, float]], across: int, up: int
+    motor: Motor | None, drive: Drive, ranges: Mapping[Variable, tuple[float, float]], across: int, up: int
 ) -> tuple[Array, Array, dict[str, Array]]:
     """Frequency differences, prepressures, and the figures on their grid, shape (up, across)."""
     difference = np.linspace(*ranges["frequency_difference"], across)
@@ -50,10 +51,11 @@ def maps(motor: Motor | None = None, drive: Drive | None = None, *, axes: Panels
     motor, drive
         TRUM-60 and the paper's Table 3 if not given, but for the two variables.
     axes : six Axes, optional
+        A new figure's if not given.
     """
     six = panels(axes, 2, 3, 5.0)
     drive = Drive() if drive is None else drive
-    ranges: tuple[dict[str, tuple[float, float]], ...] = ({**BOX}, BEYOND)
+    ranges = (BOX, BEYOND)
     for row, (spans, shape) in enumerate(zip(ranges, ((31, 26), (46, 31)), strict=True)):
         difference, force, found = _grid(motor, drive, spans, *shape)
         speed, volatility = found["mean_speed"], np.log10(found["speed_volatility"])
@@ -64,7 +66,7 @@ def maps(motor: Motor | None = None, drive: Drive | None = None, *, axes: Panels
         )
         for ax, (label, values, colours, limits) in zip(six[3 * row : 3 * row + 3], shown, strict=True):
             mesh = ax.pcolormesh(difference, force, values, cmap=colours, shading="nearest", rasterized=True, **limits)
-            ax.get_figure(root=True).colorbar(mesh, ax=ax, label=label, location="top", shrink=0.95)
+            figure_of(ax).colorbar(mesh, ax=ax, label=label, location="top", shrink=0.95)
             if np.nanmin(speed) < 0 < np.nanmax(speed):
                 ax.contour(difference, force, speed, levels=[0.0], colors="#d55e00", linewidths=1.6)
             ax.grid(visible=False)
@@ -73,10 +75,10 @@ def maps(motor: Motor | None = None, drive: Drive | None = None, *, axes: Panels
                 ax.plot([left, right, right, left, left], [low, low, high, high, low], color="white", linewidth=1.0)
                 ax.set_xlabel("Δf (Hz)")
         six[3 * row].set_ylabel("prepressure F_c (N)")
-    return six[0].get_figure(root=True)
+    return figure_of(six[0])
 
 
-def _span(values: Array) -> dict[str, float]:
+def _span(values: Array) -> dict[str, Any]:
     low, high = np.nanquantile(values, (0.005, 0.995))
     return {"vmin": float(low), "vmax": float(high)}
 
@@ -94,7 +96,7 @@ def prediction(motor: Motor | None = None, drive: Drive | None = None, *, axes: 
     """
     four = panels(axes, 2, 2, 5.2)
     drive = Drive() if drive is None else drive
-    ranges: tuple[dict[str, tuple[float, float]], ...] = ({**BOX}, BEYOND)
+    ranges = (BOX, BEYOND)
     for column, (spans, title) in enumerate(zip(ranges, ("the paper's box", "around it"), strict=True)):
         for reading, colour, mark in zip(READINGS, COLOURS, "osD", strict=False):
             _, _, found = _grid(motor, reading.of(drive), spans, 12, 12)
@@ -103,8 +105,9 @@ def prediction(motor: Motor | None = None, drive: Drive | None = None, *, axes: 
                 (four[2 + column], "q_volatility", "speed_volatility"),
             ):
                 rank = rank_correlation(found[x], found[y])
-                ax.plot(found[x].ravel(), found[y].ravel(), mark, color=colour, markersize=2.2, alpha=0.7,
-                        markeredgewidth=0, label=f"{reading.label}: rank correlation {rank:+.2f}".replace("-", "−"))  # fmt: skip
+                label = f"{reading.label}: rank correlation {rank:+.2f}".replace("-", "−")
+                style: dict[str, Any] = {"markersize": 2.2, "markeredgewidth": 0, "alpha": 0.7}
+                ax.plot(found[x].ravel(), found[y].ravel(), mark, color=colour, label=label, **style)
         four[column].set_title(title, pad=44)
     for ax in four[:2]:
         ax.set_xlabel("Q_aver (1/s)")
@@ -117,4 +120,4 @@ def prediction(motor: Motor | None = None, drive: Drive | None = None, *, axes: 
     four[3].set_xscale("symlog", linthresh=1e3)  # Q_vib has poles where Q_aver is 0
     for ax in four:
         legend(ax, ncols=1, fontsize=7, markerscale=2)
-    return four[0].get_figure(root=True)
+    return figure_of(four[0])

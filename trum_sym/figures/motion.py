@@ -8,7 +8,7 @@ import numpy as np
 
 from trum_sym.drive import Drive
 from trum_sym.figures.cycle import ARCSEC, Cycle, solve
-from trum_sym.figures.style import COLOURS, GRID, INK, Panels, legend, panels, styled
+from trum_sym.figures.style import COLOURS, GRID, INK, Panels, figure_of, legend, panels, styled
 from trum_sym.histories import REGIONS
 from trum_sym.motor import Motor
 from trum_sym.validate import Array
@@ -68,7 +68,7 @@ def phase_responses(motor: Motor | None = None, drive: Drive | None = None, *, a
             ax.plot(1e3 * time, sign * 1e6 * envelope, "--", color=INK, linewidth=0.7, label="envelope")
         ax.set_ylabel(f"w_{phase} (µm)")
     both[1].set_xlabel("time since t₁ (ms)")
-    return both[0].get_figure(root=True)
+    return figure_of(both[0])
 
 
 @styled
@@ -80,6 +80,7 @@ def tangential_velocity(motor: Motor | None = None, drive: Drive | None = None, 
     motor, drive
         TRUM-60 and the paper's Table 3 if not given.
     axes : Axes, optional
+        A new figure's if not given.
     """
     cycle = solve(motor, drive)
     (ax,) = panels(axes)
@@ -95,7 +96,7 @@ def tangential_velocity(motor: Motor | None = None, drive: Drive | None = None, 
     ax.set_xlabel("position x along the circumference (mm)")
     ax.set_ylabel("tangential velocity v_x (m/s)")
     legend(ax)
-    return ax.get_figure(root=True)
+    return figure_of(ax)
 
 
 def _beat(cycle: Cycle, region: int, per_period: int) -> Array:
@@ -117,6 +118,7 @@ def ellipse(motor: Motor | None = None, drive: Drive | None = None, *, region: i
     region : {0, 1, 2}
         A off, B off, both on.
     axes : four Axes, optional
+        A new figure's if not given.
     """
     cycle = solve(motor, SECTION_5[region] if drive is None else drive)
     four = panels(axes, 1, 4, 2.5, sharex=True, sharey=True)
@@ -138,7 +140,7 @@ def ellipse(motor: Motor | None = None, drive: Drive | None = None, *, region: i
     four[0].set_ylabel("ζ_z (µm)")
     reach = 1.06e6 * max(float(np.max(np.abs(point[name]))) for name in ("zeta_x", "zeta_z"))
     four[0].set(xlim=(-reach, reach), ylim=(-reach, reach))
-    figure = four[0].get_figure(root=True)
+    figure = figure_of(four[0])
     handles, labels = four[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=2)
     return figure
@@ -155,7 +157,9 @@ def vertical_displacement(
     motor, drive
         TRUM-60 and the drive of Sect. 5.2 for this region if not given.
     region : {0, 1, 2}
+        A off, B off, both on.
     axes : Axes, optional
+        A new figure's if not given.
     """
     cycle = solve(motor, SECTION_5[region] if drive is None else drive)
     (ax,) = panels(axes, height=2.4)
@@ -171,7 +175,7 @@ def vertical_displacement(
     ax.set_xlabel(f"time since the region's start, {REGIONS[region]} (ms)")
     ax.set_ylabel("ζ_z (µm)")
     legend(ax)
-    return ax.get_figure(root=True)
+    return figure_of(ax)
 
 
 @styled
@@ -185,7 +189,9 @@ def determinant(
     motor, drive
         TRUM-60 and the drive of Sect. 5.2 for this region if not given.
     region : {0, 1, 2}
+        A off, B off, both on.
     axes : two Axes, optional
+        A new figure's if not given.
     """
     cycle = solve(motor, SECTION_5[region] if drive is None else drive)
     upper, lower = panels(axes, 2, 1, 3.2, sharex=True)
@@ -202,7 +208,7 @@ def determinant(
     upper.set_ylabel("Q (mm²/s)")
     lower.set_ylabel("v_xmax (m/s)")
     lower.set_xlabel(f"time since the region's start, {REGIONS[region]} (ms)")
-    return upper.get_figure(root=True)
+    return figure_of(upper)
 
 
 def _signed(axes: Axes, time: Array, values: Array) -> None:
@@ -224,6 +230,7 @@ def instantaneous_speed(motor: Motor | None = None, drive: Drive | None = None, 
     motor, drive
         TRUM-60 and the paper's Table 3 if not given.
     axes : Axes, optional
+        A new figure's if not given.
     """
     cycle = solve(motor, drive)
     (ax,) = panels(axes)
@@ -238,7 +245,7 @@ def instantaneous_speed(motor: Motor | None = None, drive: Drive | None = None, 
     ax.set_xlabel("time since t₁ (ms)")
     ax.set_ylabel("rotor speed (10⁶ arcsec/s)")
     legend(ax)
-    return ax.get_figure(root=True)
+    return figure_of(ax)
 
 
 @styled
@@ -250,6 +257,7 @@ def forward_and_backward(motor: Motor | None = None, drive: Drive | None = None,
     motor, drive
         TRUM-60 and the paper's Table 3 if not given.
     axes : Axes, optional
+        A new figure's if not given.
     """
     cycle = solve(motor, drive)
     (ax,) = panels(axes)
@@ -260,7 +268,7 @@ def forward_and_backward(motor: Motor | None = None, drive: Drive | None = None,
     _signed(ax, 1e3 * time, values)
     ax.set_xlabel("time since t₁ (ms)")
     ax.set_ylabel("Q (mm²/s)")
-    return ax.get_figure(root=True)
+    return figure_of(ax)
 
 
 def _shade_edges(axes: Axes, cycle: Cycle) -> None:

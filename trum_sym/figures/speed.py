@@ -9,7 +9,7 @@ import numpy as np
 
 from trum_sym.drive import Drive
 from trum_sym.figures.cycle import ARCSEC, READINGS, solve
-from trum_sym.figures.style import COLOURS, INK, Panels, legend, panels, styled
+from trum_sym.figures.style import COLOURS, INK, Panels, figure_of, legend, panels, styled
 from trum_sym.figures.trends import ENCODER
 from trum_sym.kernels import call
 from trum_sym.motor import Motor
@@ -44,7 +44,7 @@ def measured_speed(motor: Motor | None = None, drive: Drive | None = None, *, ax
         cycle = solve(motor, reading.of(drive))
         distance = history(cycle.case.arguments, cycle.orbit.raw, 64 * int(np.asarray(drive.periods)))["distance"]
         lap = float(cycle.edges[-1])
-        starts = np.arange(_COUNT) * (ENCODER / lap) % 1.0
+        starts = np.asarray(np.arange(_COUNT) * (ENCODER / lap) % 1.0, np.float64)
         speed = encoder_readings(distance, lap, ENCODER, starts) / np.asarray(cycle.case.symbols["r_c"])
         mean = float(cycle.orbit.mean_speed)
         time = 1e3 * ENCODER * np.arange(_COUNT)
@@ -53,7 +53,7 @@ def measured_speed(motor: Motor | None = None, drive: Drive | None = None, *, ax
         ax.set_title(f"{reading.label}\nmean {mean / (1e6 * ARCSEC):.4g}·10⁶ arcsec/s".replace("-", "−"))
         ax.set_xlabel("time (ms)")
     three[0].set_ylabel("reading less mean (% of the mean)")
-    return three[0].get_figure(root=True)
+    return figure_of(three[0])
 
 
 @styled
@@ -65,6 +65,7 @@ def torque_speed(motor: Motor | None = None, drive: Drive | None = None, *, axes
     motor, drive
         TRUM-60 and the paper's Table 3 if not given, but for the load.
     axes : Axes, optional
+        A new figure's if not given.
     """
     machine = load_motor("trum60") if motor is None else motor
     drive = Drive() if drive is None else drive
@@ -82,4 +83,4 @@ def torque_speed(motor: Motor | None = None, drive: Drive | None = None, *, axes
     ax.set_xlabel("load torque (N m); dots: mean torque on the rotor held still")
     ax.set_ylabel("v_s (10⁶ arcsec/s)")
     legend(ax)
-    return ax.get_figure(root=True)
+    return figure_of(ax)

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["COLOURS", "GRID", "INK", "Panels", "blank", "legend", "panels", "save", "styled", "svg"]
+__all__ = ["COLOURS", "GRID", "INK", "Panels", "blank", "figure_of", "legend", "panels", "save", "styled", "svg"]
 
 Panels: TypeAlias = "Axes | Sequence[Axes] | None"
 P = ParamSpec("P")
@@ -93,6 +93,7 @@ def blank(rows: int = 1, columns: int = 1, height: float = 2.8, **options: Any) 
     Parameters
     ----------
     rows, columns : int
+        Of the panels.
     height : float, inch
         The figure is 7.2 inches wide.
     options
@@ -109,6 +110,8 @@ def panels(axes: Panels, rows: int = 1, columns: int = 1, height: float = 2.8, *
     ----------
     axes : Axes, sequence of Axes or None
         As many as the figure has panels.
+    rows, columns : int
+        Of the panels.
     height : float, inch
         Of a new figure, which is 7.2 inches wide.
     options
@@ -130,6 +133,14 @@ def panels(axes: Panels, rows: int = 1, columns: int = 1, height: float = 2.8, *
     return list(np.ravel(figure.subplots(rows, columns, squeeze=False, **options)))
 
 
+def figure_of(axes: Axes) -> Figure:
+    """The whole figure that axes belong to."""
+    figure = axes.get_figure(root=True)
+    if figure is None:
+        raise ParameterError("axes", "axes that were removed from their figure", "axes of a figure")
+    return figure
+
+
 def legend(axes: Axes, **options: Any) -> None:  # noqa: ANN401
     """A legend above the axes, where it covers no data."""
     count = len(axes.get_legend_handles_labels()[1])
@@ -143,6 +154,7 @@ def save(figure: Figure, target: Path) -> None:
     Parameters
     ----------
     figure : Figure
+        Any.
     target : Path
         Its stem starts the ids inside.
     """
@@ -158,6 +170,7 @@ def svg(figure: Figure, salt: str, title: str) -> str:
     Parameters
     ----------
     figure : Figure
+        Any.
     salt : str
         Starts every id, so that pictures on one page do not share them.
     title : str

@@ -10,7 +10,7 @@ import numpy as np
 
 from trum_sym.drive import Drive
 from trum_sym.figures.cycle import Cycle, solve
-from trum_sym.figures.style import COLOURS, INK, Panels, panels, styled
+from trum_sym.figures.style import COLOURS, INK, Panels, figure_of, panels, styled
 from trum_sym.kernels import call
 from trum_sym.motor import Motor
 from trum_sym.validate import Array, ArrayLike
@@ -106,7 +106,9 @@ def transfer_models(
     motor, drive
         Of the shares; TRUM-60 and the paper's Table 3 if not given.
     forward : bool
+        Which of the two figures.
     axes : eight Axes, optional
+        A new figure's if not given.
     """
     eight = panels(axes, 2, 4, 3.9, sharey=True)
     shares = time_shares(solve(motor, drive))
@@ -130,7 +132,7 @@ def transfer_models(
         ax.set_xlabel("angle from crest u (rad)")
     for ax in eight[::4]:
         ax.set_ylabel("speed over R_v (1)")
-    return eight[0].get_figure(root=True)
+    return figure_of(eight[0])
 
 
 @styled
@@ -142,6 +144,7 @@ def contact_zone(motor: Motor | None = None, drive: Drive | None = None, *, axes
     motor, drive
         TRUM-60 and the paper's Table 3 if not given.
     axes : two Axes, optional
+        A new figure's if not given.
     """
     cycle = solve(motor, drive)
     upper, lower = panels(axes, 2, 1, 4.0, sharex=True, height_ratios=(3, 1))
@@ -154,7 +157,7 @@ def contact_zone(motor: Motor | None = None, drive: Drive | None = None, *, axes
     limit = float(np.quantile(abs(traction[traction != 0]), 0.98))
     mesh = upper.pcolormesh(1e3 * time, u, 1e-3 * traction, cmap="RdBu", vmin=-1e-3 * limit, vmax=1e-3 * limit,
                             shading="nearest", rasterized=True)  # fmt: skip
-    upper.get_figure(root=True).colorbar(mesh, ax=upper, label="traction (N/mm)", extend="both")
+    figure_of(upper).colorbar(mesh, ax=upper, label="traction (N/mm)", extend="both")
     for sign in (1, -1):
         upper.plot(
             1e3 * time, sign * theta, color=INK, linewidth=0.7, label="edge of the contact" if sign > 0 else None
@@ -168,4 +171,4 @@ def contact_zone(motor: Motor | None = None, drive: Drive | None = None, *, axes
     lower.set_ylabel("ϑ/π (1)")
     lower.set_ylim(0, 1.02)
     lower.set_xlabel("time since t₁ (ms)")
-    return upper.get_figure(root=True)
+    return figure_of(upper)

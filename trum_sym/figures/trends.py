@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
 from trum_sym.drive import Drive
 from trum_sym.figures.cycle import ARCSEC, READINGS, solve
-from trum_sym.figures.style import COLOURS, INK, Panels, legend, panels, styled
+from trum_sym.figures.style import COLOURS, INK, Panels, figure_of, panels, styled
 from trum_sym.motor import Motor
 from trum_sym.motor_file import load_motor
 from trum_sym.operating_point import OperatingPoint, evaluate
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["BOX", "ENCODER", "MEASURES", "TABLE_5", "cycles", "measures", "multivariable", "trends"]
+__all__ = ["BOX", "ENCODER", "MEASURES", "TABLE_5", "Variable", "cycles", "measures", "multivariable", "trends"]
 
 Variable = Literal["frequency_difference", "prepressure"]
 BOX: dict[Variable, tuple[float, float]] = {"frequency_difference": (2800.0, 3300.0), "prepressure": (160.0, 210.0)}
@@ -69,16 +69,17 @@ def cycles(
     variable : {"frequency_difference", "prepressure"}
         What the six values are of, across Sect. 6.2's range.
     axes : four Axes, optional
+        A new figure's if not given.
     """
     four = panels(axes, 2, 2, 4.6, sharex=True, sharey="row")
     drive = Drive() if drive is None else drive
     readings = (READINGS[0], READINGS[-1])
     for column, reading in enumerate(readings):
         for value, colour in zip(np.linspace(*BOX[variable], 6), COLOURS, strict=True):
-            cycle = solve(motor, replace(reading.of(drive), **{variable: float(value)}), tolerance=1e-3)
+            cycle = solve(motor, _at(reading.of(drive), variable, float(value)), tolerance=1e-3)
             time, speed, _ = cycle.rotor(320)
             unit = "Hz" if variable == "frequency_difference" else "N"
-            style = {"color": colour, "linewidth": 0.9, "label": f"{value:g} {unit}"}
+            style: dict[str, Any] = {"color": colour, "linewidth": 0.9, "label": f"{value:g} {unit}"}
             four[column].plot(1e3 * time, speed / (1e6 * ARCSEC), **style)
             turning = cycle.phases(np.minimum(time, np.nextafter(time[-1], 0)))["Q"]
             four[2 + column].plot(1e3 * time, 1e6 * np.asarray(turning), **style)
@@ -88,7 +89,7 @@ def cycles(
         ax.axhline(0, color=INK, linewidth=0.5)
     four[0].set_ylabel("rotor speed (10⁶ arcsec/s)")
     four[2].set_ylabel("Q (mm²/s)")
-    figure = four[0].get_figure(root=True)
+    figure = figure_of(four[0])
     handles, labels = four[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=6)
     return figure
@@ -114,12 +115,12 @@ def trends(
     """
     values = np.linspace(*BOX[variable], 26)
     drive = Drive() if drive is None else drive
-    four = _measured(motor, replace(drive, **{variable: values}), values, sampling_period, axes)
+    four = _measured(motor, _at(drive, variable, values), values, sampling_period, axes)
     for ax, measure in zip(four, MEASURES, strict=True):
         _print_marks(ax, motor, drive, variable, measure)
     for ax in four[2:]:
         ax.set_xlabel(_LABELS[variable])
-    return four[0].get_figure(root=True)
+    return figure_of(four[0])
 
 
 @styled
@@ -131,30 +132,46 @@ def multivariable(motor: Motor | None = None, drive: Drive | None = None, *, axe
     motor, drive
         TRUM-60 and the paper's Table 3 if not given, but for the two variables.
     axes : four Axes, optional
+        A new figure's if not given.
     """
-    drive = replace(Drive() if drive is None else drive, **TABLE_5)
-    number = np.arange(1, 7)
+    drive = replace(
+        Drive() if drive is None else drive,
+        prepressure=TABLE_5["prepressure"],
+        frequency_difference=TABLE_5["frequency_difference"],
+    )
+    number = np.arange(1.0, 7.0)
     four = _measured(motor, drive, number, ENCODER, axes, marker="o", linewidth=0.7, markersize=4)
     for ax in four[2:]:
         ax.set_xlabel("number of the experiment (Table 5)")
         ax.set_xticks(number)
-    return four[0].get_figure(root=True)
+    return figure_of(four[0])
+
+
+def _at(drive: Drive, variable: Variable, values: ArrayLike) -> Drive:
+    if variable == "prepressure":
+        return replace(drive, prepressure=values)
+    return replace(drive, frequency_difference=values)
 
 
 def _measured(
-    motor: Motor | None, drive: Drive, x: ArrayLike, sampling_period: float | None, axes: Panels, **style: object
+    motor: Motor | None,
+    drive: Drive,
+    x: ArrayLike,
+    sampling_period: float | None,
+    axes: Panels,
+    **style: Any,  # noqa: ANN401
 ) -> list[Axes]:
     four = panels(axes, 2, 2, 4.4, sharex=True)
     machine = load_motor("trum60") if motor is None else motor
     for reading, colour, line in zip(READINGS, COLOURS, ("-", "--", "-."), strict=False):
         found = measures(evaluate(machine, reading.of(drive), sampling_period=sampling_period))
         for ax, measure in zip(four, MEASURES, strict=True):
-            ax.plot(x, found[measure.name], line, color=colour, label=reading.label, **style)  # type: ignore[arg-type]
+            ax.plot(x, found[measure.name], line, color=colour, label=reading.label, **style)
     for ax, measure in zip(four, MEASURES, strict=True):
         ax.set_ylabel(measure.label)
         if measure.logarithmic:
             ax.set_yscale("log")
-    figure = four[0].get_figure(root=True)
+    figure = figure_of(four[0])
     handles, labels = four[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper left", ncols=3)
     return four

@@ -9,7 +9,7 @@ import numpy as np
 
 from trum_sym.drive import Drive
 from trum_sym.figures.cycle import Cycle, solve
-from trum_sym.figures.style import COLOURS, INK, Panels, legend, panels, styled
+from trum_sym.figures.style import COLOURS, INK, Panels, figure_of, legend, panels, styled
 from trum_sym.motor import Motor
 from trum_sym.motor_file import load_motor
 from trum_sym.stator import FOUNDATIONS, RESONANCES, Levels, solve_stator
@@ -34,6 +34,7 @@ def resonance_levels(motor: Motor | None = None, *, axes: Panels = None) -> Figu
     motor
         TRUM-60 if not given.
     axes : Axes, optional
+        A new figure's if not given.
     """
     machine = load_motor("trum60") if motor is None else motor
     (ax,) = panels(axes, height=3.6)
@@ -51,7 +52,7 @@ def resonance_levels(motor: Motor | None = None, *, axes: Panels = None) -> Figu
     ax.set_xlabel("prepressure F_c (N)")
     ax.set_ylabel("resonance f_n (kHz)")
     legend(ax, loc="upper left", bbox_to_anchor=(1.0, 1.0), ncols=1, fontsize=7)
-    return ax.get_figure(root=True)
+    return figure_of(ax)
 
 
 def _switched_off(motor: Motor | None) -> Cycle:
@@ -81,6 +82,7 @@ def power_off(motor: Motor | None = None, *, axes: Panels = None) -> Figure:
     motor
         TRUM-60 if not given; its resonance is replaced by the measured one.
     axes : Axes, optional
+        A new figure's if not given.
     """
     cycle = _switched_off(motor)
     (ax,) = panels(axes, height=2.5)
@@ -93,7 +95,7 @@ def power_off(motor: Motor | None = None, *, axes: Panels = None) -> Figure:
     ax.set_xlabel("time since t_off (ms)")
     ax.set_ylabel("over its amplitude (1)")
     legend(ax)
-    return ax.get_figure(root=True)
+    return figure_of(ax)
 
 
 @styled
@@ -107,6 +109,7 @@ def beat(motor: Motor | None = None, *, axes: Panels = None) -> Figure:
     motor
         TRUM-60 if not given; its resonance is replaced by the measured one.
     axes : Axes, optional
+        A new figure's if not given.
     """
     cycle = _switched_off(motor)
     (ax,) = panels(axes, height=2.5)
@@ -122,4 +125,4 @@ def beat(motor: Motor | None = None, *, axes: Panels = None) -> Figure:
     ax.set_xlabel("time since t_off (ms); bands last 1/(f_q − f_n) = " + f"{period:.3f} ms")
     ax.set_ylabel("over its amplitude (1)")
     legend(ax)
-    return ax.get_figure(root=True)
+    return figure_of(ax)

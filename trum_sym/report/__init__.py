@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from trum_sym.report.page import page
 from trum_sym.report.output import check_folder, write_report
+from trum_sym.report.page import page
 
 __all__ = ["check_folder", "page", "write_report"]

@@ -38,6 +38,7 @@ def write_report(motor: Motor, folder: Path, *, progress: bool = False) -> Path:
     Parameters
     ----------
     motor : Motor
+        Whose figures and tables.
     folder : Path
         Made if it is not there.
     progress : bool

@@ -84,8 +84,8 @@ def _facts(motor: Motor, records: list[Record], judged: Judged | None) -> list[d
             "link": "#claims", "label": "The claims",
         }, {
             "value": f"{judged.distance:.2f} %",
-            "text": f"is how near the best reading of what the paper leaves open comes to both determinants of Table 4: "
-            f"{judged.best}.", "link": "#readings", "label": "All readings",
+            "text": "is how near the best reading of what the paper leaves open comes to both determinants of "
+            f"Table 4: {judged.best}.", "link": "#readings", "label": "All readings",
         }]  # fmt: skip
     facts.append({
         "value": f"{1e-3 * found:.2f} kHz",

@@ -110,8 +110,8 @@ def _parameters(motor: Motor) -> Table:
             (symbol, description, _text(printed), _unit(unit), _text(ours), _off(ours, printed), _WHY.get(name, ""))
         )
     return Table(
-        "table-1", "Table 1: parameters", "As printed, and as the motor file has it. The print's second κ, a height-width "
-        "ratio, enters no equation; the load torque stands in Table 3.",
+        "table-1", "Table 1: parameters", "As printed, and as the motor file has it. The print's second κ, a "
+        "height-width ratio, enters no equation; the load torque stands in Table 3.",
         ("symbol", "description in the paper", "printed", "unit", "used", "difference", "why"), tuple(rows), (2, 4, 5),
     )  # fmt: skip
 
@@ -171,8 +171,8 @@ def _results(motor: Motor) -> Table:
     printed = ("printed", *(_text(value) for value in TABLE_4.values()))
     return Table(
         "table-4", "Table 4: results at Table 3's drive", "In every reading that the paper leaves open. Speeds as an "
-        "encoder of 2 ms reads them (Sect. 8); range is highest less lowest reading; in brackets the difference from the "
-        "print. Nothing is tuned: with the assumed values no reading creeps at 633 arcsec/s.",
+        "encoder of 2 ms reads them (Sect. 8); range is highest less lowest reading; in brackets the difference from "
+        "the print. Nothing is tuned: with the assumed values no reading creeps at 633 arcsec/s.",
         ("start, phase lead", "v_s (arcsec/s)", "range (arcsec/s)", "σ_s (%)", "Q_aver (1/s)", "Q_vib (1/s)"),
         (printed, *rows), (1, 2, 3, 4, 5),
     )  # fmt: skip
@@ -188,7 +188,7 @@ def _range(motor: Motor, drive: Drive) -> float:
 
 
 def _experiments(motor: Motor) -> Table:
-    drive = replace(Drive(), **TABLE_5)
+    drive = replace(Drive(), prepressure=TABLE_5["prepressure"], frequency_difference=TABLE_5["frequency_difference"])
     rows = []
     for reading in (READINGS[0], READINGS[-1]):
         point = evaluate(motor, reading.of(drive), sampling_period=ENCODER)
@@ -202,8 +202,8 @@ def _experiments(motor: Motor) -> Table:
             cells = (_text(float(figure[i]), 5) for figure in figures)
             rows.append((str(i + 1), reading.label, f"{force:g}", f"{difference:g}", *cells))
     return Table(
-        "table-5", "Table 5: both variables at once", "Settings as printed (Δω there in rad/s, of the size of Hz) and the "
-        "model's figures; the paper's own are only drawn, in its Figure 32.",
+        "table-5", "Table 5: both variables at once", "Settings as printed (Δω there in rad/s, of the size of Hz) and "
+        "the model's figures; the paper's own are only drawn, in its Figure 32.",
         ("no.", "start, phase lead", "F_c (N)", "Δf (Hz)", "v_s (arcsec/s)", "Q_aver (1/s)", "σ_s (%)", "Q_vib (1/s)"),
         tuple(rows), (2, 3, 4, 5, 6, 7),
     )  # fmt: skip
