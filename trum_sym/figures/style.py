@@ -186,6 +186,7 @@ def svg(figure: Figure, salt: str, title: str) -> str:
     text = buffer.getvalue()
     element = re.sub(r"<metadata>.*?</metadata>", "", text[text.index("<svg") :], flags=re.S)
     element = re.sub(r' xmlns(:xlink)?="[^"]*"', "", element).replace("xlink:href", "href")
+    element = re.sub(r' id="image\w+"', "", element)  # equal images would share it, and nothing refers to it
     names = {old: f"{salt}-{old}" for old in re.findall(r'id="([^"]+)"', element)}
     element = re.sub(r'(id="|="#|url\(#)([^")]+)', lambda found: found[1] + names.get(found[2], found[2]), element)
     element = re.sub(
