@@ -117,7 +117,8 @@ def prediction(motor: Motor | None = None, drive: Drive | None = None, *, axes: 
         ax.set_xlabel("Q_vib (1/s)")
         ax.set_ylabel("σ_s (%)")
         ax.set_yscale("log")
-    four[3].set_xscale("symlog", linthresh=1e3)  # Q_vib has poles where Q_aver is 0
+    four[3].set_xscale("symlog", linthresh=3e3, linscale=0.5)  # Q_vib has poles where Q_aver is 0
+    four[3].set_xticks([-1e5, -1e4, 0.0, 1e4, 1e5])
     for ax in four:
         legend(ax, ncols=1, fontsize=7, markerscale=2)
     return figure_of(four[0])

@@ -49,6 +49,7 @@ class TransferModel:
 
 MODELS = tuple(TransferModel(*of) for of in product((True, False), (1, -1), (1, -1), (False, True)))
 _THETAS, _STEPS = (0.8, 1.4, 2.2), 48
+_ON_MAP = "#000000"  # on a map that stays light where the page turns dark
 
 
 def _surface(u: ArrayLike, phi: ArrayLike, v: ArrayLike, theta: ArrayLike = 1.0) -> dict[str, Array]:
@@ -159,13 +160,12 @@ def contact_zone(motor: Motor | None = None, drive: Drive | None = None, *, axes
                             shading="nearest", rasterized=True)  # fmt: skip
     figure_of(upper).colorbar(mesh, ax=upper, label="traction (N/mm)", extend="both")
     for sign in (1, -1):
-        upper.plot(
-            1e3 * time, sign * theta, color=INK, linewidth=0.7, label="edge of the contact" if sign > 0 else None
-        )
+        label = "edge of the contact" if sign > 0 else None
+        upper.plot(1e3 * time, sign * theta, color=_ON_MAP, linewidth=0.7, label=label)
     lower.plot(1e3 * time, theta / np.pi, color=COLOURS[0], linewidth=0.9)
-    for ax in (upper, lower):
+    for ax, colour in ((upper, _ON_MAP), (lower, INK)):
         for edge in cycle.edges[1:3]:
-            ax.axvline(1e3 * edge, color=INK, linewidth=0.6, linestyle=":")
+            ax.axvline(1e3 * edge, color=colour, linewidth=0.6, linestyle=":")
     upper.grid(visible=False)
     upper.set_ylabel("angle from the crest u (rad)")
     lower.set_ylabel("ϑ/π (1)")
