@@ -146,11 +146,10 @@ def as_table(optimum: Optimum, title: str) -> str:
     evidence = optimum.evidence
     grid = " x ".join(map(str, evidence.map_shape))
     notes = [
-        f"map of {grid} places: {evidence.basins} basins that meet the constraints, {evidence.starts} starts of IPOPT",
+        f"map of {grid} places; basins meeting the constraints: {evidence.basins}, starts of IPOPT: {evidence.starts}",
         f"distinct local optima: {', '.join(f'{value:.6g}' for value in evidence.optima) or 'none'}",
     ]
     if evidence.pulses > 1:
         notes.append(f"pulse counts: {evidence.pulses} pairs, {evidence.pruned} ruled out by a coarse map")
-    notes.append(f"{optimum.evaluations} orbits computed")
     table = tabulate(rows, disable_numparse=True, colalign=("left", "right", "left"), tablefmt="plain")
     return "\n".join([heading, "", table, "", *notes])
