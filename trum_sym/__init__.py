@@ -21,9 +21,12 @@ if TYPE_CHECKING:
     from trum_sym.motor_file import load_motor
     from trum_sym.operating_point import OperatingPoint, evaluate
     from trum_sym.slopes import sensitivities
+    from trum_sym.uncertainty.distributions import Distribution
+    from trum_sym.uncertainty.study import tolerance
 
 __all__ = [
     "ConvergenceError",
+    "Distribution",
     "Drive",
     "MissingExtraError",
     "Motor",
@@ -35,10 +38,12 @@ __all__ = [
     "load_motor",
     "sensitivities",
     "simulate",
+    "tolerance",
 ]
 
 _HOME = {
     "ConvergenceError": "errors",
+    "Distribution": "uncertainty.distributions",
     "Drive": "drive",
     "MissingExtraError": "errors",
     "Motor": "motor",
@@ -50,6 +55,7 @@ _HOME = {
     "load_motor": "motor_file",
     "sensitivities": "slopes",
     "simulate": "histories",
+    "tolerance": "uncertainty.study",
 }
 
 

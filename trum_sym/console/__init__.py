@@ -7,6 +7,7 @@ import click
 from trum_sym.console.equations import equations
 from trum_sym.console.evaluate import evaluate
 from trum_sym.console.simulate import simulate
+from trum_sym.console.tolerance import tolerance
 
 __all__ = ["main"]
 
@@ -20,7 +21,7 @@ def _cli() -> None:
     """
 
 
-for _command in (evaluate, simulate, equations):
+for _command in (evaluate, simulate, tolerance, equations):
     _cli.add_command(_command)
 
 
