@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from trum_sym.motor import Motor, Parameter
     from trum_sym.motor_file import load_motor
     from trum_sym.operating_point import OperatingPoint, evaluate
+    from trum_sym.optimiser.result import Optimum
+    from trum_sym.optimiser.search import optimize
     from trum_sym.slopes import sensitivities
     from trum_sym.uncertainty.distributions import Distribution
     from trum_sym.uncertainty.study import tolerance
@@ -31,11 +33,13 @@ __all__ = [
     "MissingExtraError",
     "Motor",
     "OperatingPoint",
+    "Optimum",
     "Parameter",
     "ParameterError",
     "ValidityWarning",
     "evaluate",
     "load_motor",
+    "optimize",
     "sensitivities",
     "simulate",
     "tolerance",
@@ -48,11 +52,13 @@ _HOME = {
     "MissingExtraError": "errors",
     "Motor": "motor",
     "OperatingPoint": "operating_point",
+    "Optimum": "optimiser.result",
     "Parameter": "motor",
     "ParameterError": "errors",
     "ValidityWarning": "errors",
     "evaluate": "operating_point",
     "load_motor": "motor_file",
+    "optimize": "optimiser.search",
     "sensitivities": "slopes",
     "simulate": "histories",
     "tolerance": "uncertainty.study",

@@ -14,7 +14,7 @@ from trum_sym.errors import MissingExtraError, ParameterError
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["check_packages", "check_target", "replaced", "write"]
+__all__ = ["check_packages", "check_target", "replaced", "write", "write_bytes"]
 
 _SUFFIXES = (".nc", ".csv")
 
@@ -105,3 +105,15 @@ def write(name: str, dataset: xr.Dataset, target: Path) -> None:
             }
             table = dataset.to_dataframe().reset_index().rename(columns=units)
             table.to_csv(beside, index=False, float_format="%.17g")
+
+
+def write_bytes(name: str, content: bytes, target: Path) -> None:
+    """Write what is there already in the same way: beside the file, then rename.
+
+    Raises
+    ------
+    ParameterError
+        If the file cannot be written.
+    """
+    with replaced(name, target) as beside:
+        beside.write_bytes(content)
