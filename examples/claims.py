@@ -10,6 +10,7 @@ from __future__ import annotations
 import textwrap
 from collections import Counter
 
+import numpy as np
 from tabulate import tabulate
 
 import trum_sym as ts
@@ -59,6 +60,17 @@ def summary(found: Readings, judged: list[Claim]) -> str:
     return "\n".join([*lines, "", tabulate(table, headers, floatfmt=("", "", "", "", "+.2f", "+.2f", ".3g", ".3g"))])
 
 
+def phases(motor: ts.Motor) -> str:
+    """What the determinants of Table 3 span over all switching phases, lead -1; half a turn changes nothing."""
+    lines = ["over all switching phases, not only the two that the text writes down, phase lead -1, default level:"]
+    for start in ("periodic", "steady", "rest"):
+        drive = ts.Drive(start=start, phase_lead=-1, switching_phase=np.arange(36) * np.pi / 36)
+        point = ts.evaluate(motor, drive)
+        spans = [f"{np.min(q):.0f} to {np.max(q):.0f}" for q in (point.q_average, point.q_volatility)]
+        lines.append(f"    {start}: Q_aver {spans[0]}, Q_vib {spans[1]} 1/s")
+    return "\n".join(lines)
+
+
 def listed(judged: list[Claim]) -> str:
     """Every claim: place, verdict, quotation, what was computed, where it holds."""
     counts = Counter(claim.verdict for claim in judged)
@@ -71,16 +83,16 @@ def listed(judged: list[Claim]) -> str:
     return "\n".join(lines)
 
 
-def text(found: Readings, judged: list[Claim]) -> str:
-    """Both."""
-    return f"{summary(found, judged)}\n\n{listed(judged)}"
+def text(motor: ts.Motor, found: Readings, judged: list[Claim]) -> str:
+    """All of it."""
+    return f"{summary(found, judged)}\n\n{phases(motor)}\n\n{listed(judged)}"
 
 
 def main() -> None:
-    """Print them."""
+    """Print it."""
     motor = ts.load_motor("trum60")
     found = readings(motor)
-    print(text(found, claims(motor, found)))
+    print(text(motor, found, claims(motor, found)))
 
 
 if __name__ == "__main__":

@@ -344,13 +344,13 @@ def split(text):
     return re.sub(r"\s+", " ", re.sub(pattern, "#", text)).strip(), [float(n) for n in re.findall(pattern, text)]
 
 
-def test_the_docs_show_what_the_example_prints(found, judgements):
+def test_the_docs_show_what_the_example_prints(trum60, found, judgements):
     spec = importlib.util.spec_from_file_location("claims_example", ROOT / "examples" / "claims.py")
     example = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(example)
     text = (ROOT / "docs" / "claims.md").read_text("utf-8")
     shown = re.search(r"<!-- examples/claims.py -->\n```\n(.*?)```", text, re.DOTALL)[1]
-    words, numbers = split(example.text(found, list(judgements.values())))
+    words, numbers = split(example.text(trum60, found, list(judgements.values())))
     shown_words, shown_numbers = split(shown)
     assert words == shown_words
     assert numbers == pytest.approx(shown_numbers, rel=0.01, abs=0.011)  # another CPU rounds otherwise
