@@ -101,6 +101,7 @@ def test_tables_hold_what_the_paper_prints_and_what_the_motor_has(trum60):
     assert rows["R"][2:6] == ("60", "mm", "30", "−50.00 %")
     assert rows["E_m"][2:6] == ("5", "GPa", "5", "=")
     assert all(row[6] for row in one.rows if row[5] != "=")  # every difference has its reason
+    assert {row[0] for row in one.rows if row[5] != "="} == {"R", "U_s"}  # a diameter, a peak-to-peak voltage
     assert len(one.rows) == len(TABLE_1) == 25
     assert {row[0] for row in assumed.rows} == {"b_p", "d_31", "s_11E", "μ", "r_c", "r_t"}
     for force, _, ours, _ in two.rows:
