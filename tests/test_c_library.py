@@ -111,7 +111,7 @@ def test_table_3_has_the_keys_of_the_console_and_its_figures(example, capsys):
 @pytest.mark.parametrize("arguments", DRIVES)
 def test_every_figure_is_that_of_the_package(example, arguments):
     arguments = arguments.split()
-    ours, theirs = figures(example, "tolerance=1e-6", *arguments), python(arguments, 1e-6)
+    ours, theirs = figures(example, "tolerance=1e-9", *arguments), python(arguments, 1e-9)
     assert list(ours) == list(theirs)
     largest = max(abs(theirs[name] or 0.0) for name in SPEEDS)
     for name, value in theirs.items():
