@@ -15,12 +15,13 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from trum_sym.drive import Drive
-    from trum_sym.errors import ConvergenceError, MissingExtraError, ParameterError, ValidityWarning
+    from trum_sym.errors import ConvergenceError, MissingExtraError, ParameterError, UnfinishedError, ValidityWarning
     from trum_sym.histories import simulate
     from trum_sym.motor import Motor, Parameter
     from trum_sym.motor_file import load_motor
     from trum_sym.operating_point import OperatingPoint, evaluate
     from trum_sym.slopes import sensitivities
+    from trum_sym.sweeps.run import sweep
 
 __all__ = [
     "ConvergenceError",
@@ -30,11 +31,13 @@ __all__ = [
     "OperatingPoint",
     "Parameter",
     "ParameterError",
+    "UnfinishedError",
     "ValidityWarning",
     "evaluate",
     "load_motor",
     "sensitivities",
     "simulate",
+    "sweep",
 ]
 
 _HOME = {
@@ -45,11 +48,13 @@ _HOME = {
     "OperatingPoint": "operating_point",
     "Parameter": "motor",
     "ParameterError": "errors",
+    "UnfinishedError": "errors",
     "ValidityWarning": "errors",
     "evaluate": "operating_point",
     "load_motor": "motor_file",
     "sensitivities": "slopes",
     "simulate": "histories",
+    "sweep": "sweeps.run",
 }
 
 

@@ -1,4 +1,4 @@
-"""Data sets on disk: NetCDF or CSV by the file's suffix, whole or not at all."""
+"""Data sets on disk: NetCDF, Parquet or CSV by the file's suffix, whole or not at all."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from trum_sym.errors import MissingExtraError, ParameterError
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["check_target", "write"]
+__all__ = ["SUFFIXES", "check_target", "write"]
 
-_SUFFIXES = (".nc", ".csv")
+SUFFIXES = (".nc", ".parquet", ".csv")
 
 
 def check_target(name: str, target: Path) -> None:
@@ -23,10 +23,12 @@ def check_target(name: str, target: Path) -> None:
     Raises
     ------
     ParameterError
-        For another suffix than .nc and .csv, a folder that is not there or not ours to write in.
+        For another suffix, a folder that is not there or not ours to write in.
     """
-    if target.suffix not in _SUFFIXES:
-        raise ParameterError(name, str(target), f"a file name that ends in {' or '.join(_SUFFIXES)}")
+    if target.suffix not in SUFFIXES:
+        raise ParameterError(
+            name, str(target), f"a file name that ends in {', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}"
+        )
     if target.is_dir():
         raise ParameterError(name, str(target), "a file; this is a folder")
     if not target.parent.is_dir() or not os.access(target.parent, os.W_OK):
@@ -36,14 +38,15 @@ def check_target(name: str, target: Path) -> None:
 def write(name: str, dataset: xr.Dataset, target: Path) -> None:
     """Write beside the file and rename, so that no half-written one is ever seen.
 
-    CSV has one row per time and the units in its header; NetCDF keeps the attributes too.
+    Parquet and CSV have one row per point and the units in the names of their columns; NetCDF and Parquet keep the
+    attributes of the set too.
 
     Raises
     ------
     ParameterError
         If the file cannot be written.
     MissingExtraError
-        For NetCDF without h5netcdf.
+        For NetCDF without h5netcdf, Parquet without pyarrow.
     """
     check_target(name, target)
     beside = None
@@ -65,7 +68,15 @@ def write(name: str, dataset: xr.Dataset, target: Path) -> None:
                 if "units" in array.attrs
             }
             table = dataset.to_dataframe().reset_index().rename(columns=units)
-            table.to_csv(beside, index=False, float_format="%.17g")
+            if target.suffix == ".csv":
+                table.to_csv(beside, index=False, float_format="%.17g")
+            else:
+                try:
+                    import pyarrow  # type: ignore[import-untyped]  # noqa: F401
+                except ImportError as error:
+                    raise MissingExtraError("a .parquet file", str(error.name), "sweep") from None
+                table.attrs = dict(dataset.attrs)
+                table.to_parquet(beside, index=False)
         mask = os.umask(0)
         os.umask(mask)
         beside.chmod(0o666 & ~mask)  # as any other new file; mkstemp's are private

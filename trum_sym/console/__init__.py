@@ -7,6 +7,7 @@ import click
 from trum_sym.console.equations import equations
 from trum_sym.console.evaluate import evaluate
 from trum_sym.console.simulate import simulate
+from trum_sym.console.sweep import sweep
 
 __all__ = ["main"]
 
@@ -20,7 +21,7 @@ def _cli() -> None:
     """
 
 
-for _command in (evaluate, simulate, equations):
+for _command in (evaluate, simulate, sweep, equations):
     _cli.add_command(_command)
 
 
@@ -64,9 +65,9 @@ def main(arguments: list[str] | None = None) -> int:
             click.echo(f"trum-sym: {error}", err=True)
             return 2
         except RuntimeError as error:
-            from trum_sym.errors import ConvergenceError
+            from trum_sym.errors import ConvergenceError, UnfinishedError
 
-            if not isinstance(error, ConvergenceError):
+            if not isinstance(error, ConvergenceError | UnfinishedError):
                 raise
             click.echo(f"trum-sym: {error}", err=True)
             return 1
