@@ -6,6 +6,7 @@ import fcntl
 import json
 import os
 import shutil
+import warnings
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,6 +18,7 @@ import numpy.typing as npt
 import xarray as xr
 import zarr
 from zarr.codecs import Crc32cCodec, ZstdCodec
+from zarr.errors import ZarrUserWarning
 from zarr.storage import LocalStore, MemoryStore
 
 from trum_sym.errors import ParameterError
@@ -55,7 +57,7 @@ class Store:
 
     def dataset(self) -> xr.Dataset:
         """The data set; read from the store as it is used, or all of it if it is in memory."""
-        found: xr.Dataset = xr.open_zarr(self.source, chunks=None, consolidated=False)
+        found: xr.Dataset = xr.open_zarr(self.source, chunks=None)
         return found if self.root else found.load()
 
 
@@ -111,6 +113,9 @@ def _create(store: LocalStore | MemoryStore, plan: Plan) -> zarr.Group:
             name, shape=plan.grid.shape, chunks=plan.chunk, dtype=kind, fill_value=absent, compressors=codecs,
             dimension_names=dimensions, attributes=plan.about(name),
         )  # fmt: skip
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ZarrUserWarning)  # Zarr 3 has not settled the form of what xarray looks for first
+        zarr.consolidate_metadata(store)
     return group
 
 
