@@ -7,7 +7,7 @@ import os
 import sys
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
@@ -193,8 +193,7 @@ def run(
     if not on_disk and plan.size_bytes > _SMALL:
         size = f"{plan.size_bytes / 2**30:.3g} GiB for {plan.grid.size} points"
         raise ParameterError(name, size, "a store, NAME.zarr, for more than 1 GiB")
-    with _pool(scheduler) as pool:
-        store = _open(name, target if on_disk else None, plan, chunk_given)
+    with _pool(scheduler) as pool, _open(name, target if on_disk else None, plan, chunk_given) as store:
         summary = _fill(store, pool, stream)
     dataset = store.dataset()
     if target is not None and not on_disk:
@@ -204,7 +203,7 @@ def run(
     return dataset, summary
 
 
-def _open(name: str, root: Path | None, plan: Plan, chunk_given: bool) -> Store:
+def _open(name: str, root: Path | None, plan: Plan, chunk_given: bool) -> AbstractContextManager[Store]:
     try:
         from trum_sym.sweeps.store import open_store
     except ImportError as error:
@@ -259,8 +258,8 @@ def estimate(name: str, plan: Plan, target: Path | None, scheduler: str | None, 
     """
     missing = np.ones(plan.chunks, np.bool_)
     if target is not None and target.suffix == ".zarr" and target.exists() and any(target.iterdir()):
-        store = _open(name, target, plan, chunk_given)
-        plan, missing = store.plan, store.missing
+        with _open(name, target, plan, chunk_given) as store:
+            plan, missing = store.plan, store.missing
     left = sum(int(np.prod(plan.task(tuple(index)).shape)) for index in np.argwhere(missing))
     with _pool(scheduler) as pool:
         threads = max(1, pool.threads())

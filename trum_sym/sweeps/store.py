@@ -8,6 +8,7 @@ import os
 import shutil
 import warnings
 from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -61,8 +62,9 @@ class Store:
         return found if self.root else found.load()
 
 
-def open_store(name: str, root: Path | None, plan: Plan, chunk_given: bool) -> Store:
-    """Make a store for a plan, or open one that the same plan has begun.
+@contextmanager
+def open_store(name: str, root: Path | None, plan: Plan, chunk_given: bool) -> Iterator[Store]:
+    """Make a store for a plan, or open one that the same plan has begun; no other process can until it is closed.
 
     Parameters
     ----------
@@ -83,7 +85,9 @@ def open_store(name: str, root: Path | None, plan: Plan, chunk_given: bool) -> S
     """
     if root is None:
         memory = MemoryStore()
-        return _opened(memory, None, _create(memory, plan), plan)
+        yield _opened(memory, None, _create(memory, plan), plan)
+        return
+    handle = None
     try:
         if not root.exists() or (root.is_dir() and not any(root.iterdir())):
             beside = root.with_name(f".{root.name}.new")
@@ -91,10 +95,16 @@ def open_store(name: str, root: Path | None, plan: Plan, chunk_given: bool) -> S
             _create(LocalStore(beside), plan)
             beside.rename(root)
         group = _check(name, root, plan, chunk_given)
-        _lock(name, root)
-        return _opened(LocalStore(root), root, group, plan.with_chunk(next(iter(_outputs(group, plan))).chunks))
+        handle = _lock(name, root)
+        store = _opened(LocalStore(root), root, group, plan.with_chunk(next(iter(_outputs(group, plan))).chunks))
     except OSError as error:
+        if handle is not None:
+            os.close(handle)
         raise ParameterError(name, str(root), f"a place that can be written ({error.strerror or error})") from None
+    try:
+        yield store
+    finally:
+        os.close(handle)
 
 
 def _create(store: LocalStore | MemoryStore, plan: Plan) -> zarr.Group:
@@ -114,7 +124,7 @@ def _create(store: LocalStore | MemoryStore, plan: Plan) -> zarr.Group:
             dimension_names=dimensions, attributes=plan.about(name),
         )  # fmt: skip
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ZarrUserWarning)  # Zarr 3 has not settled the form of what xarray looks for first
+        warnings.simplefilter("ignore", ZarrUserWarning)  # its form is not settled, but xarray looks for it
         zarr.consolidate_metadata(store)
     return group
 
@@ -147,14 +157,15 @@ def _intact(file: Path) -> bool:
     return int.from_bytes(content[-4:], "little") == google_crc32c.value(content[:-4]) and len(content) > 4
 
 
-def _lock(name: str, root: Path) -> None:
-    """Hold the store until this process ends, however it ends."""
+def _lock(name: str, root: Path) -> int:
+    """Hold the store until the handle is closed or this process ends, however it ends."""
     handle = os.open(root / "zarr.json", os.O_RDONLY)
     try:
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError:
         os.close(handle)
         raise ParameterError(name, str(root), "a store that no other process is writing") from None
+    return handle
 
 
 def _check(name: str, root: Path, plan: Plan, chunk_given: bool) -> zarr.Group:
