@@ -1,10 +1,14 @@
-"""A small sweep, as a process of its own that can be killed: python tests/sweep_process.py STORE LOG [SCHEDULER]."""
+"""A small sweep, as a process of its own that can be killed: python tests/sweep_process.py STORE LOG [SCHEDULER].
+
+SWEEP_PAUSE seconds before each chunk leave time to kill it.
+"""
 
 from __future__ import annotations
 
 import hashlib
 import os
 import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -12,8 +16,8 @@ import numpy as np
 import trum_sym as ts
 from trum_sym.sweeps import engine, task
 
-RANGES = {"prepressure": np.linspace(150, 210, 40), "friction_coefficient": np.linspace(0.1, 0.3, 32)}
-SETTINGS = {"outputs": ("q_average", "mean_speed"), "chunk": 16, **RANGES}
+RANGES = {"prepressure": np.linspace(150, 210, 40), "friction_coefficient": np.linspace(0.1, 0.3, 8)}
+SETTINGS = {"outputs": ("q_average", "mean_speed"), "chunk": 4, **RANGES}
 DRIVE = ts.Drive(periods=4, on_periods=3, load_torque=0.1)
 CHUNKS = 80
 
@@ -23,6 +27,7 @@ def traced(chunk, *stopped):
     handle = os.open(os.environ["SWEEP_LOG"], os.O_WRONLY | os.O_APPEND | os.O_CREAT)
     os.write(handle, (",".join(map(str, chunk.index)) + "\n").encode())
     os.close(handle)
+    time.sleep(float(os.environ.get("SWEEP_PAUSE", "0")))
     return task.compute(chunk, *stopped)
 
 

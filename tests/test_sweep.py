@@ -82,7 +82,7 @@ def test_what_evaluate_refuses_is_nan_and_says_so_and_nothing_else_is(trum60):
 def test_a_point_that_does_not_settle_costs_only_itself(trum60, monkeypatch):
     from trum_sym import stator
 
-    monkeypatch.setattr(stator, "_MAX_ITERATIONS", 20)
+    monkeypatch.setattr(stator, "_MAX_ITERATIONS", 13)
     forces = np.linspace(100, 220, 13)
     found = ts.sweep(trum60, DRIVE, amplitude="forced", outputs=("amplitude",), prepressure=forces)
     alone = []
@@ -291,16 +291,16 @@ def test_columns_of_a_file_are_read_with_their_units(trum60, tmp_path):
 @pytest.mark.parametrize(
     ("content", "need"),
     [
-        (b"force\n1\n", "with the columns force"),
+        (b"force\n1\n", "the columns force in @"),
         (b"prepressure,prepressure\n1,2\n", "a CSV file with a column prepressure"),
         (b"", "a CSV file with a column prepressure"),
-        (b"prepressure\n", "with 0 rows"),
-        (b"prepressure\n1\nmany\n", "line 3: many"),
+        (b"prepressure\n", "0 rows in @"),
+        (b"prepressure\n1\nmany\n", "many in line 3 of @"),
         (b"prepressure\n1\n\n-3\n", "got -3"),
-        (b"a,prepressure\n1\n", "line 2: 1 columns"),
-        (b"prepressure [Hz]\n1\n", "line 2"),
+        (b"a,prepressure\n1\n", "1 columns in line 2 of @"),
+        (b"prepressure [Hz]\n1\n", "1 Hz in line 2 of @"),
         (b"prepressure\n\xff\n", "a CSV file with a column prepressure"),
-        (b'prepressure\n"1\n', "prepressure"),
+        (b'prepressure\n"1\n', "unexpected end of data"),
     ],
 )
 def test_a_file_that_has_no_such_column_is_refused(trum60, tmp_path, content, need):
@@ -422,7 +422,7 @@ BAD_RANGES = [
     ({"phase_lead": [1, 0]}, ("phase_lead", "1, -1 or both")),
     ({"prepressure": [150, 160], "load_torque": xr.DataArray([1, 2], dims="prepressure")}, ("dimension prepressure",)),
     ({"prepressure": xr.DataArray([150, 160], dims="status")}, ("dimension status",)),
-    ({"prepressure": xr.DataArray([150, 160], dims="q_average")}, ("dimension q_average",)),
+    ({"prepressure": xr.DataArray([150, 160], dims="amplitude")}, ("dimension amplitude",)),
     ({"prepressure": [1e5, 2e5], "tolerance": 1.0}, ("tolerance: got 1",)),
     ({"prepressure": [150, 160], "contact": "glue"}, ("contact: got glue",)),
     ({"prepressure": [150, 160], "outputs": ("speed",)}, ("outputs: got speed", "mean_speed")),

@@ -107,12 +107,12 @@ def _column(name: str, file: str, unit: str) -> Column:
     wanted = f"@ and the path of a CSV file with a column {name}"
     try:
         with Path(file).open(encoding="utf-8-sig", newline="") as lines:
-            rows = csv.reader(lines)
+            rows = csv.reader(lines, strict=True)
             header = [cell.strip() for cell in next(rows, [])]
             titles = [cell.partition("[") for cell in header]
             places = [i for i, title in enumerate(titles) if title[0].strip() == name]
             if len(places) != 1:
-                raise ParameterError(name, f"@{file} with the columns {', '.join(header)}", wanted)
+                raise ParameterError(name, f"the columns {', '.join(header)} in @{file}", wanted)
             place = places[0]
             given = titles[place][2].rstrip("] ")
             values = [_cell(name, file, rows.line_num, row, place, unit, given) for row in rows if row]
@@ -125,14 +125,14 @@ def _column(name: str, file: str, unit: str) -> Column:
             raise
         raise ParameterError(name, f"@{file}", wanted) from None  # no path at all
     if not 1 <= len(values) <= MAX_VALUES:
-        raise ParameterError(name, f"@{file} with {len(values)} rows", f"{wanted} of 1 to {MAX_VALUES} rows")
+        raise ParameterError(name, f"{len(values)} rows in @{file}", f"{wanted} of 1 to {MAX_VALUES} rows")
     return Column(str(Path(file)), np.array(values))
 
 
 def _cell(name: str, file: str, line: int, row: list[str], place: int, unit: str, given: str) -> float:
     if place >= len(row):
-        raise ParameterError(name, f"@{file}, line {line}: {len(row)} columns", "as many columns as in the header")
+        raise ParameterError(name, f"{len(row)} columns in line {line} of @{file}", "as many columns as in the header")
     try:
         return parse_quantity(name, f"{row[place]} {given}", unit)
     except ParameterError as error:
-        raise ParameterError(name, f"@{file}, line {line}: {error.got}", error.allowed) from None
+        raise ParameterError(name, f"{error.got} in line {line} of @{file}", error.allowed) from None

@@ -180,7 +180,7 @@ def _check(name: str, root: Path, plan: Plan, chunk_given: bool) -> zarr.Group:
             raise
         raise foreign from None
     ours = json.loads(json.dumps(plan.attributes()))
-    for key in [*ours, *(key for key in theirs if key not in ours)]:
+    for key in sorted({*ours, *theirs}, key=lambda key: key == "title"):  # which sums up the others
         if ours.get(key) != theirs.get(key):
             raise _differs(name, root, key, theirs.get(key), ours.get(key))
     for axis in plan.grid.axes:
