@@ -16,10 +16,10 @@ import numpy as np
 import trum_sym as ts
 from trum_sym.sweeps import engine, task
 
-RANGES = {"prepressure": np.linspace(150, 210, 40), "friction_coefficient": np.linspace(0.1, 0.3, 8)}
+RANGES = {"prepressure": np.linspace(150, 210, 24), "friction_coefficient": np.linspace(0.1, 0.3, 8)}
 SETTINGS = {"outputs": ("q_average", "mean_speed"), "chunk": 4, **RANGES}
 DRIVE = ts.Drive(periods=4, on_periods=3, load_torque=0.1)
-CHUNKS = 80
+CHUNKS = 48
 
 
 def traced(chunk, *stopped):

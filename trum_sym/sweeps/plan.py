@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import math
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -122,7 +122,7 @@ def make_plan(
     levels: Levels,
     sampling_period: ArrayLike | None,
     tolerance: float,
-    outputs: tuple[str, ...] | None,
+    outputs: Sequence[str] | None,
     chunk: float | None,
     ranges: Mapping[str, object],
 ) -> Plan:
@@ -159,7 +159,7 @@ def make_plan(
     return plan
 
 
-def _outputs(given: tuple[str, ...] | None, swept: set[str]) -> tuple[str, ...]:
+def _outputs(given: Sequence[str] | None, swept: set[str]) -> tuple[str, ...]:
     known = [name for name in (*OUTPUTS, "converged") if name not in swept]
     if given is None:
         return tuple(known)

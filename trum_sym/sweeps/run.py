@@ -6,7 +6,7 @@ import math
 import os
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -77,7 +77,7 @@ def sweep(
     motor: Motor,
     drive: Drive | None = None,
     *,
-    outputs: tuple[str, ...] | None = None,
+    outputs: Sequence[str] | None = None,
     out: str | os.PathLike[str] | None = None,
     scheduler: str | None = None,
     chunk: int | None = None,
