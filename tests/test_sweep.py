@@ -209,6 +209,15 @@ def test_no_more_chunks_are_under_way_than_the_pool_takes(trum60):
     assert pool.most == 6
 
 
+def test_a_chunk_keeps_to_its_thread(trum60, monkeypatch):
+    plan = plan_of(trum60, ("q_average", "stall_torque"), prepressure=np.linspace(150, 180, 1100))
+    task = plan.sample(1100)
+    monkeypatch.setattr(batch, "_in_threads", None)
+    assert not compute(task).figures["status"].any()
+    with pytest.raises(TypeError):
+        ts.evaluate(trum60, ts.Drive(prepressure=np.linspace(150, 180, 1100)))
+
+
 def test_a_worker_with_another_kernel_is_refused(trum60):
     task = plan_of(trum60, prepressure=[150, 180]).task((0,))
     assert isinstance(compute(task), Found)
