@@ -68,4 +68,6 @@ def hashes(out):
 
 
 if __name__ == "__main__":
+    if hasattr(os, "sched_setaffinity"):  # not done before it is killed
+        os.sched_setaffinity(0, sorted(os.sched_getaffinity(0))[:2])
     sweep(*sys.argv[1:])

@@ -160,7 +160,7 @@ def test_a_driver_that_is_killed_at_any_of_20_moments_is_completed(tmp_path, und
 
 def test_an_interruption_is_one_line_and_leaves_whole_chunks(tmp_path, capsys):
     out = tmp_path / "map.zarr"
-    command = ["sweep", "--prepressure", "150:210:4000", "--outputs", "mean_speed", "--chunk", "20", "--out", str(out)]
+    command = ["sweep", "--prepressure", "150:210:40000", "--outputs", "mean_speed", "--chunk", "20", "--out", str(out)]
     with started([sys.executable, "-m", "trum_sym.console", *command], tmp_path / "said") as process:
         wait_for(lambda: (out / "status/c/4").exists() or process.poll() is not None, "5 chunks")
         process.send_signal(signal.SIGINT)
@@ -170,7 +170,7 @@ def test_an_interruption_is_one_line_and_leaves_whole_chunks(tmp_path, capsys):
     names = [{file.name for file in (out / name / "c").iterdir()} for name in ("mean_speed", "status")]
     assert names[0] == names[1]
     assert main([*command, "--dry-run"]) == 0
-    left = 4000 - 20 * len(names[0])
+    left = 40000 - 20 * len(names[0])
     assert f"{left} points in {left // 20} chunks are missing" in capsys.readouterr().out
 
 
