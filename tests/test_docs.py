@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -42,3 +43,19 @@ def test_the_readme_has_the_two_commands_that_ci_runs():
     assert len(commands) == 2
     assert commands[0].endswith("trum-sym evaluate")
     assert commands[1].endswith("python -m pytest")
+
+
+def test_the_page_on_tolerances_shows_what_its_command_prints(capsys, monkeypatch, tmp_path):
+    text = (ROOT / "docs/tolerance.md").read_text("utf-8")
+    command = re.search(r"^    (trum-sym tolerance (?:.*\\\n)*.*)$", text, re.MULTILINE)[1]
+    monkeypatch.chdir(tmp_path)
+    main(shlex.split(command.replace("\\\n", " "))[1:])
+    assert lines(shown("docs/tolerance.md", "trum-sym tolerance")) == lines(capsys.readouterr().out)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["points.csv", "study.png"]
+
+
+def test_the_page_on_tolerances_has_python_that_runs(capsys):
+    text = (ROOT / "docs/tolerance.md").read_text("utf-8")
+    for block in re.findall(r"```python\n(.*?)```", text, re.DOTALL):
+        exec(block, {})
+    assert capsys.readouterr().out.rstrip().endswith(")}"), "the indices of the last block"

@@ -22,9 +22,12 @@ if TYPE_CHECKING:
     from trum_sym.operating_point import OperatingPoint, evaluate
     from trum_sym.slopes import sensitivities
     from trum_sym.sweeps.run import sweep
+    from trum_sym.uncertainty.distributions import Distribution
+    from trum_sym.uncertainty.study import tolerance
 
 __all__ = [
     "ConvergenceError",
+    "Distribution",
     "Drive",
     "MissingExtraError",
     "Motor",
@@ -38,10 +41,12 @@ __all__ = [
     "sensitivities",
     "simulate",
     "sweep",
+    "tolerance",
 ]
 
 _HOME = {
     "ConvergenceError": "errors",
+    "Distribution": "uncertainty.distributions",
     "Drive": "drive",
     "MissingExtraError": "errors",
     "Motor": "motor",
@@ -55,6 +60,7 @@ _HOME = {
     "sensitivities": "slopes",
     "simulate": "histories",
     "sweep": "sweeps.run",
+    "tolerance": "uncertainty.study",
 }
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,27 +14,75 @@ from trum_sym.errors import MissingExtraError, ParameterError
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["SUFFIXES", "check_target", "write"]
+__all__ = ["SUFFIXES", "check_packages", "check_target", "replaced", "write"]
 
 SUFFIXES = (".nc", ".parquet", ".csv")
 
 
-def check_target(name: str, target: Path) -> None:
+def check_target(name: str, target: Path, suffixes: tuple[str, ...] = SUFFIXES) -> None:
     """Refuse, before any work is done, a file that cannot be written.
 
     Raises
     ------
     ParameterError
-        For another suffix, a folder that is not there or not ours to write in.
+        For another suffix than these, a folder that is not there or not ours to write in.
     """
-    if target.suffix not in SUFFIXES:
+    if target.suffix not in suffixes:
         raise ParameterError(
-            name, str(target), f"a file name that ends in {', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}"
+            name, str(target), f"a file name that ends in {', '.join(suffixes[:-1])} or {suffixes[-1]}"
         )
     if target.is_dir():
         raise ParameterError(name, str(target), "a file; this is a folder")
     if not target.parent.is_dir() or not os.access(target.parent, os.W_OK):
         raise ParameterError(name, str(target), "a file in a folder that exists and can be written to")
+
+
+def check_packages(target: Path) -> None:
+    """Refuse a data set's file for which a package is missing.
+
+    Raises
+    ------
+    MissingExtraError
+        Without xarray or, for NetCDF, h5netcdf or, for Parquet, pyarrow.
+    """
+    extra = "sweep" if target.suffix == ".parquet" else "data"
+    try:
+        import xarray  # noqa: F401
+
+        if target.suffix == ".nc":
+            import h5netcdf  # noqa: F401
+            import h5py  # noqa: F401
+        elif target.suffix == ".parquet":
+            import pyarrow  # type: ignore[import-untyped]  # noqa: F401
+    except ImportError as error:
+        raise MissingExtraError(f"a {target.suffix} file", str(error.name), extra) from None
+
+
+@contextmanager
+def replaced(name: str, target: Path) -> Iterator[Path]:
+    """A file beside the target to write to; it takes the target's place at the end, if nothing failed until then.
+
+    Raises
+    ------
+    ParameterError
+        If the file cannot be written.
+    """
+    beside = None
+    try:
+        handle, path = tempfile.mkstemp(prefix=f".{target.stem}-", suffix=target.suffix, dir=target.parent)
+        os.close(handle)
+        beside = Path(path)
+        yield beside
+        mask = os.umask(0)
+        os.umask(mask)
+        beside.chmod(0o666 & ~mask)  # as any other new file; mkstemp's are private
+        beside.replace(target)
+        beside = None
+    except OSError as error:
+        raise ParameterError(name, str(target), f"a file that can be written ({error.strerror or error})") from None
+    finally:
+        if beside is not None:
+            beside.unlink(missing_ok=True)
 
 
 def write(name: str, dataset: xr.Dataset, target: Path) -> None:
@@ -46,20 +96,12 @@ def write(name: str, dataset: xr.Dataset, target: Path) -> None:
     ParameterError
         If the file cannot be written.
     MissingExtraError
-        For NetCDF without h5netcdf, Parquet without pyarrow.
+        Without a package that writes this file.
     """
     check_target(name, target)
-    beside = None
-    try:
-        handle, path = tempfile.mkstemp(prefix=f".{target.stem}-", suffix=target.suffix, dir=target.parent)
-        os.close(handle)
-        beside = Path(path)
+    check_packages(target)
+    with replaced(name, target) as beside:
         if target.suffix == ".nc":
-            try:
-                import h5netcdf  # noqa: F401
-                import h5py  # noqa: F401
-            except ImportError as error:
-                raise MissingExtraError("a .nc file", str(error.name), "data") from None
             dataset.to_netcdf(beside, engine="h5netcdf")
         else:
             units = {
@@ -71,19 +113,5 @@ def write(name: str, dataset: xr.Dataset, target: Path) -> None:
             if target.suffix == ".csv":
                 table.to_csv(beside, index=False, float_format="%.17g")
             else:
-                try:
-                    import pyarrow  # type: ignore[import-untyped]  # noqa: F401
-                except ImportError as error:
-                    raise MissingExtraError("a .parquet file", str(error.name), "sweep") from None
                 table.attrs = dict(dataset.attrs)
                 table.to_parquet(beside, index=False)
-        mask = os.umask(0)
-        os.umask(mask)
-        beside.chmod(0o666 & ~mask)  # as any other new file; mkstemp's are private
-        beside.replace(target)
-        beside = None
-    except OSError as error:
-        raise ParameterError(name, str(target), f"a file that can be written ({error.strerror or error})") from None
-    finally:
-        if beside is not None:
-            beside.unlink(missing_ok=True)

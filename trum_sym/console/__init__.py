@@ -8,6 +8,7 @@ from trum_sym.console.equations import equations
 from trum_sym.console.evaluate import evaluate
 from trum_sym.console.simulate import simulate
 from trum_sym.console.sweep import sweep
+from trum_sym.console.tolerance import tolerance
 
 __all__ = ["main"]
 
@@ -21,7 +22,7 @@ def _cli() -> None:
     """
 
 
-for _command in (evaluate, simulate, sweep, equations):
+for _command in (evaluate, simulate, sweep, tolerance, equations):
     _cli.add_command(_command)
 
 

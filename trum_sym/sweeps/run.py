@@ -148,16 +148,19 @@ def check_out(name: str, target: Path | None) -> None:
 
     Raises
     ------
-    ParameterError
+    ParameterError, MissingExtraError
     """
-    from trum_sym.files import SUFFIXES, check_target
+    from trum_sym.files import SUFFIXES, check_packages, check_target
 
     if target is None:
         return
     if target.suffix not in (".zarr", *SUFFIXES):
-        raise ParameterError(name, str(target), f"a name that ends in .zarr, {' or '.join(SUFFIXES)}")
+        raise ParameterError(
+            name, str(target), f"a name that ends in .zarr, {', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}"
+        )
     if target.suffix != ".zarr":
         check_target(name, target)
+        check_packages(target)
     elif target.exists() and not target.is_dir():
         raise ParameterError(name, str(target), "a store; this is a file")
     elif not os.access(target if target.exists() else target.absolute().parent, os.W_OK | os.X_OK):
