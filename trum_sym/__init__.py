@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from trum_sym.motor import Motor, Parameter
     from trum_sym.motor_file import load_motor
     from trum_sym.operating_point import OperatingPoint, evaluate
+    from trum_sym.optimiser.result import Optimum
+    from trum_sym.optimiser.search import optimize
     from trum_sym.slopes import sensitivities
     from trum_sym.sweeps.run import sweep
     from trum_sym.uncertainty.distributions import Distribution
@@ -32,12 +34,14 @@ __all__ = [
     "MissingExtraError",
     "Motor",
     "OperatingPoint",
+    "Optimum",
     "Parameter",
     "ParameterError",
     "UnfinishedError",
     "ValidityWarning",
     "evaluate",
     "load_motor",
+    "optimize",
     "sensitivities",
     "simulate",
     "sweep",
@@ -51,12 +55,14 @@ _HOME = {
     "MissingExtraError": "errors",
     "Motor": "motor",
     "OperatingPoint": "operating_point",
+    "Optimum": "optimiser.result",
     "Parameter": "motor",
     "ParameterError": "errors",
     "UnfinishedError": "errors",
     "ValidityWarning": "errors",
     "evaluate": "operating_point",
     "load_motor": "motor_file",
+    "optimize": "optimiser.search",
     "sensitivities": "slopes",
     "simulate": "histories",
     "sweep": "sweeps.run",

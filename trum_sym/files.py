@@ -14,7 +14,7 @@ from trum_sym.errors import MissingExtraError, ParameterError
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["SUFFIXES", "check_packages", "check_target", "replaced", "write"]
+__all__ = ["SUFFIXES", "check_packages", "check_target", "replaced", "write", "write_bytes"]
 
 SUFFIXES = (".nc", ".parquet", ".csv")
 
@@ -115,3 +115,15 @@ def write(name: str, dataset: xr.Dataset, target: Path) -> None:
             else:
                 table.attrs = dict(dataset.attrs)
                 table.to_parquet(beside, index=False)
+
+
+def write_bytes(name: str, content: bytes, target: Path) -> None:
+    """Write what is there already in the same way: beside the file, then rename.
+
+    Raises
+    ------
+    ParameterError
+        If the file cannot be written.
+    """
+    with replaced(name, target) as beside:
+        beside.write_bytes(content)

@@ -6,6 +6,7 @@ import click
 
 from trum_sym.console.equations import equations
 from trum_sym.console.evaluate import evaluate
+from trum_sym.console.optimize import optimize
 from trum_sym.console.simulate import simulate
 from trum_sym.console.sweep import sweep
 from trum_sym.console.tolerance import tolerance
@@ -22,7 +23,7 @@ def _cli() -> None:
     """
 
 
-for _command in (evaluate, simulate, sweep, tolerance, equations):
+for _command in (evaluate, simulate, sweep, tolerance, optimize, equations):
     _cli.add_command(_command)
 
 
