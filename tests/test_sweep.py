@@ -231,9 +231,13 @@ def future(error):
 
     class Failed:
         key = "chunk"
+        released = False
 
         def result(self):
             raise error
+
+        def release(self):
+            self.released = True
 
     return Failed()
 
@@ -255,6 +259,7 @@ def test_a_chunk_that_kills_its_workers_is_tried_again_but_not_for_ever(cluster)
         cluster._tasks["chunk"] = task
     with pytest.raises(ts.UnfinishedError, match=r"workers die of chunk \(0,\)"):
         cluster.result(killed)
+    assert killed.released, "so that no worker's death has it computed again"
 
 
 def test_workers_without_the_package_are_named(cluster):

@@ -131,6 +131,8 @@ class Cluster:
             raise self._lost() from None
         except ImportError as error:
             raise ParameterError("scheduler", self._address, f"workers with this trum-sym ({error})") from None
+        finally:
+            future.release()  # or the scheduler has it computed again if its worker dies now
         return found
 
     def _lost(self) -> UnfinishedError:
@@ -169,6 +171,7 @@ def compute_all(tasks: Iterator[Task], pool: Pool, tick: Callable[[], None]) -> 
             continue
         task = running.pop(future)
         found = pool.result(future)
+        del future
         if found is None:
             start(task)
         else:
