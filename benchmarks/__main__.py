@@ -11,7 +11,7 @@ import trum_sym as ts  # noqa: F401
 from benchmarks.rows import Row, cpu_name, table
 from trum_sym import _kernels
 
-SECTIONS = ("step", "point", "map", "start", "optimise")
+SECTIONS = ("step", "point", "map", "sweep", "start", "optimise")
 
 
 def main() -> None:
@@ -39,6 +39,10 @@ def main() -> None:
         from benchmarks import maps
 
         rows += maps.rows(1 if chosen.quick else min(repeats, 5), 400 if chosen.quick else chosen.points)
+    if "sweep" in chosen.only:
+        from benchmarks import sweep
+
+        rows += sweep.rows(1 if chosen.quick else min(repeats, 3), 2000 if chosen.quick else chosen.points)
     if "start" in chosen.only:
         from benchmarks import cold_start
 

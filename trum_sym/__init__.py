@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from trum_sym.drive import Drive
-    from trum_sym.errors import ConvergenceError, MissingExtraError, ParameterError, ValidityWarning
+    from trum_sym.errors import ConvergenceError, MissingExtraError, ParameterError, UnfinishedError, ValidityWarning
     from trum_sym.histories import simulate
     from trum_sym.motor import Motor, Parameter
     from trum_sym.motor_file import load_motor
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from trum_sym.optimiser.result import Optimum
     from trum_sym.optimiser.search import optimize
     from trum_sym.slopes import sensitivities
+    from trum_sym.sweeps.run import sweep
     from trum_sym.uncertainty.distributions import Distribution
     from trum_sym.uncertainty.study import tolerance
 
@@ -36,12 +37,14 @@ __all__ = [
     "Optimum",
     "Parameter",
     "ParameterError",
+    "UnfinishedError",
     "ValidityWarning",
     "evaluate",
     "load_motor",
     "optimize",
     "sensitivities",
     "simulate",
+    "sweep",
     "tolerance",
 ]
 
@@ -55,12 +58,14 @@ _HOME = {
     "Optimum": "optimiser.result",
     "Parameter": "motor",
     "ParameterError": "errors",
+    "UnfinishedError": "errors",
     "ValidityWarning": "errors",
     "evaluate": "operating_point",
     "load_motor": "motor_file",
     "optimize": "optimiser.search",
     "sensitivities": "slopes",
     "simulate": "histories",
+    "sweep": "sweeps.run",
     "tolerance": "uncertainty.study",
 }
 

@@ -4,16 +4,39 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
 
 import numpy as np
 
 from trum_sym.kernels import call, signature
 from trum_sym.validate import Array, ArrayLike
 
-__all__ = ["call_in_blocks"]
+__all__ = ["StoppedError", "call_in_blocks", "one_thread"]
 
 _BLOCK, _SMALLEST = 512, 32  # points in a block, at most and at least
+_stopped: ContextVar[Callable[[], bool] | None] = ContextVar("_stopped", default=None)
+
+
+class StoppedError(Exception):
+    """The work of this thread is no longer wanted."""
+
+
+@contextmanager
+def one_thread(stopped: Callable[[], bool]) -> Iterator[None]:
+    """Keep :func:`call_in_blocks` on the calling thread, for callers that share the cores out themselves.
+
+    Parameters
+    ----------
+    stopped : callable
+        Asked before every block; where it says yes, StoppedError is raised.
+    """
+    token = _stopped.set(stopped)
+    try:
+        yield
+    finally:
+        _stopped.reset(token)
 
 
 def call_in_blocks(kernel: str, values: Mapping[str, ArrayLike], label: str | None = None) -> dict[str, Array]:
@@ -48,6 +71,13 @@ def call_in_blocks(kernel: str, values: Mapping[str, ArrayLike], label: str | No
         for row, name in zip(results, outputs, strict=True):
             row[begin : begin + length] = found[name]
 
+    stopped = _stopped.get()
+    if stopped is not None:
+        for begin in starts:
+            if stopped():
+                raise StoppedError
+            run(begin)
+        return {name: row.reshape(shape) for name, row in zip(outputs, results, strict=True)}
     if workers > 1 or (label and len(starts) > 1):
         _in_threads(run, starts, workers, label)
     else:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-__all__ = ["ConvergenceError", "MissingExtraError", "ParameterError", "ValidityWarning", "shorten"]
+__all__ = ["ConvergenceError", "MissingExtraError", "ParameterError", "UnfinishedError", "ValidityWarning", "shorten"]
 
 
 def _one_line(text: str) -> str:
@@ -44,6 +44,10 @@ class ParameterError(ValueError):
 
 class ConvergenceError(RuntimeError):
     """A well-posed problem whose iteration did not settle; says which and what to try."""
+
+
+class UnfinishedError(RuntimeError):
+    """Work that stopped before its end, and that the same call goes on with; says why it stopped."""
 
 
 class MissingExtraError(ImportError):

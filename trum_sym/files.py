@@ -1,4 +1,4 @@
-"""Data sets on disk: NetCDF or CSV by the file's suffix, whole or not at all."""
+"""Data sets on disk: NetCDF, Parquet or CSV by the file's suffix, whole or not at all."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from trum_sym.errors import MissingExtraError, ParameterError
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["check_packages", "check_target", "replaced", "write", "write_bytes"]
+__all__ = ["SUFFIXES", "check_packages", "check_target", "replaced", "write", "write_bytes"]
 
-_SUFFIXES = (".nc", ".csv")
+SUFFIXES = (".nc", ".parquet", ".csv")
 
 
-def check_target(name: str, target: Path, suffixes: tuple[str, ...] = _SUFFIXES) -> None:
+def check_target(name: str, target: Path, suffixes: tuple[str, ...] = SUFFIXES) -> None:
     """Refuse, before any work is done, a file that cannot be written.
 
     Raises
@@ -28,7 +28,9 @@ def check_target(name: str, target: Path, suffixes: tuple[str, ...] = _SUFFIXES)
         For another suffix than these, a folder that is not there or not ours to write in.
     """
     if target.suffix not in suffixes:
-        raise ParameterError(name, str(target), f"a file name that ends in {' or '.join(suffixes)}")
+        raise ParameterError(
+            name, str(target), f"a file name that ends in {', '.join(suffixes[:-1])} or {suffixes[-1]}"
+        )
     if target.is_dir():
         raise ParameterError(name, str(target), "a file; this is a folder")
     if not target.parent.is_dir() or not os.access(target.parent, os.W_OK):
@@ -41,16 +43,19 @@ def check_packages(target: Path) -> None:
     Raises
     ------
     MissingExtraError
-        Without xarray or, for NetCDF, h5netcdf.
+        Without xarray or, for NetCDF, h5netcdf or, for Parquet, pyarrow.
     """
+    extra = "sweep" if target.suffix == ".parquet" else "data"
     try:
         import xarray  # noqa: F401
 
         if target.suffix == ".nc":
             import h5netcdf  # noqa: F401
             import h5py  # noqa: F401
+        elif target.suffix == ".parquet":
+            import pyarrow  # type: ignore[import-untyped]  # noqa: F401
     except ImportError as error:
-        raise MissingExtraError(f"a {target.suffix} file", str(error.name), "data") from None
+        raise MissingExtraError(f"a {target.suffix} file", str(error.name), extra) from None
 
 
 @contextmanager
@@ -83,14 +88,15 @@ def replaced(name: str, target: Path) -> Iterator[Path]:
 def write(name: str, dataset: xr.Dataset, target: Path) -> None:
     """Write beside the file and rename, so that no half-written one is ever seen.
 
-    CSV has one row per point and the units in its header; NetCDF keeps the attributes too.
+    Parquet and CSV have one row per point and the units in the names of their columns; NetCDF and Parquet keep the
+    attributes of the set too.
 
     Raises
     ------
     ParameterError
         If the file cannot be written.
     MissingExtraError
-        For NetCDF without h5netcdf.
+        Without a package that writes this file.
     """
     check_target(name, target)
     check_packages(target)
@@ -104,7 +110,11 @@ def write(name: str, dataset: xr.Dataset, target: Path) -> None:
                 if "units" in array.attrs
             }
             table = dataset.to_dataframe().reset_index().rename(columns=units)
-            table.to_csv(beside, index=False, float_format="%.17g")
+            if target.suffix == ".csv":
+                table.to_csv(beside, index=False, float_format="%.17g")
+            else:
+                table.attrs = dict(dataset.attrs)
+                table.to_parquet(beside, index=False)
 
 
 def write_bytes(name: str, content: bytes, target: Path) -> None:

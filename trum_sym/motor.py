@@ -145,6 +145,7 @@ class Motor:
     wavenumber: Parameter | None = _optional("1/m", "k_c")
     layer_stiffness: Parameter | None = _optional("N/m^2", "k_N")
     published: tuple[Published, ...] = ()
+    text: str = field(default="", repr=False, compare=False)  # of the motor file, whatever was set since
 
     def __post_init__(self) -> None:
         """Checks every value, and the sizes that must fit each other."""

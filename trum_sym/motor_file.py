@@ -154,12 +154,10 @@ def _read_text(source: str | PathLike[str]) -> str:
         raise ParameterError("motor", str(source), f"a readable TOML file ({reason})") from None
 
 
-def _read_toml(source: str | PathLike[str]) -> dict[str, Any]:
+def _read_toml(source: str | PathLike[str], text: str) -> dict[str, Any]:
     try:
-        return tomllib.loads(_read_text(source))
+        return tomllib.loads(text)
     except (ValueError, RecursionError) as error:
-        if isinstance(error, ParameterError):
-            raise
         raise ParameterError("motor", str(source), f"a valid TOML file ({error})") from None
 
 
@@ -179,7 +177,8 @@ def load_motor(source: str | PathLike[str] = "trum60") -> Motor:
     """
     if not isinstance(source, str | PathLike) or not str(source):
         raise ParameterError("motor", source, "trum60 or the path of a TOML file")
-    data = _read_toml(source)
+    text = _read_text(source)
+    data = _read_toml(source, text)
     unknown = sorted(set(data) - {"name", "parameters", "published"})
     if unknown:
         raise ParameterError("motor file", unknown[0], "name, parameters and published at the top level")
@@ -194,4 +193,4 @@ def load_motor(source: str | PathLike[str] = "trum60") -> Motor:
     if missing:
         raise ParameterError("motor file: parameters", f"no {', '.join(missing)}", "every required parameter")
     published = tuple(_read_published(entry) for entry in data.get("published", []))
-    return Motor(name=data["name"], published=published, **parameters)
+    return Motor(name=data["name"], published=published, text=text, **parameters)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -29,7 +29,15 @@ from trum_sym.stator import (
 )
 from trum_sym.validate import Array, ArrayLike, Domain, broadcast_shape, number
 
-__all__ = ["Case", "OperatingPoint", "evaluate", "prepare"]
+__all__ = ["FIGURES", "OF_CYCLE", "OF_ORBIT", "Case", "OperatingPoint", "evaluate", "figures", "prepare"]
+
+OF_CYCLE = frozenset(("q_ratio", "q_square_ratio", "q_average", "q_volatility"))
+"""The figures that take the sums over a cycle."""
+OF_ORBIT = frozenset((
+    "mean_speed", "min_speed", "max_speed", "speed_volatility", "stall_torque", "contact_fraction", "converged",
+    "runaway",
+))  # fmt: skip
+"""The figures that take the rotor's orbit; ``runaway`` is where no speed balances the load."""
 
 _ENCODER_SAMPLES = 64  # per drive period, of the path that the encoder differences
 
@@ -96,6 +104,10 @@ class OperatingPoint:
         return {field.name: getattr(self, field.name) for field in fields(self)}
 
 
+FIGURES = tuple(field.name for field in fields(OperatingPoint) if field.name not in ("motor", "start", "contact"))
+"""The figures of an operating point that depend on its numbers, in order."""
+
+
 def evaluate(
     motor: Motor,
     drive: Drive | None = None,
@@ -143,38 +155,9 @@ def evaluate(
         If the forced amplitude and the resonance do not settle.
     """
     case = prepare(motor, drive, Levels(contact, resonance, foundation, amplitude), tolerance, sampling_period)
-    drive, stator, arguments, symbols = case.drive, case.stator, case.arguments, case.symbols
-    timing = call("trum_drive", case.values)
-    turn = 2 * np.pi
-    figures: dict[str, ArrayLike] = {
-        "prepressure": drive.prepressure,
-        "frequency_difference": drive.frequency_difference,
-        "resonance_frequency": np.asarray(stator.omega_n) / turn,
-        "drive_frequency": np.asarray(timing["omega_q"]) / turn,
-        "cycle_time": timing["T"],
-        "amplitude": stator.W,
-        "neutral_axis": stator.D,
-        "wavenumber": stator.k_c,
-        **cycle_sums(case.values),
-    }
-    orbit = solve_orbit(arguments, symbols, progress)
-    deviation = np.sqrt(orbit.variance)
-    if sampling_period is not None:
-        deviation = _encoder(arguments, orbit, timing["T"], sampling_period) / np.asarray(symbols["r_c"])
-    with np.errstate(all="ignore"):
-        volatility = deviation / np.abs(orbit.mean_speed)
-    figures.update(
-        mean_speed=orbit.mean_speed,
-        min_speed=orbit.min_speed,
-        max_speed=orbit.max_speed,
-        speed_volatility=volatility,
-        stall_torque=orbit.stall_torque,
-        contact_fraction=orbit.contact_fraction,
-    )
-    shape = case.shape
-    shaped: dict[str, Any] = {name: _shaped(value, shape) for name, value in figures.items()}
-    converged = np.broadcast_to(orbit.converged, shape) if shape else bool(orbit.converged)
-    return OperatingPoint(motor=motor.name, start=drive.start, contact=contact, converged=converged, **shaped)
+    return OperatingPoint(
+        motor=motor.name, start=case.drive.start, contact=contact, **figures(case, FIGURES, progress)
+    )  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -188,10 +171,17 @@ class Case:
     values: dict[str, ArrayLike]  # of the phases, for an amplitude of 1
     symbols: dict[str, ArrayLike]
     arguments: dict[str, ArrayLike]
+    sampling_period: ArrayLike | None
 
 
 def prepare(
-    motor: Motor, drive: Drive | None, levels: Levels, tolerance: float, sampling_period: ArrayLike | None = None
+    motor: Motor,
+    drive: Drive | None,
+    levels: Levels,
+    tolerance: float,
+    sampling_period: ArrayLike | None = None,
+    *,
+    warn: bool = True,
 ) -> Case:
     """Check the input of :func:`evaluate` and solve the stator.
 
@@ -218,11 +208,56 @@ def prepare(
     shape = broadcast_shape(inputs)
     number("tolerance", tolerance, Domain(low=1e-9, low_open=False, high=1e-2, high_open=False), "1")
     check_steady_state(motor.damping_ratio.value, drive)
-    stator = solve_stator(motor, drive, levels)
+    stator = solve_stator(motor, drive, levels, warn=warn)
     values = modal_values(stator.omega_n, motor.damping_ratio.value, drive)
     symbols = {**motor.symbols(), **stator.values, "F_c": drive.prepressure, "T_load": drive.load_torque}
     arguments = orbit_values(scaled(values, stator.W), symbols, levels.contact, tolerance)
-    return Case(motor, drive, shape, stator, values, symbols, arguments)
+    return Case(motor, drive, shape, stator, values, symbols, arguments, sampling_period)
+
+
+def figures(case: Case, wanted: Collection[str], progress: bool = False) -> dict[str, Any]:
+    """Some figures of a case by name, each of the case's shape; what none of them needs is not computed.
+
+    Parameters
+    ----------
+    case : Case
+        From :func:`prepare`.
+    wanted : names of :data:`FIGURES`, or ``"runaway"``
+        The last says where no speed balances the load.
+    progress : bool
+        As for :func:`evaluate`.
+    """
+    drive, stator = case.drive, case.stator
+    timing = call("trum_drive", case.values)
+    turn = 2 * np.pi
+    found: dict[str, Any] = {
+        "prepressure": drive.prepressure,
+        "frequency_difference": drive.frequency_difference,
+        "resonance_frequency": np.asarray(stator.omega_n) / turn,
+        "drive_frequency": np.asarray(timing["omega_q"]) / turn,
+        "cycle_time": timing["T"],
+        "amplitude": stator.W,
+        "neutral_axis": stator.D,
+        "wavenumber": stator.k_c,
+    }
+    if not OF_CYCLE.isdisjoint(wanted):
+        found |= cycle_sums(case.values)
+    if not OF_ORBIT.isdisjoint(wanted):
+        found |= _of_orbit(case, timing["T"], "speed_volatility" in wanted, progress)
+    return {name: _shaped(found[name], case.shape) for name in wanted}
+
+
+def _of_orbit(case: Case, cycle_time: ArrayLike, volatility: bool, progress: bool) -> dict[str, ArrayLike]:
+    orbit = solve_orbit(case.arguments, case.symbols, progress)
+    found = {name: getattr(orbit, name) for name in OF_ORBIT - {"speed_volatility"}}
+    if volatility:
+        deviation = np.sqrt(orbit.variance)
+        if case.sampling_period is not None:
+            readings = _encoder(case.arguments, orbit, cycle_time, case.sampling_period)
+            deviation = readings / np.asarray(case.symbols["r_c"])
+        with np.errstate(all="ignore"):
+            found["speed_volatility"] = deviation / np.abs(orbit.mean_speed)
+    return found
 
 
 def _encoder(arguments: Mapping[str, ArrayLike], orbit: Orbit, cycle_time: ArrayLike, period: ArrayLike) -> Array:
@@ -241,5 +276,5 @@ def _encoder(arguments: Mapping[str, ArrayLike], orbit: Orbit, cycle_time: Array
     return result
 
 
-def _shaped(value: ArrayLike, shape: tuple[int, ...]) -> ArrayLike:
-    return float(value) if shape == () else np.broadcast_to(np.asarray(value, np.float64), shape)
+def _shaped(value: Any, shape: tuple[int, ...]) -> Any:  # noqa: ANN401
+    return np.broadcast_to(value, shape) if shape else np.asarray(value).item()

@@ -15,7 +15,16 @@ from trum_sym.kernels import call
 from trum_sym.motor import Motor
 from trum_sym.validate import ArrayLike
 
-__all__ = ["AMPLITUDES", "CONTACTS", "FOUNDATIONS", "RESONANCES", "Levels", "Stator", "solve_stator"]
+__all__ = [
+    "AMPLITUDES",
+    "CONTACTS",
+    "FOUNDATIONS",
+    "RESONANCES",
+    "Levels",
+    "Stator",
+    "solve_stator",
+    "warn_outside_fit",
+]
 
 Contact = Literal["winkler", "hertz"]
 Resonance = Literal["quartic", "eq6", "printed", "euler"]
@@ -67,7 +76,8 @@ def _contact_half_angle(contact: Contact, values: dict[str, ArrayLike]) -> Array
     return theta
 
 
-def _warn_outside_fit(motor: Motor, drive: Drive) -> None:
+def warn_outside_fit(motor: Motor, drive: Drive) -> None:
+    """Warn of a prepressure at which eq. 8's amplitude was not measured."""
     low, high = motor.fit_prepressure_min.value, motor.fit_prepressure_max.value
     force = np.asarray(drive.prepressure)
     outside = (force < low) | (force > high)
@@ -100,11 +110,12 @@ def _check_drive_frequency(omega_n: ArrayLike, drive: Drive) -> None:
         )
 
 
-def solve_stator(motor: Motor, drive: Drive, levels: Levels) -> Stator:
+def solve_stator(motor: Motor, drive: Drive, levels: Levels, *, warn: bool = True) -> Stator:
     """Resonance and amplitude under prepressure at the chosen levels.
 
     The layer's stiffness depends on the amplitude through the contact, and the forced amplitude on the
-    resonance: then both are iterated until the amplitude settles.
+    resonance: then both are iterated until the amplitude settles.  ``warn`` says whether a prepressure outside the
+    range of eq. 8's fit is worth a warning.
 
     Raises
     ------
@@ -120,8 +131,8 @@ def solve_stator(motor: Motor, drive: Drive, levels: Levels) -> Stator:
     values.update(F_c=drive.prepressure, Delta_omega=_TURN * np.asarray(drive.frequency_difference))
 
     fixed = values.get("W_maxf")
-    if fixed is None:
-        _warn_outside_fit(motor, drive)
+    if fixed is None and warn:
+        warn_outside_fit(motor, drive)
     values["W"] = fixed if fixed is not None else call("trum_amplitude_measured", values)["W"]
     for _ in range(_MAX_ITERATIONS):
         _resonance(motor, values, levels)

@@ -9,6 +9,7 @@ from trum_sym.console.evaluate import evaluate
 from trum_sym.console.optimize import optimize
 from trum_sym.console.report import report
 from trum_sym.console.simulate import simulate
+from trum_sym.console.sweep import sweep
 from trum_sym.console.tolerance import tolerance
 
 __all__ = ["main"]
@@ -23,7 +24,7 @@ def _cli() -> None:
     """
 
 
-for _command in (evaluate, simulate, tolerance, optimize, equations, report):
+for _command in (evaluate, simulate, sweep, tolerance, optimize, equations, report):
     _cli.add_command(_command)
 
 
@@ -67,9 +68,9 @@ def main(arguments: list[str] | None = None) -> int:
             click.echo(f"trum-sym: {error}", err=True)
             return 2
         except RuntimeError as error:
-            from trum_sym.errors import ConvergenceError
+            from trum_sym.errors import ConvergenceError, UnfinishedError
 
-            if not isinstance(error, ConvergenceError):
+            if not isinstance(error, ConvergenceError | UnfinishedError):
                 raise
             click.echo(f"trum-sym: {error}", err=True)
             return 1

@@ -1,0 +1,137 @@
+"""``trum-sym sweep``."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from trum_sym.console.options import Quantity, chosen_motor, number_option, point_options
+
+if TYPE_CHECKING:
+    from trum_sym.sweeps.plan import Plan
+    from trum_sym.sweeps.run import Estimate, Summary
+
+__all__ = ["sweep"]
+
+
+class Range(click.ParamType):  # type: ignore[type-arg, unused-ignore]
+    """Text that the sweep itself reads: a number or a range."""
+
+    name = "range"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:  # noqa: ANN401, ARG002
+        """As it is."""
+        return str(value)
+
+
+@click.command()
+@point_options
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    metavar="NAME.zarr|FILE",
+    help="A Zarr store, which the same command goes on with; or a small .nc, .parquet or .csv file.",
+)
+@click.option("--outputs", metavar="NAME,...", help="Figures to compute, as in evaluate --json.  [default: all]")
+@click.option(
+    "--scheduler",
+    metavar="ADDRESS",
+    help="A Dask scheduler, such as tcp://host:8786.  [default: this process, all cores]",
+)
+@number_option("--chunk", "1", None, "Points a chunk, at most.  [default: by grid and memory]", "POINTS")
+@click.option("--dry-run", is_flag=True, help="Say points, chunks, size and time, from a sample that is measured.")
+def sweep(
+    motor: str,
+    overrides: tuple[str, ...],
+    out: Path | None,
+    outputs: str | None,
+    scheduler: str | None,
+    chunk: float | None,
+    dry_run: bool,
+    **options: Any,  # noqa: ANN401
+) -> None:
+    """Operating points on a grid: every number may be a range, in --set too.
+
+    \b
+    160:210:51      51 values from 160 to 210, both among them
+    160:210:by=1    from 160 to 210 in steps of 1
+    160,180,200     these
+    @forces.csv     the column of the option's name; columns of one file vary together
+    """  # noqa: D301
+    from trum_sym.drive import Drive
+    from trum_sym.errors import ParameterError
+    from trum_sym.stator import Levels
+    from trum_sym.sweeps.plan import make_plan
+    from trum_sym.sweeps.run import check_out, estimate, run
+
+    if out is None and not dry_run:
+        raise ParameterError("--out", "nothing", "the name of a .zarr store, or of a .nc, .parquet or .csv file")
+    check_out("--out", out)
+    ranges = {name: text for name in _RANGED if (text := options[name]) is not None}
+    fixed = tuple(text for text in overrides if not _is_range(text))
+    for text in overrides:
+        if text not in fixed:
+            name, _, given = text.partition("=")
+            if name.strip() in (*ranges, *(other.partition("=")[0].strip() for other in fixed)):
+                raise ParameterError("--set", text, "each name once")
+            ranges[name.strip()] = given
+    levels = Levels(*(options[name] for name in ("contact", "resonance", "foundation", "amplitude")))
+    names = None if outputs is None else tuple(name.strip() for name in outputs.split(","))
+    plan = make_plan(
+        chosen_motor(motor, fixed), Drive(start=options["start"]), levels, None, 1e-3, names, chunk, ranges
+    )  # fmt: skip
+    if dry_run:
+        click.echo(_estimate(estimate("--out", plan, out, scheduler, chunk is not None), out))
+        return
+    summary = run("--out", plan, out, scheduler, chunk is not None, sys.stderr)[1]
+    click.echo(f"{out}: {_summary(plan, summary)}")
+
+
+def _is_range(override: str) -> bool:
+    from trum_sym.sweeps.notation import is_range
+
+    return is_range(override.partition("=")[2])
+
+
+def _summary(plan: Plan, summary: Summary) -> str:
+    text = f"{summary.points} points of {' '.join(plan.settings.outputs)}"
+    if summary.computed < summary.points:
+        text += f"; {summary.computed} of them computed now"
+    if summary.damaged:
+        text += f", {summary.damaged} damaged chunks among them"
+    if summary.failed:
+        text += f"; {summary.failed} failed, see status"
+    if summary.refusal:
+        text += f" (the first refused: {summary.refusal})"
+    return text
+
+
+def _estimate(found: Estimate, out: Path | None) -> str:
+    from trum_sym.sweeps.progress import duration
+
+    plan, shape = found.plan, " x ".join(f"{axis.name} {axis.size}" for axis in found.plan.grid.axes)
+    chunks = 1
+    for count in plan.chunks:
+        chunks *= count
+    lines = [
+        f"{plan.grid.size} points: {shape}",
+        f"{chunks} chunks of {' x '.join(map(str, plan.chunk))} points",
+        f"{plan.size_bytes / 2**20:.3g} MiB before compression: {' '.join(plan.settings.outputs)} status",
+        f"{duration(found.seconds)} at {found.rate:.3g} points a second on {found.threads} threads, "
+        f"measured on a sample of {found.sample}",
+    ]
+    if found.missing_points < plan.grid.size:
+        lines.insert(3, f"{found.missing_points} points in {found.missing_chunks} chunks are missing in {out}")
+    return "\n".join(lines)
+
+
+_RANGED = []
+for _option in sweep.params:  # the options of a point, but with ranges
+    if _option.name in ("chunk", "motor"):
+        continue
+    if isinstance(_option.type, Quantity) or _option.name == "phase_lead":
+        _option.type = Range()
+        _RANGED.append(str(_option.name))

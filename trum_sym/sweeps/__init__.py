@@ -1,0 +1,1 @@
+"""Many operating points: grids, chunks, stores, and where they are computed."""

@@ -1,0 +1,199 @@
+"""What a sweep will compute: checked settings, grid, chunks, and the words that go with its result."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from trum_sym.drive import Drive, choice
+from trum_sym.errors import ConvergenceError, ParameterError
+from trum_sym.motor import SPECS, Motor
+from trum_sym.operating_point import OF_ORBIT
+from trum_sym.outputs import OUTPUTS
+from trum_sym.stator import Levels, warn_outside_fit
+from trum_sym.sweeps.grid import PARAMETERS, Grid, chunk_shape, read_ranges
+from trum_sym.sweeps.task import STATUS, Settings, Task, identity, sort_out
+from trum_sym.validate import ArrayLike, Domain, number
+
+__all__ = ["Plan", "make_plan"]
+
+_POINT_BYTES = 2048  # at most, while a point is evaluated
+_MEMORY_SHARE = 0.25  # of the machine's, for all chunks that are computed at a time
+_CHUNKS = 256  # at least, where that does not make them tiny
+_CHUNK_POINTS = {True: (1024, 16384), False: (8192, 65536)}  # by whether the rotor's orbit is asked for
+_MAX_CHUNKS = 1_000_000
+_TRIAL = 4096
+_FIT = ("fit_prepressure_min", "fit_prepressure_max")
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A checked sweep.
+
+    Attributes
+    ----------
+    settings : Settings
+    grid : Grid
+    chunk : tuple of int
+        Points of a chunk along each axis.
+    """
+
+    settings: Settings
+    grid: Grid
+    chunk: tuple[int, ...]
+
+    @property
+    def chunks(self) -> tuple[int, ...]:
+        """Number of chunks along each axis."""
+        return tuple(math.ceil(n / c) for n, c in zip(self.grid.shape, self.chunk, strict=True))
+
+    @property
+    def size_bytes(self) -> int:
+        """Of the result, uncompressed."""
+        return self.grid.size * (1 + sum(1 if name == "converged" else 8 for name in self.settings.outputs))
+
+    def with_chunk(self, chunk: tuple[int, ...]) -> Plan:
+        """The same in other chunks."""
+        return replace(self, chunk=chunk)
+
+    def task(self, index: tuple[int, ...]) -> Task:
+        """A chunk as a worker takes it."""
+        where = tuple(
+            slice(i * c, min(n, (i + 1) * c)) for i, c, n in zip(index, self.chunk, self.grid.shape, strict=True)
+        )
+        shape = tuple(part.stop - part.start for part in where)
+        return Task(self.settings, index, self.grid.mesh(where), shape, dict(identity()))
+
+    def sample(self, count: int, shift: int = 0) -> Task:
+        """About ``count`` points spread over the grid as a task of their own; another shift gives others."""
+        step = max(1, self.grid.size // count)
+        numbers = (np.arange(min(count, self.grid.size)) * step + shift) % self.grid.size
+        return Task(self.settings, (), self.grid.points(numbers), numbers.shape, dict(identity()))
+
+    def about(self, name: str) -> dict[str, Any]:
+        """Unit and meaning of a coordinate or a figure."""
+        if name == "status":
+            values = [*range(len(STATUS)), 255]
+            return {"long_name": "what became of the point", "flag_values": values,
+                    "flag_meanings": " ".join((*STATUS, "not_computed"))}  # fmt: skip
+        if name == "converged":
+            return {"long_name": "whether mean and extremes met the tolerance"}
+        if any(name in axis.values for axis in self.grid.axes):
+            return {"units": PARAMETERS[name][1], "long_name": name.replace("_", " ")}
+        return {"units": OUTPUTS[name].unit, "long_name": OUTPUTS[name].label}
+
+    def attributes(self) -> dict[str, str | float]:
+        """Everything that decides about the result but the swept values: as text and numbers that any file holds."""
+        settings, swept = self.settings, [name for axis in self.grid.axes for name in axis.values]
+        motor, levels = settings.motor, settings.levels
+        period = settings.sampling_period
+        numbers: dict[str, Any] = {**settings.numbers, "sampling_period": "none" if period is None else period}
+        found: dict[str, str | float] = {
+            "title": f"{motor.name}: {', '.join(settings.outputs)} over {', '.join(swept)}",
+            **identity(),
+            "motor": motor.name,
+            **{name: value for name, value in numbers.items() if name not in swept},
+            "start": settings.start,
+            "contact": levels.contact,
+            "resonance_level": levels.resonance,
+            "foundation": levels.foundation,
+            "amplitude_level": levels.amplitude,
+            "tolerance": settings.tolerance,
+            "outputs": " ".join(settings.outputs),
+        }
+        for name, parameter in motor.parameters():
+            if name not in swept:
+                found[f"motor_{name}"] = f"{parameter.value!r} {parameter.unit} ({parameter.source})"
+        found["motor_file"] = motor.text
+        found["motor_file_sha256"] = hashlib.sha256(motor.text.encode()).hexdigest()
+        beside = [name for axis in self.grid.axes for name in axis.values if name != axis.name]
+        return {**found, **({"coordinates": " ".join(beside)} if beside else {})}
+
+
+def make_plan(
+    motor: Motor,
+    drive: Drive | None,
+    levels: Levels,
+    sampling_period: ArrayLike | None,
+    tolerance: float,
+    outputs: Sequence[str] | None,
+    chunk: float | None,
+    ranges: Mapping[str, object],
+) -> Plan:
+    """Check everything that a sweep is given, and divide it.
+
+    Raises
+    ------
+    ParameterError
+        For whatever :func:`trum_sym.evaluate` refuses at every point, ranges that are none, figures that are none.
+    """
+    fixed, grid = read_ranges(ranges)
+    swept = {name for axis in grid.axes for name in axis.values}
+    if not isinstance(motor, Motor):
+        raise ParameterError("motor", motor, "a Motor, as load_motor returns it")
+    drive = Drive() if drive is None else drive
+    if not isinstance(drive, Drive):
+        raise ParameterError("drive", drive, "a Drive")
+    numbers = {**drive.numbers(), **{name: value for name, value in fixed.items() if name in drive.numbers()}}
+    set_values = {name: value for name, value in fixed.items() if name in SPECS}
+    machine = replace(motor, published=()).with_values(set_values)
+    period = fixed.get("sampling_period", sampling_period)
+    given: dict[str, ArrayLike] = {**numbers, **{name: parameter.value for name, parameter in machine.parameters()}}
+    for name, value in given.items() if period is None else [*given.items(), ("sampling_period", period)]:
+        if np.ndim(value) and name not in swept:
+            raise ParameterError(name, f"an array of shape {np.shape(value)}", f"one number, or {name}=... as a range")
+    settings = Settings(machine, numbers, drive.start, levels, period, tolerance, _outputs(outputs, swept))
+    for axis in grid.axes:
+        if axis.name in (*settings.outputs, "status"):
+            raise ParameterError(f"dimension {axis.name}", axis.name, "a name that is not that of a figure")
+    plan = Plan(settings, grid, chunk_shape(grid.shape, _points(grid, settings.outputs, chunk)))
+    if math.prod(plan.chunks) > _MAX_CHUNKS:
+        raise ParameterError("chunk", chunk, f"more points in a chunk: {math.prod(plan.chunks)} chunks are too many")
+    _try(plan)
+    return plan
+
+
+def _outputs(given: Sequence[str] | None, swept: set[str]) -> tuple[str, ...]:
+    known = [name for name in (*OUTPUTS, "converged") if name not in swept]
+    if given is None:
+        return tuple(known)
+    if isinstance(given, str) or not given:
+        raise ParameterError("outputs", given, f"a list of figures: {', '.join(known)}")
+    for name in given:
+        if name in swept:
+            raise ParameterError("outputs", name, "figures that are not swept themselves")
+        choice("outputs", name, tuple(known))
+    if len(set(given)) < len(given):
+        raise ParameterError("outputs", ", ".join(given), "each figure once")
+    return tuple(given)
+
+
+def _points(grid: Grid, outputs: tuple[str, ...], chunk: float | None) -> int:
+    """Points of a chunk: for the grid, what its points cost, and the memory of this machine."""
+    if chunk is not None:
+        return int(number("chunk", chunk, Domain(low=1, low_open=False, integer=True), "1"))
+    low, high = _CHUNK_POINTS[not OF_ORBIT.isdisjoint(outputs)]
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    room = int(_MEMORY_SHARE * memory / (_POINT_BYTES * (os.cpu_count() or 1)))
+    return max(1, min(high, room, max(low, grid.size // _CHUNKS)))
+
+
+def _try(plan: Plan) -> None:
+    """Refuse what is wrong at every point; warn of what is measured at none."""
+    task, settings = plan.sample(_TRIAL), plan.settings
+    try:
+        settings.case(task.values)
+    except (ParameterError, ConvergenceError):
+        good, refusal = sort_out(settings, task.values)
+        if refusal is not None and not good.any():
+            raise refusal from None
+    swept = {name: values for axis in plan.grid.axes for name, values in axis.values.items()}
+    if settings.motor.amplitude is None and swept.keys().isdisjoint(("amplitude", *_FIT)):
+        force = swept.get("prepressure", np.array([settings.numbers["prepressure"]]))
+        warn_outside_fit(settings.motor, Drive(prepressure=np.array([force.min(), force.max()])))
