@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -70,3 +71,19 @@ def test_the_python_of_the_page_on_the_optimiser_runs(capsys):
     text = (ROOT / "docs/optimise.md").read_text("utf-8")
     exec(re.search(r"```python\n(.*?)```", text, re.DOTALL)[1], {})
     assert capsys.readouterr().out.startswith("solved ")
+
+
+def test_the_page_on_tolerances_shows_what_its_command_prints(capsys, monkeypatch, tmp_path):
+    text = (ROOT / "docs/tolerance.md").read_text("utf-8")
+    command = re.search(r"^    (trum-sym tolerance (?:.*\\\n)*.*)$", text, re.MULTILINE)[1]
+    monkeypatch.chdir(tmp_path)
+    main(shlex.split(command.replace("\\\n", " "))[1:])
+    assert lines(shown("docs/tolerance.md", "trum-sym tolerance")) == lines(capsys.readouterr().out)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["points.csv", "study.png"]
+
+
+def test_the_page_on_tolerances_has_python_that_runs(capsys):
+    text = (ROOT / "docs/tolerance.md").read_text("utf-8")
+    for block in re.findall(r"```python\n(.*?)```", text, re.DOTALL):
+        exec(block, {})
+    assert capsys.readouterr().out.rstrip().endswith(")}"), "the indices of the last block"

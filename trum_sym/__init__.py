@@ -23,9 +23,12 @@ if TYPE_CHECKING:
     from trum_sym.optimiser.result import Optimum
     from trum_sym.optimiser.search import optimize
     from trum_sym.slopes import sensitivities
+    from trum_sym.uncertainty.distributions import Distribution
+    from trum_sym.uncertainty.study import tolerance
 
 __all__ = [
     "ConvergenceError",
+    "Distribution",
     "Drive",
     "MissingExtraError",
     "Motor",
@@ -39,10 +42,12 @@ __all__ = [
     "optimize",
     "sensitivities",
     "simulate",
+    "tolerance",
 ]
 
 _HOME = {
     "ConvergenceError": "errors",
+    "Distribution": "uncertainty.distributions",
     "Drive": "drive",
     "MissingExtraError": "errors",
     "Motor": "motor",
@@ -56,6 +61,7 @@ _HOME = {
     "optimize": "optimiser.search",
     "sensitivities": "slopes",
     "simulate": "histories",
+    "tolerance": "uncertainty.study",
 }
 
 

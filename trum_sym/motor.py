@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, fields, replace
 from types import MappingProxyType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from trum_sym.errors import ParameterError
 from trum_sym.units import parse_quantity
 from trum_sym.validate import ArrayLike, Domain, broadcast_shape, number
+
+if TYPE_CHECKING:
+    from trum_sym.uncertainty.distributions import Distribution
 
 __all__ = ["SPECS", "Motor", "Parameter", "Published", "Spec", "spec"]
 
@@ -42,6 +45,8 @@ class Parameter:
         For assumed values: what is plausible, in ``unit``.
     reason : str
         For assumed values: why this value and range.
+    distribution : Distribution or None
+        How the value spreads, where the motor file says more than a range.
     """
 
     value: ArrayLike
@@ -50,6 +55,7 @@ class Parameter:
     source: str
     range: tuple[float, float] | None = None
     reason: str = ""
+    distribution: Distribution | None = None
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from trum_sym.console.equations import equations
 from trum_sym.console.evaluate import evaluate
 from trum_sym.console.optimize import optimize
 from trum_sym.console.simulate import simulate
+from trum_sym.console.tolerance import tolerance
 
 __all__ = ["main"]
 
@@ -21,7 +22,7 @@ def _cli() -> None:
     """
 
 
-for _command in (evaluate, simulate, optimize, equations):
+for _command in (evaluate, simulate, tolerance, optimize, equations):
     _cli.add_command(_command)
 
 
