@@ -7,7 +7,9 @@ import math
 from dataclasses import replace
 
 import numpy as np
+import optimise_study
 import pytest
+import slopes_study
 from scipy.optimize import brentq
 
 import trum_sym as ts
@@ -383,3 +385,26 @@ def test_a_box_beyond_the_fit_warns(capsys):
     assert error.startswith("trum-sym: warning: bounds of prepressure: 90 to 150 N reaches outside 100 to 220 N")
     assert "extrapolated" in error
     assert len(error.splitlines()) == 1
+
+
+# --- Studies --------------------------------------------------------------------------------------
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::trum_sym.ValidityWarning")
+@pytest.mark.parametrize("seed", range(1000, 1005))
+def test_random_problems_against_dense_maps(seed):
+    found = list(optimise_study.records(seed, targets=4, side=51))
+    assert [optimise_study.wrong(record) for record in found] == [""] * 6
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::trum_sym.ValidityWarning")
+def test_slopes_come_closer_with_the_tolerance():
+    """At smooth points the errors' medians fall, to 1e-6 and less at the finest."""
+    rows = [row for seed in range(5) for row in slopes_study.record(seed)["errors"].values()]
+    smooth = [errors for agree, *errors in rows if agree <= slopes_study.AGREE]
+    assert len(smooth) > 50
+    rough, middle, fine = np.median(smooth, axis=0)
+    assert fine <= middle <= rough
+    assert fine < 1e-6
