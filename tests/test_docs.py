@@ -45,6 +45,34 @@ def test_the_readme_has_the_two_commands_that_ci_runs():
     assert commands[1].endswith("python -m pytest")
 
 
+def alike(ours, theirs):
+    """The same words, and numbers to a thousandth: a flat optimum's place differs between CPUs."""
+    number = re.compile(r"[+-]?\d+\.?\d*(?:e[+-]?\d+)?")
+    assert [number.sub("#", line).split() for line in lines(ours)] == [
+        number.sub("#", line).split() for line in lines(theirs)
+    ]
+    for mine, other in zip(number.findall(ours), number.findall(theirs), strict=True):
+        small = max(abs(float(mine)), abs(float(other))) < 1e-8  # violations of constraints: met is met
+        assert small or float(mine) == pytest.approx(float(other), rel=2e-3, abs=2e-4)
+
+
+def test_the_page_on_the_optimiser_shows_what_it_prints(capsys):
+    assert main(["optimize", "--target-speed", "633 arcsec/s"]) == 0
+    alike(shown("docs/optimise.md", "trum-sym optimize"), capsys.readouterr().out)
+
+
+def test_the_page_on_the_optimiser_shows_what_its_example_prints():
+    command = [sys.executable, ROOT / "examples" / "optimise.py"]
+    done = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", check=True)
+    alike(shown("docs/optimise.md", "examples/optimise.py"), done.stdout)
+
+
+def test_the_python_of_the_page_on_the_optimiser_runs(capsys):
+    text = (ROOT / "docs/optimise.md").read_text("utf-8")
+    exec(re.search(r"```python\n(.*?)```", text, re.DOTALL)[1], {})
+    assert capsys.readouterr().out.startswith("solved ")
+
+
 def test_the_page_on_tolerances_shows_what_its_command_prints(capsys, monkeypatch, tmp_path):
     text = (ROOT / "docs/tolerance.md").read_text("utf-8")
     command = re.search(r"^    (trum-sym tolerance (?:.*\\\n)*.*)$", text, re.MULTILINE)[1]

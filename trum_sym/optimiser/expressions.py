@@ -104,6 +104,10 @@ class _Term:
     weighted: bool = False
 
 
+def _all_weighted(terms: list[_Term]) -> bool:
+    return all(term.weighted or term.dimension is None for term in terms)
+
+
 class _Reader:
     def __init__(self, name: str, text: str) -> None:
         self.name, self.text = name, text
@@ -160,9 +164,9 @@ class _Reader:
         weighted = left.dimension is None or right.dimension is None or left.weighted or right.weighted
         match op:
             case ast.Add():
-                return _Term(left.graph + right.graph, self.same([left, right]))
+                return _Term(left.graph + right.graph, self.same([left, right]), weighted=_all_weighted([left, right]))
             case ast.Sub():
-                return _Term(left.graph - right.graph, self.same([left, right]))
+                return _Term(left.graph - right.graph, self.same([left, right]), weighted=_all_weighted([left, right]))
             case ast.Mult():
                 return _Term(left.graph * right.graph, None if bare else first.times(second), weighted=weighted)
             case ast.Div():
@@ -183,7 +187,7 @@ class _Reader:
             graph = terms[0].graph
             for term in terms[1:]:
                 graph = many[function](graph, term.graph)
-            return _Term(graph, self.same(terms))
+            return _Term(graph, self.same(terms), weighted=_all_weighted(terms))
         if len(terms) == 1:
             (term,) = terms
             if function == "abs":

@@ -126,7 +126,9 @@ class Model:
         case = self._case(points, tolerance)
         self.evaluations += len(points)
         orbit, found = orbit_with_slopes(case, self.levels)
-        figures, slopes = {**self._closed(case), **_speeds(orbit)}, self._differences(points, range(points.shape[1]))
+        figures = {**self._closed(case), **_speeds(orbit)}
+        closed = self.names.difference(found)
+        slopes = self._differences(points, range(points.shape[1])) if closed else {}
         if _PHASE in self.box.names:
             by_phase = self._differences(points, [self.box.names.index(_PHASE)], orbits=True)
             for of in found:
