@@ -7,6 +7,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from trum_sym.console import main
@@ -42,3 +43,26 @@ def test_the_readme_has_the_two_commands_that_ci_runs():
     assert len(commands) == 2
     assert commands[0].endswith("trum-sym evaluate")
     assert commands[1].endswith("python -m pytest")
+
+
+COMMANDS = re.findall(r"^<!-- trum-sym (calibrate .*) -->$", (ROOT / "docs/calibrate.md").read_text("utf-8"), re.M)
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_the_docs_show_what_calibrate_prints(command, capsys, monkeypatch):
+    monkeypatch.chdir(ROOT)
+    main(command.split())
+    assert lines(shown("docs/calibrate.md", f"trum-sym {command}")) == lines(capsys.readouterr().out)
+
+
+def test_the_synthetic_data_are_what_their_script_makes(tmp_path):
+    subprocess.run([sys.executable, ROOT / "examples" / "synthetic_data.py", tmp_path], check=True)
+    made = sorted(tmp_path.iterdir())
+    assert [path.name for path in made] == sorted(
+        path.name for path in (ROOT / "examples/data").glob("*_synthetic.csv")
+    )
+    for path in made:
+        kept = ROOT / "examples" / "data" / path.name
+        assert path.read_text("utf-8").splitlines()[:2] == kept.read_text("utf-8").splitlines()[:2]
+        ours, theirs = (np.loadtxt(p, delimiter=",", skiprows=2) for p in (path, kept))
+        assert ours == pytest.approx(theirs, rel=1e-5)  # other instruction sets round otherwise

@@ -14,6 +14,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from trum_sym.calibration import Calibration, calibrate
     from trum_sym.drive import Drive
     from trum_sym.errors import ConvergenceError, MissingExtraError, ParameterError, ValidityWarning
     from trum_sym.histories import simulate
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from trum_sym.slopes import sensitivities
 
 __all__ = [
+    "Calibration",
     "ConvergenceError",
     "Drive",
     "MissingExtraError",
@@ -31,6 +33,7 @@ __all__ = [
     "Parameter",
     "ParameterError",
     "ValidityWarning",
+    "calibrate",
     "evaluate",
     "load_motor",
     "sensitivities",
@@ -38,6 +41,7 @@ __all__ = [
 ]
 
 _HOME = {
+    "Calibration": "calibration",
     "ConvergenceError": "errors",
     "Drive": "drive",
     "MissingExtraError": "errors",
@@ -46,6 +50,7 @@ _HOME = {
     "Parameter": "motor",
     "ParameterError": "errors",
     "ValidityWarning": "errors",
+    "calibrate": "calibration",
     "evaluate": "operating_point",
     "load_motor": "motor_file",
     "sensitivities": "slopes",

@@ -13,11 +13,11 @@ from trum_sym.errors import ParameterError
 from trum_sym.motor import SPECS, Motor, Parameter, Published, spec
 from trum_sym.outputs import OUTPUTS
 from trum_sym.units import Unit, parse_unit
-from trum_sym.validate import Domain, number
+from trum_sym.validate import ArrayLike, Domain, number
 
-__all__ = ["load_motor"]
+__all__ = ["load_motor", "motor_text"]
 
-_KEYS = ("value", "unit", "symbol", "source", "range", "reason", "note")
+_KEYS = ("value", "unit", "symbol", "source", "range", "reason", "note", "interval", "data")
 
 
 def _unit(name: str, given: str, wanted: str) -> Unit:
@@ -52,7 +52,7 @@ def _read_parameter(name: str, entry: object) -> Parameter:
     for key in ("value", "unit", "source"):
         if key not in entry:
             raise ParameterError(f"{name}.{key}", "nothing", f"{key} in the motor file")
-    for key in ("unit", "symbol", "source", "reason", "note"):
+    for key in ("unit", "symbol", "source", "reason", "data", "note"):
         if not isinstance(entry.get(key, ""), str):
             raise ParameterError(f"{name}.{key}", entry[key], "text")
     symbol, source, reason = (
@@ -67,18 +67,26 @@ def _read_parameter(name: str, entry: object) -> Parameter:
     unit = _unit(f"{name}.unit", entry["unit"], wanted.unit)
     si = _in_si(f"{name}.value", entry["value"], unit, entry["unit"])
     value = number(name, si, wanted.domain, wanted.unit)
-    limits = None
-    if "range" in entry:
-        raw = entry["range"]
-        if not isinstance(raw, list) or len(raw) != 2:
-            raise ParameterError(f"{name}.range", raw, "two numbers, low and high")
-        low, high = (_in_si(f"{name}.range", end, unit, entry["unit"]) for end in raw)
-        if not -float("inf") < low <= value <= high < float("inf"):
-            raise ParameterError(f"{name}.range", raw, "finite numbers with low <= value <= high")
-        limits = (low, high)
+    limits = _read_ends(f"{name}.range", entry.get("range"), value, unit, entry["unit"])
+    interval = _read_ends(f"{name}.interval", entry.get("interval"), value, unit, entry["unit"])
+    data = entry.get("data", "").strip()
     if source.casefold() == "assumed" and (limits is None or not reason):
         raise ParameterError(name, "source = 'assumed'", "a range and a reason beside it")
-    return Parameter(value, wanted.unit, wanted.symbol, source, limits, reason)
+    if source.casefold() == "calibrated" and (interval is None or not data):
+        raise ParameterError(name, "source = 'calibrated'", "an interval and data, the name of the data, beside it")
+    return Parameter(value, wanted.unit, wanted.symbol, source, limits, reason, interval, data)
+
+
+def _read_ends(name: str, raw: object, value: ArrayLike, unit: Unit, given: str) -> tuple[float, float] | None:
+    """Two numbers around a value, in SI."""
+    if raw is None:
+        return None
+    if not isinstance(raw, list) or len(raw) != 2:
+        raise ParameterError(name, raw, "two numbers, low and high")
+    low, high = (_in_si(name, end, unit, given) for end in raw)
+    if not -float("inf") < low <= value <= high < float("inf"):
+        raise ParameterError(name, raw, "finite numbers with low <= value <= high")
+    return low, high
 
 
 def _read_published(entry: object) -> Published:
@@ -101,7 +109,8 @@ def _read_published(entry: object) -> Published:
     return Published(**{**entry, "drive": MappingProxyType(entry["drive"])})
 
 
-def _read_text(source: str | PathLike[str]) -> str:
+def motor_text(source: str | PathLike[str]) -> str:
+    """The text of a motor file, by name or path."""
     path = Path(__file__).parent / "data" / "trum60.toml" if str(source) == "trum60" else Path(source)
     try:
         return path.read_text("utf-8")
@@ -114,7 +123,7 @@ def _read_text(source: str | PathLike[str]) -> str:
 
 def _read_toml(source: str | PathLike[str]) -> dict[str, Any]:
     try:
-        return tomllib.loads(_read_text(source))
+        return tomllib.loads(motor_text(source))
     except (ValueError, RecursionError) as error:
         if isinstance(error, ParameterError):
             raise

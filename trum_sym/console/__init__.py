@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import click
 
+from trum_sym.console.calibrate import calibrate
 from trum_sym.console.equations import equations
 from trum_sym.console.evaluate import evaluate
 from trum_sym.console.simulate import simulate
@@ -20,7 +21,7 @@ def _cli() -> None:
     """
 
 
-for _command in (evaluate, simulate, equations):
+for _command in (evaluate, simulate, calibrate, equations):
     _cli.add_command(_command)
 
 
