@@ -200,7 +200,7 @@ def test_a_parameter_without_effect_is_named(trum60):
 def test_scatter_that_swallows_the_value_is_no_measurement(trum60):
     force = np.linspace(100, 220, 13)
     resonance = ts.evaluate(trum60, ts.Drive(prepressure=force)).resonance_frequency
-    found = ts.calibrate({"prepressure": force, "resonance_frequency": resonance + noise(5).normal(0, 200, 13)})
+    found = ts.calibrate({"prepressure": force, "resonance_frequency": resonance + noise(5).normal(0, 20, 13)})
     assert found.status == "unidentifiable"
     assert "layer_stiffness" in found.message
 

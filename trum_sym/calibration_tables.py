@@ -62,10 +62,16 @@ def calibration_json(found: Calibration) -> str:
 
 
 def _estimate(e: Estimate) -> dict[str, object]:
+    known = math.isfinite(e.standard_error)
     return {
-        "value": _number(e.value) if math.isfinite(e.standard_error) else None, "unit": e.unit, "low": _number(e.low), "high": _number(e.high),
-        "standard_error": _number(e.standard_error), "before": _number(e.before), "exact_slopes": e.exact_slopes,
-    }  # fmt: skip
+        "value": e.value if known else None,
+        "unit": e.unit,
+        "low": _number(e.low),
+        "high": _number(e.high),
+        "standard_error": _number(e.standard_error),
+        "before": _number(e.before),
+        "exact_slopes": e.exact_slopes,
+    }
 
 
 def calibration_table(found: Calibration, motor: Motor) -> str:

@@ -54,7 +54,7 @@ class Separation:
     condition_number : float
         Largest over smallest of these.
     direction : dict
-        The combination that the data see least, as relative changes; the largest is 1.
+        The combination that the data see least, as relative changes; the largest is 1 or -1.
     half_width : float
         Half the interval of that combination, relative; infinite if the data do not see it at all.
     separated : bool
@@ -204,7 +204,7 @@ def _separation(
         return Separation(np.zeros(len(kept)), np.inf, direction, np.inf, False, message)
     _, singular, turn = np.linalg.svd(J / lengths, full_matrices=False)
     worst = turn[-1] / lengths
-    worst = worst / worst[np.argmax(np.abs(worst))]
+    worst = worst / np.max(np.abs(worst)) * np.copysign(1.0, worst[0])
     direction = dict(zip(judged, (float(x) for x in worst), strict=True))
     condition = float(singular[0] / singular[-1]) if singular[-1] > 0 else np.inf
     if condition > 0.1 / resolution:
