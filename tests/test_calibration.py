@@ -213,6 +213,15 @@ def test_a_fit_that_runs_to_its_end_is_not_solved(trum60):
     assert "damping_ratio" in found.message
 
 
+def test_a_parameter_at_the_end_of_its_range_is_not_solved(trum60):
+    stiff = trum60.with_values({"beam_young_modulus": 180e9})
+    resonance = ts.evaluate(stiff, ts.Drive(prepressure=FORCE)).resonance_frequency
+    found = ts.calibrate({"prepressure": FORCE, "resonance_frequency": resonance}, parameters=["shear_correction"])
+    assert found["shear_correction"].value == pytest.approx(1.0)  # at most 1, and it would need more
+    assert found.status == "unidentifiable"
+    assert "shear_correction to the end of its range" in found.message
+
+
 def test_a_search_cannot_begin_where_the_model_has_no_answer(trum60):
     slippery = trum60.with_values({"friction_coefficient": 0.01})
     data = {"load_torque": np.array([0.0, 0.1, 0.2]), "mean_speed": np.array([1.0, 0.5, 0.1])}
