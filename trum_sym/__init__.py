@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from trum_sym.motor import Motor, Parameter
     from trum_sym.motor_file import load_motor
     from trum_sym.operating_point import OperatingPoint, evaluate
+    from trum_sym.optimiser.result import Optimum
+    from trum_sym.optimiser.search import optimize
     from trum_sym.slopes import sensitivities
 
 __all__ = [
@@ -30,12 +32,14 @@ __all__ = [
     "MissingExtraError",
     "Motor",
     "OperatingPoint",
+    "Optimum",
     "Parameter",
     "ParameterError",
     "ValidityWarning",
     "calibrate",
     "evaluate",
     "load_motor",
+    "optimize",
     "sensitivities",
     "simulate",
 ]
@@ -47,12 +51,14 @@ _HOME = {
     "MissingExtraError": "errors",
     "Motor": "motor",
     "OperatingPoint": "operating_point",
+    "Optimum": "optimiser.result",
     "Parameter": "motor",
     "ParameterError": "errors",
     "ValidityWarning": "errors",
     "calibrate": "calibration",
     "evaluate": "operating_point",
     "load_motor": "motor_file",
+    "optimize": "optimiser.search",
     "sensitivities": "slopes",
     "simulate": "histories",
 }

@@ -13,7 +13,7 @@ from trum_sym.validate import Array, ArrayLike
 
 __all__ = ["call_in_blocks"]
 
-_BLOCK = 512  # NumPy keeps the GIL in loops of 500 points and fewer
+_BLOCK, _SMALLEST = 512, 32  # points in a block, at most and at least
 
 
 def call_in_blocks(kernel: str, values: Mapping[str, ArrayLike], label: str | None = None) -> dict[str, Array]:
@@ -34,18 +34,20 @@ def call_in_blocks(kernel: str, values: Mapping[str, ArrayLike], label: str | No
     # what is the same for all points is not laid out for each
     flat = [column.reshape(-1)[:1] if not any(column.strides) else column.ravel() for column in columns]
     results = np.empty((len(outputs), size))
+    cores = os.cpu_count() or 1
+    length = min(_BLOCK, max(_SMALLEST, -(-size // cores)))
+    starts = range(0, size, length)
+    workers = min(len(starts), cores)
 
     def run(begin: int) -> None:
         block = {
-            name: column if column.size == 1 else column[begin : begin + _BLOCK]
+            name: column if column.size == 1 else column[begin : begin + length]
             for name, column in zip(inputs, flat, strict=True)
         }
         found = call(kernel, block)
         for row, name in zip(results, outputs, strict=True):
-            row[begin : begin + _BLOCK] = found[name]
+            row[begin : begin + length] = found[name]
 
-    starts = range(0, size, _BLOCK)
-    workers = min(len(starts), os.cpu_count() or 1)
     if workers > 1 or (label and len(starts) > 1):
         _in_threads(run, starts, workers, label)
     else:

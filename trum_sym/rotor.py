@@ -11,7 +11,7 @@ from trum_sym.batch import call_in_blocks
 from trum_sym.kernels import call
 from trum_sym.validate import Array, ArrayLike
 
-__all__ = ["Orbit", "encoder_deviation", "history", "orbit_values", "solve_orbit"]
+__all__ = ["Orbit", "as_orbit", "encoder_deviation", "history", "orbit_values", "solve_orbit"]
 
 _CONVERGED, _FULL_CONTACT, _RUNAWAY = 1, 2, 4
 
@@ -70,7 +70,11 @@ def solve_orbit(values: Mapping[str, ArrayLike], stator: Mapping[str, ArrayLike]
     progress : bool
         Whether to show a bar on the standard error while many points are computed.
     """
-    raw = call_in_blocks("rotor_orbit", values, "orbits" if progress else None)
+    return as_orbit(call_in_blocks("rotor_orbit", values, "orbits" if progress else None), stator)
+
+
+def as_orbit(raw: Mapping[str, Array], stator: Mapping[str, ArrayLike]) -> Orbit:
+    """The rotor's figures from those of its rim, as the driver gives them."""
     radius = np.asarray(stator["r_c"])
     flags = raw["flags"].astype(int)
     stall = np.asarray(call("trum_stall_torque", {**stator, "f": raw["held"]})["torque"])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -13,10 +13,11 @@ from trum_sym.errors import ValidityWarning
 from trum_sym.kernels import call
 from trum_sym.motor import Motor
 from trum_sym.operating_point import Case, prepare
-from trum_sym.stator import Amplitude, Contact, Foundation, Levels, Resonance, Stator, solve_stator
+from trum_sym.rotor import Orbit, as_orbit
+from trum_sym.stator import Amplitude, Contact, Foundation, Levels, Resonance, solve_stator
 from trum_sym.validate import Array, ArrayLike
 
-__all__ = ["FIGURES", "PARAMETERS", "sensitivities"]
+__all__ = ["FIGURES", "PARAMETERS", "orbit_with_slopes", "sensitivities"]
 
 PARAMETERS = (
     "prepressure",
@@ -74,9 +75,17 @@ def sensitivities(
         If the forced amplitude and the resonance do not settle.
     """
     levels = Levels(contact, resonance, foundation, amplitude)
-    case = prepare(motor, drive, levels, tolerance)
-    orbit = call("rotor_slopes", {**case.arguments, **_states(case)})
-    slopes = np.asarray(orbit["slopes"])
+    _, found = orbit_with_slopes(prepare(motor, drive, levels, tolerance), levels)
+    return {name: found[name] for name in FIGURES}
+
+
+def orbit_with_slopes(case: Case, levels: Levels) -> tuple[Orbit, dict[str, dict[str, Array]]]:
+    """The orbit of a case that :func:`trum_sym.operating_point.prepare` has checked, and its figures' slopes.
+
+    Beside those of :data:`FIGURES` stands ``speed_deviation``, the speed's standard deviation in rad/s.
+    """
+    raw = call("rotor_slopes", {**case.arguments, **_states(case)})
+    slopes = np.asarray(raw["slopes"])
     force, friction, radius, inertia = (np.asarray(case.symbols[name]) for name in ("F_c", "mu", "r_c", "J"))
     alone = {
         "prepressure": slopes[..., 0] / _column(force),
@@ -86,11 +95,11 @@ def sensitivities(
         "amplitude": slopes[..., 4] / _column(case.stator.W),
         "resonance_frequency": slopes[..., 5] * _TURN,
     }
-    for name in ("prepressure", "frequency_difference"):
-        d_omega_n, d_W = _following(case, levels, name)
+    for name, (d_omega_n, d_W) in _following(case, levels).items():
         alone[name] = alone[name] + alone["amplitude"] * _column(d_W)
         alone[name] = alone[name] + alone["resonance_frequency"] * _column(d_omega_n / _TURN)
-    return _figures(case, orbit, alone)
+    orbit = as_orbit({name: np.asarray(value) for name, value in raw.items() if name != "slopes"}, case.symbols)
+    return orbit, _figures(case, raw, alone)
 
 
 def _column(value: ArrayLike) -> Array:
@@ -106,31 +115,39 @@ def _states(case: Case) -> dict[str, ArrayLike]:
     return {**rates, **call(f"trum_start_{case.drive.start}_slopes", case.arguments)}
 
 
-def _following(case: Case, levels: Levels, name: str) -> tuple[Array, Array]:
-    """Derivatives of the resonance (rad/s) and the amplitude (m) by a field of the drive."""
-    value = np.asarray(getattr(case.drive, name), np.float64)
-    step = _STEP * (value if name == "prepressure" else np.asarray(case.stator.omega_n) / _TURN)
+def _following(case: Case, levels: Levels) -> dict[str, tuple[Array, Array]]:
+    """Derivatives of the resonance (rad/s) and the amplitude (m) by prepressure and frequency difference."""
+    force, difference = (np.asarray(x) for x in (case.drive.prepressure, case.drive.frequency_difference))
+    force_step, difference_step = _STEP * force, _STEP * np.asarray(case.stator.omega_n) / _TURN
+    shifts = np.zeros((2, 8))
+    shifts[0, :4] = shifts[1, 4:] = (1, -1, 2, -2)  # first along one, then along the other
+    along_force, along_difference = shifts.reshape(2, 8, *(1,) * len(case.shape))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ValidityWarning)  # the point itself has warned
+        moved = replace(
+            case.drive,
+            prepressure=force + along_force * force_step,
+            frequency_difference=difference + along_difference * difference_step,
+        )
+        stator = solve_stator(case.motor, moved, levels)
 
-    def at(shift: float) -> Stator:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", ValidityWarning)  # the point itself has warned
-            moved = {name: value + shift * step}
-            return solve_stator(case.motor, replace(case.drive, **moved), levels)  # type: ignore[arg-type]
+    def derivatives(of: ArrayLike) -> tuple[Array, Array]:
+        at = np.broadcast_to(of, (8, *case.shape))
+        by_force = (8 * (at[0] - at[1]) - (at[2] - at[3])) / (12 * force_step)
+        return by_force, (8 * (at[4] - at[5]) - (at[6] - at[7])) / (12 * difference_step)
 
-    near, far = (at(1), at(-1)), (at(2), at(-2))
-
-    def derivative(of: Callable[[Stator], ArrayLike]) -> Array:
-        first, second = (np.subtract(of(up), of(down)) for up, down in (near, far))
-        return np.asarray((8 * first - second) / (12 * step))
-
-    return derivative(lambda stator: stator.omega_n), derivative(lambda stator: stator.W)
+    resonance, amplitude = derivatives(stator.omega_n), derivatives(stator.W)
+    return {
+        "prepressure": (resonance[0], amplitude[0]),
+        "frequency_difference": (resonance[1], amplitude[1]),
+    }
 
 
 def _figures(case: Case, orbit: Mapping[str, ArrayLike], slopes: Mapping[str, Array]) -> dict[str, dict[str, Array]]:
     """From rim speeds, variance and friction fraction to the rotor's figures."""
     radius, force, friction = (np.asarray(case.symbols[name]) for name in ("r_c", "F_c", "mu"))
     mean, held = np.asarray(orbit["mean"]), np.asarray(orbit["held"])
-    found: dict[str, dict[str, Array]] = {name: {} for name in FIGURES}
+    found: dict[str, dict[str, Array]] = {name: {} for name in (*FIGURES, "speed_deviation")}
     with np.errstate(all="ignore"):
         deviation = np.sqrt(orbit["variance"])
         for parameter, slope in slopes.items():
@@ -139,6 +156,7 @@ def _figures(case: Case, orbit: Mapping[str, ArrayLike], slopes: Mapping[str, Ar
             of_deviation, of_mean = slope[..., 3] / (2 * deviation), slope[..., 0] * np.sign(mean)
             volatility = (of_deviation - deviation * of_mean / np.abs(mean)) / np.abs(mean)
             found["speed_volatility"][parameter] = volatility
+            found["speed_deviation"][parameter] = of_deviation / radius
             found["contact_fraction"][parameter] = slope[..., 4]
             stall = call("trum_stall_torque", {**case.symbols, "f": slope[..., 5]})["torque"]
             if parameter in ("prepressure", "friction_coefficient"):  # the torque is in proportion to both

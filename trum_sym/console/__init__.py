@@ -7,6 +7,7 @@ import click
 from trum_sym.console.calibrate import calibrate
 from trum_sym.console.equations import equations
 from trum_sym.console.evaluate import evaluate
+from trum_sym.console.optimize import optimize
 from trum_sym.console.simulate import simulate
 
 __all__ = ["main"]
@@ -21,7 +22,7 @@ def _cli() -> None:
     """
 
 
-for _command in (evaluate, simulate, calibrate, equations):
+for _command in (evaluate, simulate, optimize, calibrate, equations):
     _cli.add_command(_command)
 
 

@@ -1,0 +1,1 @@
+"""Operating points under constraints: :func:`trum_sym.optimize`."""

@@ -1,0 +1,257 @@
+"""IPOPT from several starts side by side.
+
+Orbits cost the least when several run in the lanes of one SIMD register.  So every start's IPOPT has a thread; one of
+them works at a time, and when all of them wait for figures, one batch answers them all.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+import casadi
+import numpy as np
+
+from trum_sym.optimiser.model import Functions, Model
+from trum_sym.validate import Array
+
+__all__ = ["Task", "descend"]
+
+_INFINITE = 1e19  # IPOPT's
+_OPTIONS = {
+    "print_time": False,
+    "error_on_fail": False,
+    "show_eval_warnings": False,
+    "ipopt.print_level": 0,
+    "ipopt.sb": "yes",
+    "ipopt.hessian_approximation": "limited-memory",
+    "ipopt.nlp_scaling_method": "none",
+    "ipopt.bound_relax_factor": 0.0,
+    "ipopt.honor_original_bounds": "yes",
+    "ipopt.bound_push": 1e-3,
+    "ipopt.bound_frac": 1e-3,
+    "ipopt.mu_strategy": "adaptive",
+    "ipopt.tol": 1e-6,
+    "ipopt.acceptable_tol": 1e-4,
+    "ipopt.acceptable_iter": 4,
+    "ipopt.max_iter": 40,
+}
+_MOST_PLACES = 60  # of one start: where orbits are too rough for IPOPT, its line search would go on
+
+
+@dataclass(frozen=True)
+class Task:
+    """A problem in the unit cube from a start.
+
+    ``functions`` are objective and constraints; both are divided by ``scale``, one entry each, before IPOPT sees them.
+    """
+
+    functions: Functions
+    low: Array
+    high: Array
+    scale: Array
+    start: Array
+
+
+@dataclass
+class _Visit:
+    """A place, its objective and constraints, their slopes; filled in by the round."""
+
+    share: Array
+    values: Array = field(default_factory=lambda: np.empty(0))
+    slopes: Array = field(default_factory=lambda: np.empty(0))
+
+
+class _Round:
+    """Collects what the threads ask until all of them wait, and lets one thread work at a time."""
+
+    def __init__(self, answer: Callable[[list[tuple[int, _Visit]]], None], count: int) -> None:
+        self._answer, self._running = answer, count
+        self._changed = threading.Condition()
+        self._asked: list[tuple[int, _Visit]] = []
+        self._waiting: set[int] = set()
+        self._turn = threading.Lock()
+        self.error: BaseException | None = None
+
+    def begin(self) -> None:
+        """Wait for the turn to work."""
+        self._turn.acquire()
+
+    def end(self) -> None:
+        """This thread is done."""
+        self._turn.release()
+        with self._changed:
+            self._running -= 1
+            self._serve()
+
+    def ask(self, number: int, visit: _Visit) -> None:
+        """Have a place's figures computed together with those of the other threads."""
+        self._turn.release()
+        with self._changed:
+            self._asked.append((number, visit))
+            self._waiting.add(number)
+            self._serve()
+            self._changed.wait_for(lambda: number not in self._waiting)
+        self._turn.acquire()
+
+    def _serve(self) -> None:
+        if not self._asked or len(self._asked) < self._running:
+            return
+        asked, self._asked = self._asked, []
+        try:
+            if self.error is None:
+                self._answer(asked)
+        except BaseException as error:
+            self.error = error
+        for _, visit in asked:
+            if visit.values.size == 0:
+                visit.values = np.full(1, np.nan)
+        self._waiting.clear()
+        self._changed.notify_all()
+
+
+class _Values(casadi.Callback):  # type: ignore[misc]
+    """Objective or constraints to CasADi, with their exact slopes."""
+
+    def __init__(self, name: str, rows: slice, count: int, d: int, look: Callable[[Array], _Visit]) -> None:
+        casadi.Callback.__init__(self)
+        self._rows, self._count, self._d, self._look = rows, count, d, look
+        self._slopes: _Slopes | None = None
+        self.construct(name, {})
+
+    def get_n_in(self) -> int:
+        return 1
+
+    def get_n_out(self) -> int:
+        return 1
+
+    def get_sparsity_in(self, _: int) -> casadi.Sparsity:
+        return casadi.Sparsity.dense(self._d, 1)
+
+    def get_sparsity_out(self, _: int) -> casadi.Sparsity:
+        return casadi.Sparsity.dense(self._count, 1)
+
+    def eval(self, arguments: Sequence[casadi.DM]) -> list[casadi.DM]:
+        visit = self._look(np.asarray(arguments[0]).ravel())
+        return [casadi.DM(visit.values[self._rows])]
+
+    def has_jacobian(self) -> bool:
+        return True
+
+    def get_jacobian(self, name: str, *_: object) -> casadi.Function:
+        self._slopes = _Slopes(name, self._rows, self._count, self._d, self._look)
+        return self._slopes
+
+
+class _Slopes(casadi.Callback):  # type: ignore[misc]
+    def __init__(self, name: str, rows: slice, count: int, d: int, look: Callable[[Array], _Visit]) -> None:
+        casadi.Callback.__init__(self)
+        self._rows, self._count, self._d, self._look = rows, count, d, look
+        self.construct(name, {})
+
+    def get_n_in(self) -> int:
+        return 2
+
+    def get_n_out(self) -> int:
+        return 1
+
+    def get_sparsity_in(self, i: int) -> casadi.Sparsity:
+        return casadi.Sparsity.dense(self._d if i == 0 else self._count, 1)
+
+    def get_sparsity_out(self, _: int) -> casadi.Sparsity:
+        return casadi.Sparsity.dense(self._count, self._d)
+
+    def eval(self, arguments: Sequence[casadi.DM]) -> list[casadi.DM]:
+        visit = self._look(np.asarray(arguments[0]).ravel())
+        return [casadi.DM(visit.slopes[self._rows])]
+
+
+def descend(model: Model, tasks: Sequence[Task], tolerance: float) -> list[Array]:
+    """The best place that IPOPT saw from each start.
+
+    Best is by violation of the constraints down to a millionth of their scale, then by the objective: whatever IPOPT
+    says of its success is not asked.
+
+    Parameters
+    ----------
+    model : Model
+        Gives the figures.
+    tasks : sequence of Task
+    tolerance : float
+        Of the orbits.
+
+    Returns
+    -------
+    list of (d,) arrays
+        In the unit cube, in the order of the tasks.
+    """
+    box = model.box
+
+    def answer(asked: list[tuple[int, _Visit]]) -> None:
+        points = box.at(np.array([visit.share for _, visit in asked]))
+        figures, slopes = model.figures_with_slopes(points, tolerance)
+        for row, (number, visit) in enumerate(asked):
+            task = tasks[number]
+            own = {name: figures[name][row : row + 1] for name in task.functions.names}
+            by = {name: slopes[name][row : row + 1] * box.width for name in task.functions.names}
+            visit.values = task.functions.values(own)[0] / task.scale
+            visit.slopes = task.functions.slopes(own, by)[0] / task.scale[:, np.newaxis]
+
+    table = _Round(answer, len(tasks))
+    best: list[Array] = [task.start for task in tasks]
+
+    def work(number: int) -> None:
+        table.begin()
+        try:
+            best[number] = _ipopt(tasks[number], lambda visit: table.ask(number, visit))
+        except BaseException as error:
+            table.error = table.error or error
+        finally:
+            table.end()
+
+    threads = [threading.Thread(target=work, args=(k,), daemon=True) for k in range(len(tasks))]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    if table.error is not None:
+        raise table.error
+    return best
+
+
+def _ipopt(task: Task, ask: Callable[[_Visit], None]) -> Array:
+    d, seen = task.start.size, list[_Visit]()
+
+    def look(share: Array) -> _Visit:
+        for visit in reversed(seen):
+            if np.array_equal(visit.share, share):
+                return visit
+        visit = _Visit(share.copy())
+        if len(seen) < _MOST_PLACES:
+            ask(visit)
+        if visit.slopes.size == 0:
+            visit.values, visit.slopes = np.full(task.scale.size, np.nan), np.full((task.scale.size, d), np.nan)
+        seen.append(visit)
+        return visit
+
+    x = casadi.MX.sym("x", d)
+    count = task.scale.size - 1
+    objective = _Values("objective", slice(0, 1), 1, d, look)
+    problem = {"x": x, "f": objective(x)}
+    bounds: dict[str, object] = {"lbx": np.zeros(d), "ubx": np.ones(d), "x0": task.start}
+    low, high = task.low / task.scale[1:], task.high / task.scale[1:]
+    if count:
+        constraints = _Values("constraints", slice(1, None), count, d, look)
+        problem["g"] = constraints(x)
+        bounds["lbg"], bounds["ubg"] = np.maximum(low, -_INFINITE), np.minimum(high, _INFINITE)
+    solver = casadi.nlpsol("solver", "ipopt", problem, _OPTIONS)
+    solver(**bounds)
+
+    def rank(visit: _Visit) -> tuple[float, float]:
+        g = visit.values[1:]
+        violation = float(np.max(np.maximum(low - g, g - high), initial=0.0))
+        return max(violation, 1e-6), float(visit.values[0])
+
+    usable = [visit for visit in seen if np.all(np.isfinite(visit.values))]
+    return min(usable, key=rank).share if usable else task.start

@@ -1,0 +1,186 @@
+"""The figures of many points of a box at once, with their slopes, as objective and constraints need them."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import casadi
+import numpy as np
+
+from trum_sym.drive import Drive
+from trum_sym.errors import ValidityWarning
+from trum_sym.kernels import call
+from trum_sym.modal import cycle_sums
+from trum_sym.motor import Motor
+from trum_sym.operating_point import Case, evaluate, prepare
+from trum_sym.optimiser.expressions import Expression, symbol
+from trum_sym.rotor import Orbit, solve_orbit
+from trum_sym.slopes import orbit_with_slopes
+from trum_sym.stator import Levels
+from trum_sym.validate import Array
+
+__all__ = ["Box", "Functions", "Model", "functions"]
+
+_TURN = 2 * np.pi
+_ORBIT = ("mean_speed", "min_speed", "max_speed", "speed_volatility", "contact_fraction", "stall_torque")
+_DETERMINANT = ("q_ratio", "q_square_ratio", "q_average", "q_volatility")
+_INPUTS = ("prepressure", "frequency_difference", "switching_phase", "load_torque", "periods", "on_periods")
+_STEP = 1e-3  # of the closed forms' differences, relative: their error is its sixth power
+
+
+@dataclass(frozen=True)
+class Box:
+    """Where the variables may be; each an entry of :class:`trum_sym.Drive`."""
+
+    names: tuple[str, ...]
+    low: Array
+    high: Array
+
+    @property
+    def width(self) -> Array:
+        """High less low."""
+        return self.high - self.low
+
+    def at(self, share: Array) -> Array:
+        """Points of the box from their place in the unit cube, (n, d)."""
+        return np.clip(self.low + share * self.width, self.low, self.high)
+
+
+@dataclass(frozen=True)
+class Functions:
+    """Expressions as functions of named figures: rows of values, and their derivatives by the figures."""
+
+    names: tuple[str, ...]
+    value: Any
+    jacobian: Any
+
+    def values(self, figures: Mapping[str, Array]) -> Array:
+        """One row a point, one column an expression."""
+        columns = np.array([figures[name] for name in self.names])
+        return np.asarray(self.value(columns), np.float64).T
+
+    def slopes(self, figures: Mapping[str, Array], by: Mapping[str, Array]) -> Array:
+        """Derivatives by the box's variables, (points, expressions, variables)."""
+        columns = np.array([figures[name] for name in self.names])
+        inner = np.stack([by[name] for name in self.names], axis=1)  # points, figures, variables
+        outer = np.asarray(self.jacobian(columns), np.float64)
+        outer = outer.reshape(outer.shape[0], columns.shape[1], len(self.names)).transpose(1, 0, 2)
+        with np.errstate(all="ignore"):
+            return np.asarray(outer @ inner)
+
+
+def functions(expressions: Sequence[Expression]) -> Functions:
+    """Compile expressions over the figures that occur in them."""
+    names = tuple(sorted(frozenset().union(*(expression.names for expression in expressions))))
+    arguments = casadi.vertcat(*(symbol(name) for name in names))
+    rows = casadi.vertcat(*(expression.graph for expression in expressions))
+    return Functions(
+        names,
+        casadi.Function("value", [arguments], [rows]),
+        casadi.Function("jacobian", [arguments], [casadi.densify(casadi.jacobian(rows, arguments))]),
+    )
+
+
+class Model:
+    """A motor under a drive whose entries in the box vary.
+
+    Parameters
+    ----------
+    motor : Motor
+    drive : Drive
+        What does not vary; all numbers scalars.
+    levels : Levels
+    box : Box
+    names : set of str
+        The figures that are wanted.
+
+    Attributes
+    ----------
+    evaluations : int
+        Orbits computed so far.
+    """
+
+    def __init__(self, motor: Motor, drive: Drive, levels: Levels, box: Box, names: frozenset[str]) -> None:
+        self.motor, self.drive, self.levels, self.box, self.names = motor, drive, levels, box, names
+        self.evaluations = 0
+
+    def drives(self, points: Array) -> Drive:
+        """The drive at points of the box, (n, d)."""
+        varied: dict[str, Any] = {name: points[..., k] for k, name in enumerate(self.box.names)}
+        return replace(self.drive, **varied)
+
+    def figures(self, points: Array, tolerance: float) -> dict[str, Array]:
+        """The wanted figures, mean speed and deviation always among them; NaN where no speed balances the load."""
+        case = self._case(points, tolerance)
+        self.evaluations += len(points)
+        return {**self._closed(case), **_speeds(solve_orbit(case.arguments, case.symbols))}
+
+    def figures_with_slopes(self, points: Array, tolerance: float) -> tuple[dict[str, Array], dict[str, Array]]:
+        """The same and their derivatives by the box's variables, each (n, d)."""
+        case = self._case(points, tolerance)
+        self.evaluations += len(points)
+        orbit, found = orbit_with_slopes(case, self.levels)
+        figures, slopes = {**self._closed(case), **_speeds(orbit)}, self._closed_slopes(points, tolerance)
+        for name in (*_ORBIT, "speed_deviation"):
+            slopes[name] = np.stack([found[name][variable] for variable in self.box.names], axis=-1)
+        return figures, slopes
+
+    def check(self, point: Array, tolerance: float) -> dict[str, float]:
+        """Every figure of one point by :func:`trum_sym.evaluate`, independent of what found it."""
+        drive = self.drives(point)
+        self.evaluations += 1
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", ValidityWarning)
+            found = evaluate(self.motor, drive, **vars(self.levels), tolerance=tolerance).as_dict()
+            extra = self._closed(self._case(point[np.newaxis], tolerance))
+        figures = {name: value for name, value in found.items() if isinstance(value, float)}
+        figures["speed_deviation"] = figures["speed_volatility"] * abs(figures["mean_speed"])
+        return {**{name: float(value[0]) for name, value in extra.items()}, **figures}
+
+    def _case(self, points: Array, tolerance: float) -> Case:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", ValidityWarning)  # the box has warned
+            return prepare(self.motor, self.drives(points), self.levels, tolerance)
+
+    def _closed(self, case: Case) -> dict[str, Array]:
+        """Figures that need no orbit."""
+        found: dict[str, Any] = {name: getattr(case.drive, name) for name in _INPUTS}
+        timing = call("trum_drive", case.values)
+        found["resonance_frequency"] = np.asarray(case.stator.omega_n) / _TURN
+        found["drive_frequency"] = np.asarray(timing["omega_q"]) / _TURN
+        found |= {"cycle_time": timing["T"], "amplitude": case.stator.W}
+        found |= {"neutral_axis": case.stator.D, "wavenumber": case.stator.k_c}
+        if self.names.intersection(_DETERMINANT):
+            found |= cycle_sums(case.values)
+        return {name: np.broadcast_to(value, case.shape) for name, value in found.items()}
+
+    def _closed_slopes(self, points: Array, tolerance: float) -> dict[str, Array]:
+        """Their slopes, by central differences of sixth order."""
+        shifts = np.array([1.0, -1.0, 2.0, -2.0, 3.0, -3.0])
+        weights = np.array([45.0, -45.0, -9.0, 9.0, 1.0, -1.0]) / 60
+        columns: dict[str, list[Array]] = {}
+        for k, name in enumerate(self.box.names):
+            step = _STEP * (np.abs(points[:, k]) if name == "prepressure" else 1e4 if "freq" in name else 1.0)
+            moved = np.repeat(points[np.newaxis], 6, axis=0)
+            moved[:, :, k] += shifts[:, np.newaxis] * step
+            for figure, value in self._closed(self._case(moved, tolerance)).items():
+                columns.setdefault(figure, []).append(weights @ value / step)
+        return {figure: np.stack(by, axis=-1) for figure, by in columns.items()}
+
+
+def _speeds(orbit: Orbit) -> dict[str, Array]:
+    deviation = np.sqrt(orbit.variance)
+    with np.errstate(all="ignore"):
+        volatility = deviation / np.abs(orbit.mean_speed)
+    return {
+        "mean_speed": orbit.mean_speed,
+        "min_speed": orbit.min_speed,
+        "max_speed": orbit.max_speed,
+        "speed_volatility": volatility,
+        "speed_deviation": deviation,
+        "stall_torque": orbit.stall_torque,
+        "contact_fraction": orbit.contact_fraction,
+    }

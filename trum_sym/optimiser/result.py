@@ -1,0 +1,143 @@
+"""What the optimiser answers, for people and for programs."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+
+from trum_sym.outputs import OUTPUTS
+from trum_sym.units import parse_unit
+
+__all__ = ["Evidence", "Optimum", "as_json_text", "as_table"]
+
+_ARCSEC = parse_unit("arcsec/s").to_si(1.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Evidence:
+    """Why the answer is to be believed.
+
+    Attributes
+    ----------
+    map_shape : tuple of int
+        Grid of the box on which the search began.
+    basins : int
+        Places of that map that meet the constraints and that no place around beats.
+    starts : int
+        How many places IPOPT started from.
+    optima : tuple of float
+        Objectives of the distinct local optima, the best first.
+    pulses : int
+        Pairs of periods and on_periods in the ranges.
+    pruned : int
+        Those that a coarse map ruled out.
+    reachable_speed : (float, float) or None
+        Lowest and highest mean speed in the box under the other constraints, rad/s; where the target is not between.
+    """
+
+    map_shape: tuple[int, ...]
+    basins: int
+    starts: int
+    optima: tuple[float, ...]
+    pulses: int
+    pruned: int
+    reachable_speed: tuple[float, float] | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Optimum:
+    """An operating point under constraints; SI units, frequencies in Hz, speeds in rad/s.
+
+    Attributes
+    ----------
+    status : {"solved", "infeasible", "failed"}
+        What the checked point and the evidence say, not a solver.  ``failed``: neither a point that meets the
+        constraints nor evidence that there is none.
+    objective : float or None
+        At the optimum; None unless solved.
+    prepressure, frequency_difference, on_periods, periods, switching_phase : float or None
+        The optimum; of what is infeasible, the nearest point that can be reached; None where no speed balances the
+        load anywhere in the box.
+    mean_speed, speed_volatility, q_average, q_volatility : float or None
+        There, by :func:`trum_sym.evaluate` at a tolerance of 1e-9.
+    constraint_violation : float or None
+        The largest, over the constraint's bound; up to 1e-8 counts as met.
+    evaluations : int
+        Orbits computed on the way.
+    message : str
+        The answer in one line.
+    evidence : Evidence
+    figures : mapping
+        Every figure of the point.
+    """
+
+    status: str
+    objective: float | None
+    prepressure: float | None
+    frequency_difference: float | None
+    on_periods: int | None
+    periods: int | None
+    switching_phase: float | None
+    mean_speed: float | None
+    speed_volatility: float | None
+    q_average: float | None
+    q_volatility: float | None
+    constraint_violation: float | None
+    evaluations: int
+    message: str
+    evidence: Evidence
+    figures: Mapping[str, float]
+
+    def as_dict(self) -> dict[str, object]:
+        """The answer by name, without ``figures``; None for what has no meaning or is infinite."""
+        found = {field.name: _known(getattr(self, field.name)) for field in fields(self) if field.name != "figures"}
+        evidence = {field.name: getattr(self.evidence, field.name) for field in fields(Evidence)}
+        return {**found, "evidence": evidence}
+
+
+def _known(value: object) -> object:
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def as_json_text(optimum: Optimum) -> str:
+    """The answer as a JSON object; null where a figure has no meaning."""
+    return json.dumps(optimum.as_dict(), indent=1, allow_nan=False)
+
+
+def _shown(name: str, value: float) -> tuple[str, str, str]:
+    label, unit, shown = OUTPUTS[name]
+    return label, f"{parse_unit(unit).to_si(value) / parse_unit(shown).to_si(1.0):.8g}", "" if shown == "1" else shown
+
+
+def as_table(optimum: Optimum, title: str) -> str:
+    """The answer as a table."""
+    from tabulate import tabulate
+
+    heading = f"{title}\n\n{optimum.status}: {optimum.message}"
+    if optimum.prepressure is None:
+        return heading
+    rows: list[tuple[str, str, str]] = [
+        ("prepressure", f"{optimum.prepressure:.8g}", "N"),
+        ("frequency difference", f"{optimum.frequency_difference:.8g}", "Hz"),
+        ("on periods of periods", f"{optimum.on_periods} of {optimum.periods}", ""),
+        ("switching phase", f"{optimum.switching_phase:.8g}", "rad"),
+    ]
+    names = (
+        "mean_speed", "min_speed", "max_speed", "speed_volatility", "q_average", "q_volatility", "stall_torque",
+        "contact_fraction",
+    )  # fmt: skip
+    rows += [_shown(name, optimum.figures[name]) for name in names]
+    rows.append(("constraint violation", f"{optimum.constraint_violation:.1e}", ""))
+    evidence = optimum.evidence
+    grid = " x ".join(map(str, evidence.map_shape))
+    notes = [
+        f"map of {grid} places: {evidence.basins} basins that meet the constraints; IPOPT from {evidence.starts} starts",
+        f"distinct local optima: {', '.join(f'{value:.6g}' for value in evidence.optima) or 'none'}",
+    ]
+    if evidence.pulses > 1:
+        notes.append(f"pulse counts: {evidence.pulses} pairs, {evidence.pruned} ruled out by a coarse map")
+    notes.append(f"{optimum.evaluations} orbits computed")
+    table = tabulate(rows, disable_numparse=True, colalign=("left", "right", "left"), tablefmt="plain")
+    return "\n".join([heading, "", table, "", *notes])

@@ -1,0 +1,343 @@
+"""``ts.optimize``: input, integers, answer."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from types import MappingProxyType
+
+import numpy as np
+
+from trum_sym.drive import DRIVE_DOMAINS, Drive
+from trum_sym.errors import ParameterError, ValidityWarning
+from trum_sym.motor import Motor
+from trum_sym.optimiser.chart import basins, chart
+from trum_sym.optimiser.expressions import Constraint, Expression, parse_constraint, parse_expression, symbol
+from trum_sym.optimiser.model import Box, functions
+from trum_sym.optimiser.result import Evidence, Optimum
+from trum_sym.optimiser.solve import Answer, Problem, solve
+from trum_sym.stator import Amplitude, Contact, Foundation, Levels, Resonance
+from trum_sym.units import parse_quantity
+from trum_sym.validate import number
+
+__all__ = ["OBJECTIVES", "optimize"]
+
+OBJECTIVES: Mapping[str, str] = MappingProxyType(
+    {
+        "volatility": "speed_volatility",
+        "q-volatility": "abs(q_volatility)",
+        "speed-error": "speed_volatility",
+        "ripple": "(max_speed - min_speed) / abs(mean_speed)",
+        "wear": "peak_pressure",
+    }
+)
+PAPER_BOX = {"prepressure": (160.0, 210.0), "frequency_difference": (2800.0, 3300.0)}
+_VARIABLES = ("prepressure", "frequency_difference")
+_PULSES = ("periods", "on_periods")
+_COARSE = 8  # divisions of the maps that rank pulse counts
+_MARGIN = 0.25  # by which such a map may overrate a pair's objective
+_BEYOND = 0.1  # of the range of speeds, by which it may miss the target
+
+Bound = float | str | tuple[float | str, float | str]
+
+
+def optimize(
+    motor: Motor,
+    drive: Drive | None = None,
+    *,
+    objective: str = "volatility",
+    target_speed: float | str | None = None,
+    bounds: Mapping[str, Bound] | None = None,
+    constraints: Sequence[str] = (),
+    contact: Contact = "winkler",
+    resonance: Resonance = "quartic",
+    foundation: Foundation = "harmonic",
+    amplitude: Amplitude = "measured",
+) -> Optimum:
+    """The operating point of least objective in a box, under constraints.
+
+    Parameters
+    ----------
+    motor : Motor
+        Of single values, no arrays.
+    drive : Drive, optional
+        What does not vary: load torque, start, and whatever ``bounds`` does not name.  The paper's Table 3 if not given.
+    objective : str
+        ``"volatility"`` (speed_volatility, eq. 40), ``"q-volatility"`` (the magnitude of Q_vib, eq. 44),
+        ``"speed-error"`` (distance of the mean speed from the target, and among points without, the volatility),
+        ``"ripple"`` (highest less lowest speed over the mean), ``"wear"`` (highest contact pressure), or arithmetic on
+        figures, ``"speed_volatility + 1e-3 * prepressure"``: see :mod:`trum_sym.optimiser.expressions`.
+    target_speed : float or str, rad/s, optional
+        Mean speed that the point is to have; text may carry a unit, ``"633 arcsec/s"``.  Its sign is the direction.
+    bounds : mapping, optional
+        ``{"prepressure": (160, 210), "frequency_difference": ("2.8 kHz", "3.3 kHz")}`` is the default.  One number
+        holds a variable there.  ``periods`` and ``on_periods`` may have bounds too and are enumerated.
+    constraints : sequence of str
+        ``"stall_torque >= 0.35 N*m"``: arithmetic on figures, ``>=``, ``<=`` or ``==``, a value or more arithmetic.
+    contact, resonance, foundation, amplitude
+        As for :func:`trum_sym.evaluate`.
+
+    Returns
+    -------
+    Optimum
+
+    Raises
+    ------
+    ParameterError
+        For bad input; names the parameter, what it got, what is allowed.
+    MissingExtraError
+        Without CasADi.
+
+    Notes
+    -----
+    Everything below works in SI on :class:`trum_sym.optimiser.solve.Problem`; ``solve(problem)`` returns an ``Answer``
+    for one pair of pulse counts, and takes a map and a model from a problem that differs in bounds of constraints only.
+    """
+    drive = Drive() if drive is None else drive
+    _check_scalars(motor, drive)
+    target = None if target_speed is None else _number("target_speed", target_speed, "rad/s")
+    box, pulses, drive = _box(drive, bounds)
+    aim, limits = _aim(objective, target, constraints)
+    levels = Levels(contact, resonance, foundation, amplitude)
+    problem = Problem(motor, drive, levels, box, aim, limits)
+    _warn_outside_fit(problem)
+    best, chosen, pruned, evaluations = _over_pulses(problem, pulses)
+    return _optimum(objective, target, chosen, best, len(pulses), pruned, evaluations)
+
+
+def _check_scalars(motor: Motor, drive: Drive) -> None:
+    if not isinstance(motor, Motor):
+        raise ParameterError("motor", motor, "a Motor, as load_motor returns it")
+    if not isinstance(drive, Drive):
+        raise ParameterError("drive", drive, "a Drive")
+    for name, value in [*drive.numbers().items(), *((name, p.value) for name, p in motor.parameters())]:
+        if np.ndim(value):
+            raise ParameterError(
+                name, f"an array of shape {np.shape(value)}", "one number; optimize each case by itself"
+            )
+
+
+def _number(name: str, value: object, unit: str) -> float:
+    """A finite number in its SI unit, from a number or text."""
+    from trum_sym.validate import Domain
+
+    given = parse_quantity(name, value, unit) if isinstance(value, str) else value
+    if np.ndim(given):  # type: ignore[arg-type]
+        raise ParameterError(name, value, f"one number in {unit}")
+    return float(number(name, given, Domain(), unit))
+
+
+def _box(drive: Drive, bounds: Mapping[str, Bound] | None) -> tuple[Box, list[tuple[int, int]], Drive]:
+    """The box of what varies, the pairs of periods and on_periods, and the drive with what is held."""
+    if bounds is not None and not isinstance(bounds, Mapping):
+        raise ParameterError("bounds", bounds, "a mapping of names to (low, high)")
+    given = {**PAPER_BOX, **(bounds or {})}
+    ranges: dict[str, tuple[float, float]] = {}
+    held: dict[str, float] = {}
+    for name, value in given.items():
+        if name not in (*_VARIABLES, *_PULSES):
+            raise ParameterError("bounds", name, f"one of {', '.join((*_VARIABLES, *_PULSES))}")
+        domain, unit = DRIVE_DOMAINS[name]
+        if not isinstance(value, tuple | list):
+            held[name] = float(number(name, _number(name, value, unit), domain, unit))
+            continue
+        if len(value) != 2:
+            raise ParameterError(f"bounds of {name}", value, "two numbers, low and high")
+        low, high = (float(number(f"bounds of {name}", _number(f"bounds of {name}", end, unit), domain, unit))
+                     for end in value)  # fmt: skip
+        if low > high or (low == high and name in _VARIABLES):
+            empty = "one number holds it there" if low == high else "these are reversed"
+            raise ParameterError(f"bounds of {name}", f"{low:g} to {high:g}", f"low < high in {unit} ({empty})")
+        ranges[name] = (low, high)
+    drive = replace(drive, **{name: value for name, value in held.items() if name not in _PULSES})
+    axes = [
+        ranges.get(name, (held.get(name, float(getattr(drive, name))),) * 2)
+        for name in _PULSES  # type: ignore[arg-type]
+    ]
+    counts = [range(int(low), int(high) + 1) for low, high in axes]
+    pulses = [(m, n) for m in counts[0] for n in counts[1] if m <= 2 * n <= 2 * m]
+    if not pulses:
+        raise ParameterError("bounds of on_periods", f"{axes[1][0]:g} to {axes[1][1]:g}",
+                             f"a range with periods/2 to periods in it, with periods {axes[0][0]:g} to {axes[0][1]:g}")  # fmt: skip
+    names = tuple(name for name in _VARIABLES if name in ranges)
+    if not names:
+        raise ParameterError("bounds", "every variable held", "a range for prepressure or frequency_difference")
+    ends = np.array([ranges[name] for name in names])
+    return Box(names, ends[:, 0], ends[:, 1]), pulses, drive
+
+
+def _aim(
+    objective: object, target: float | None, constraints: Sequence[str]
+) -> tuple[Expression, tuple[Constraint, ...]]:
+    """Objective and constraints as expressions."""
+    if isinstance(constraints, str) or not isinstance(constraints, Sequence):
+        raise ParameterError("constraints", constraints, "a sequence of texts such as 'stall_torque >= 0.35 N*m'")
+    limits = [parse_constraint("constraint", text) for text in constraints]
+    if not isinstance(objective, str):
+        raise ParameterError("objective", objective, f"one of {', '.join(OBJECTIVES)}, or arithmetic on figures")
+    if objective == "speed-error" and target is None:
+        raise ParameterError("target_speed", "none", "a speed in rad/s for the objective speed-error")
+    if target == 0 and objective in ("volatility", "ripple"):
+        raise ParameterError("target_speed", target, f"a speed other than 0 for the objective {objective}, which is "
+                             "relative to it; speed_deviation and max_speed - min_speed are not")  # fmt: skip
+    if objective.isidentifier() or ("-" in objective and objective.replace("-", "").isalpha()):
+        from trum_sym.optimiser.expressions import FIGURES
+
+        if objective not in OBJECTIVES and not any(part.strip() in FIGURES for part in objective.split("-")):
+            raise ParameterError("objective", objective, f"one of {', '.join(OBJECTIVES)}, or arithmetic on figures "
+                                 "such as speed_volatility")  # fmt: skip
+    aim = parse_expression("objective", OBJECTIVES.get(objective, objective))
+    if target is not None:
+        limits.insert(0, Constraint(parse_expression("target_speed", "mean_speed"), target, target))
+        if aim.text == "speed_volatility":  # the same where the speed is the target, and smooth everywhere
+            deviation = symbol("speed_deviation") / (abs(target) or 1.0)
+            aim = Expression("speed_volatility", deviation, frozenset({"speed_deviation"}), "1")
+        if objective == "ripple":
+            swing = (symbol("max_speed") - symbol("min_speed")) / abs(target)
+            aim = Expression(aim.text, swing, frozenset({"max_speed", "min_speed"}), "1")
+    return aim, tuple(limits)
+
+
+def _warn_outside_fit(problem: Problem) -> None:
+    motor, box = problem.motor, problem.box
+    if motor.amplitude is not None:
+        return
+    if "prepressure" in box.names:
+        k = box.names.index("prepressure")
+        low, high = box.low[k], box.high[k]
+    else:
+        low = high = float(problem.drive.prepressure)
+    least, most = float(motor.fit_prepressure_min.value), float(motor.fit_prepressure_max.value)
+    if low < least or high > most:
+        where = f"{low:g} to {high:g} N" if high > low else f"{low:g} N"
+        warnings.warn(
+            f"bounds of prepressure: {where} reaches outside {least:g} to {most:g} N, where eq. 8's amplitude was "
+            "measured; beyond, the amplitude and every figure of the answer are extrapolated",
+            ValidityWarning,
+            stacklevel=3,
+        )
+
+
+def _over_pulses(problem: Problem, pulses: list[tuple[int, int]]) -> tuple[Answer, Problem, int, int]:
+    """The best answer over all pairs of periods and on_periods.
+
+    A coarse map ranks the pairs; those whose estimate is worse than the best answer by a margin are not solved.
+    """
+
+    def at(pair: tuple[int, int]) -> Problem:
+        return replace(problem, drive=replace(problem.drive, periods=pair[0], on_periods=pair[1]))
+
+    if len(pulses) == 1:
+        chosen = at(pulses[0])
+        answer = solve(chosen)
+        return answer, chosen, 0, answer.evaluations
+    low = np.array([constraint.low for constraint in problem.constraints])
+    high = np.array([constraint.high for constraint in problem.constraints])
+    rows = functions([problem.objective, *(constraint.expression for constraint in problem.constraints)])
+    ranked, evaluations = [], 0
+    for pair in pulses:
+        model = at(pair).model()
+        coarse = chart(model, _COARSE)
+        values = rows.values(coarse.figures)[:, 1:]
+        with np.errstate(all="ignore"):
+            span = np.array([np.ptp(column[np.isfinite(column)]) if np.isfinite(column).any() else 1.0
+                             for column in values.T])  # fmt: skip
+        places = basins(coarse, rows, low, high, np.where(span > 0, span, 1.0))
+        evaluations += model.evaluations
+        if len(places[0]):
+            missed = float(places[2][0])
+            ranked.append((missed > 1e-12, float(places[1][0]), missed, pair))
+    ranked.sort(key=lambda entry: (entry[0], entry[2] if entry[0] else 0.0, entry[1]))
+    best: tuple[Answer, Problem] | None = None
+    solved = 0
+    for missing, estimate, missed, pair in ranked:
+        if best is not None and best[0].status == "solved" and best[0].best is not None:
+            most = best[0].best.objective + _MARGIN * abs(best[0].best.objective)
+            if (missing and missed > _BEYOND) or estimate > most:
+                continue
+        chosen = at(pair)
+        answer = solve(chosen)
+        solved, evaluations = solved + 1, evaluations + answer.evaluations
+        if best is None or _rank(answer) < _rank(best[0]):
+            best = (answer, chosen)
+    if best is None:
+        chosen = at(pulses[0])
+        best = (solve(chosen), chosen)
+    return best[0], best[1], len(pulses) - solved, evaluations
+
+
+def _rank(answer: Answer) -> tuple[int, float, float]:
+    if answer.best is None:
+        return 2, math.inf, math.inf
+    solved = answer.status == "solved"
+    return 0 if solved else 1, 0.0 if solved else answer.best.violation, answer.best.objective
+
+
+def _optimum(
+    objective: str, target: float | None, problem: Problem, answer: Answer, pulses: int, pruned: int, evaluations: int
+) -> Optimum:
+    best = answer.best
+    status = answer.status
+    reachable = answer.ranges.get(0) if target is not None else None
+    figures = {} if best is None else best.figures
+    if objective == "speed-error" and best is not None and target is not None:
+        error = abs(figures["mean_speed"] - target)
+        others = [c for c in problem.constraints[1:]]
+        if status == "infeasible" and not others:
+            status = "solved"
+        value: float | None = error
+        optima = tuple([error] if status == "solved" else [])
+    else:
+        value = None if best is None else best.objective
+        optima = tuple(entry for _, entry in answer.optima)
+    evidence = Evidence(
+        map_shape=answer.map_shape, basins=answer.basins, starts=answer.starts, optima=optima,
+        pulses=pulses, pruned=pruned, reachable_speed=reachable,
+    )  # fmt: skip
+    drive = problem.drive
+    if best is not None:
+        drive = replace(drive, **dict(zip(problem.box.names, best.point.tolist(), strict=True)))
+    known = {} if best is None else {
+        "prepressure": float(drive.prepressure),
+        "frequency_difference": float(drive.frequency_difference),
+        "on_periods": int(drive.on_periods),
+        "periods": int(drive.periods),
+        "switching_phase": float(drive.switching_phase),
+        **{name: figures[name] for name in ("mean_speed", "speed_volatility", "q_average", "q_volatility")},
+        "constraint_violation": best.violation,
+    }  # fmt: skip
+    names = (
+        "prepressure", "frequency_difference", "on_periods", "periods", "switching_phase", "mean_speed",
+        "speed_volatility", "q_average", "q_volatility", "constraint_violation",
+    )  # fmt: skip
+    return Optimum(
+        status=status,
+        objective=value if status == "solved" else None,
+        **{name: known.get(name) for name in names},  # type: ignore[arg-type]
+        evaluations=evaluations,
+        message=_message(status, objective, target, answer, reachable),
+        evidence=evidence,
+        figures=MappingProxyType(dict(figures)),
+    )
+
+
+def _message(
+    status: str, objective: str, target: float | None, answer: Answer, reachable: tuple[float, float] | None
+) -> str:
+    arcsec = math.pi / 648000
+    if status == "solved":
+        count = len(answer.optima)
+        return f"least {objective} in the box; {count} distinct local {'optimum' if count == 1 else 'optima'} found"
+    if answer.best is None:
+        return "no speed balances the load anywhere in the box: it exceeds what friction can transmit"
+    if status == "infeasible" and reachable is not None and target is not None:
+        low, high = (speed / arcsec for speed in reachable)
+        return (
+            f"{target / arcsec:.6g} arcsec/s cannot be reached in the box: mean speeds are {low:.6g} to {high:.6g} "
+            "arcsec/s; the point given is the nearest"
+        )
+    if status == "infeasible":
+        return "no point of the box meets all constraints; the one given violates them the least"
+    return "no point that meets the constraints was found, nor evidence that there is none; the nearest is given"

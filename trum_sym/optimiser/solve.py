@@ -1,0 +1,297 @@
+"""A problem and its answer: map, basins, IPOPT from each, a checked point, or the evidence that there is none."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import casadi
+import numpy as np
+
+from trum_sym.drive import Drive
+from trum_sym.motor import Motor
+from trum_sym.optimiser.chart import Chart, basins, chart
+from trum_sym.optimiser.descent import Task, descend
+from trum_sym.optimiser.expressions import Constraint, Expression
+from trum_sym.optimiser.finish import Bounds, Finished, checked, finish
+from trum_sym.optimiser.model import Box, Functions, Model, functions
+from trum_sym.stator import Levels
+from trum_sym.validate import Array
+
+__all__ = ["Answer", "Problem", "solve"]
+
+_MOST_STARTS = 8
+_DESCENT = 1e-6  # tolerance of IPOPT's orbits
+_CLOSE = 1e-3  # objectives closer than this share are finished too; optima closer than this in the box are one
+_STEPS = 60  # of a bisection
+
+
+@dataclass(frozen=True)
+class Problem:
+    """Least objective in a box under constraints, for a motor and what of its drive does not vary."""
+
+    motor: Motor
+    drive: Drive
+    levels: Levels
+    box: Box
+    objective: Expression
+    constraints: tuple[Constraint, ...] = ()
+
+    @property
+    def names(self) -> frozenset[str]:
+        """The figures that occur."""
+        return self.objective.names.union(*(constraint.expression.names for constraint in self.constraints))
+
+    def model(self) -> Model:
+        """The figures of this problem's points; problems that differ in the constraints' bounds only may share it."""
+        return Model(self.motor, self.drive, self.levels, self.box, self.names)
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What was found, and why it is to be believed.
+
+    Attributes
+    ----------
+    status : {"solved", "infeasible", "failed"}
+        ``infeasible``: the least violation, or a constraint's whole range in the box, was found and excludes it;
+        ``failed``: neither a point nor such evidence was found.
+    best : Finished or None
+        The optimum, or the nearest point that can be reached; None where no speed balances the load anywhere.
+    optima : list of Finished or (share, objective)
+        Local optima that are distinct, best first, as IPOPT left them.
+    map_shape : tuple of int
+    basins : int
+        Places of the map that no place around beats.
+    starts : int
+        Those that IPOPT started from.
+    ranges : dict
+        Lowest and highest value of an equality's expression in the box, where they were looked for.
+    evaluations : int
+        Orbits computed.
+    """
+
+    status: str
+    best: Finished | None
+    optima: list[tuple[Array, float]]
+    map_shape: tuple[int, ...]
+    basins: int
+    starts: int
+    ranges: dict[int, tuple[float, float]]
+    evaluations: int
+
+
+@dataclass
+class _Search:
+    """A problem under way."""
+
+    problem: Problem
+    model: Model
+    map: Chart
+    functions: Functions
+    bounds: Bounds
+    span: Array  # of the constraints over the map
+    optima: list[tuple[Array, float]] = field(default_factory=list)
+    basins: int = 0
+    starts: int = 0
+    ranges: dict[int, tuple[float, float]] = field(default_factory=dict)
+
+    def answer(self, status: str, best: Finished | None) -> Answer:
+        """As it stands."""
+        return Answer(
+            status, best, self.optima, self.map.shape, self.basins, self.starts, self.ranges, self.model.evaluations
+        )
+
+
+def solve(problem: Problem, model: Model | None = None, known: Chart | None = None) -> Answer:
+    """Find the least objective in the box.
+
+    Parameters
+    ----------
+    problem : Problem
+    model : Model, optional
+        From a problem that names the same figures; counts the evaluations.
+    known : Chart, optional
+        Its map, if it is there already.
+    """
+    model = problem.model() if model is None else model
+    known = chart(model) if known is None else known
+    rows = functions([problem.objective, *(constraint.expression for constraint in problem.constraints)])
+    values = rows.values(known.figures)
+    low = np.array([constraint.low for constraint in problem.constraints])
+    high = np.array([constraint.high for constraint in problem.constraints])
+    span, size = _extent(values[:, 1:])
+    bound = np.where(np.isfinite(low), low, high)
+    search = _Search(problem, model, known, rows, Bounds(low, high, np.where(bound == 0, size, np.abs(bound))), span)
+    if not np.isfinite(known.figures["mean_speed"]).any():
+        return search.answer("infeasible", None)
+    places, objective, violation = basins(known, rows, low, high, span)
+    met = violation <= 1e-12
+    search.basins = int(met.sum())
+    best = _descend_and_finish(search, places[met]) if met.any() else None
+    if best is None or not best.feasible:
+        begun, nearest = _towards_feasible(search, places[~met])
+        again = _descend_and_finish(search, begun) if len(begun) else None
+        found = [point for point in (best, again, nearest) if point is not None]
+        best = min(found, key=lambda point: (max(point.violation, 1e-8), point.objective), default=None)
+    if best is not None and best.feasible:
+        return search.answer("solved", best)
+    return search.answer("infeasible" if _excluded(search, best) else "failed", best)
+
+
+def _extent(values: Array) -> tuple[Array, Array]:
+    """Range and largest size of the map's columns, 1 where they do not tell."""
+    with np.errstate(all="ignore"):
+        columns = np.where(np.isfinite(values), values, np.nan)
+        known = np.isfinite(columns).any(axis=0)
+        columns = np.where(known, columns, 1.0)
+        span, size = np.nanmax(columns, axis=0) - np.nanmin(columns, axis=0), np.nanmax(np.abs(columns), axis=0)
+    return np.where(span > 0, span, np.where(size > 0, size, 1.0)), np.where(size > 0, size, 1.0)
+
+
+def _descend_and_finish(search: _Search, starts: Array) -> Finished | None:
+    """IPOPT from each start; the best of what comes out, onto its constraints and checked."""
+    starts = starts[:_MOST_STARTS]
+    model, rows, bounds = search.model, search.functions, search.bounds
+    first = rows.values(model.figures(model.box.at(starts), _DESCENT))[:, 0]
+    sizes = np.abs(first[np.isfinite(first)])
+    scale = np.concatenate([[float(np.min(sizes, initial=np.inf))], search.span])
+    scale[0] = scale[0] if 0 < scale[0] < np.inf else 1.0
+    tasks = [Task(rows, bounds.low, bounds.high, scale, start) for start in starts]
+    found = descend(model, tasks, _DESCENT)
+    search.starts += len(tasks)
+    values = rows.values(model.figures(model.box.at(np.array(found)), _DESCENT))
+    near = np.array([np.max(np.abs(bounds.excess(g)) * bounds.unit / search.span, initial=0.0) for g in values[:, 1:]])
+    near = np.where(np.isfinite(near) & np.isfinite(values[:, 0]), near, np.inf)
+    order = np.lexsort((values[:, 0], np.maximum(near, 1e-5)))
+    best: Finished | None = None
+    for k in order:
+        place, value = found[k], float(values[k, 0])
+        distinct = all(np.max(np.abs(place - other)) > _CLOSE for other, _ in search.optima)
+        if distinct and near[k] <= 1e-4:
+            search.optima.append((place, value))
+        if (
+            best is not None
+            and best.feasible
+            and (not distinct or value > best.objective + _CLOSE * abs(best.objective))
+        ):
+            continue
+        point = finish(model, rows, bounds, place)
+        if best is None or (max(point.violation, 1e-8), point.objective) < (max(best.violation, 1e-8), best.objective):
+            best = point
+    search.optima.sort(key=lambda optimum: optimum[1])
+    return best
+
+
+def _towards_feasible(search: _Search, places: Array) -> tuple[Array, Finished | None]:
+    """Starts that meet the constraints, which the map does not show; and the nearest point to that."""
+    model, rows, bounds = search.model, search.functions, search.bounds
+    equal = np.flatnonzero(bounds.low == bounds.high)
+    nearest: Finished | None = None
+    if equal.size == 1:
+        started, nearest = _by_extremes(search, int(equal[0]))
+        if started is not None:
+            return started[np.newaxis], nearest
+    starts = places[:_MOST_STARTS]
+    excess = casadi.vertcat(
+        *(
+            casadi.fmax(0, (constraint.low if math.isfinite(constraint.low) else -1e300) - constraint.expression.graph)
+            / unit
+            if not math.isfinite(constraint.high)
+            else casadi.fmax(0, constraint.expression.graph - constraint.high) / unit
+            if not math.isfinite(constraint.low)
+            else (constraint.expression.graph - constraint.low) / unit
+            for constraint, unit in zip(search.problem.constraints, search.span, strict=True)
+        )
+    )
+    names = search.problem.names
+    merit = functions([Expression("violation", casadi.sumsqr(excess), names, "1")])
+    none = np.empty(0)
+    found = descend(model, [Task(merit, none, none, np.ones(1), start) for start in starts], _DESCENT)
+    search.starts += len(found)
+    points = [finish(model, rows, bounds, place) for place in _distinct(found)]
+    if nearest is not None:
+        points.append(nearest)
+    best = min(points, key=lambda point: (max(point.violation, 1e-8), point.objective), default=None)
+    good = [point.share for point in points if point.feasible]
+    return np.array(good).reshape(len(good), len(model.box.names)), best
+
+
+def _distinct(places: list[Array]) -> list[Array]:
+    kept: list[Array] = []
+    for place in places:
+        if all(np.max(np.abs(place - other)) > _CLOSE for other in kept):
+            kept.append(place)
+    return kept
+
+
+def _by_extremes(search: _Search, k: int) -> tuple[Array | None, Finished | None]:
+    """The range of an expression that is to have a value, under the other constraints.
+
+    If the value is inside, a place that has it, found between two places on its two sides; else the nearer end.
+    """
+    model, bounds = search.model, search.bounds
+    constraints = search.problem.constraints
+    others = [constraint for i, constraint in enumerate(constraints) if i != k]
+    keep = [i for i in range(len(constraints)) if i != k]
+    rest = Bounds(bounds.low[keep], bounds.high[keep], bounds.unit[keep])
+    own, value = constraints[k].expression, float(bounds.low[k])
+    tasks: list[Task] = []
+    signs: list[float] = []
+    for sign in (1.0, -1.0):
+        turned = Expression(own.text, sign * own.graph, own.names, own.unit)
+        rows = functions([turned, *(constraint.expression for constraint in others)])
+        places, _, violation = basins(search.map, rows, rest.low, rest.high, search.span[keep])
+        for place in places[violation <= 1e-12][: _MOST_STARTS // 2]:
+            tasks.append(Task(rows, rest.low, rest.high, np.concatenate([[search.span[k]], search.span[keep]]), place))
+            signs.append(sign)
+    if not tasks:
+        return None, None
+    found = descend(model, tasks, _DESCENT)
+    search.starts += len(found)
+    rows = functions([own, *(constraint.expression for constraint in others)])
+    ends = []
+    for place in _distinct(found):
+        point = finish(model, rows, rest, place)
+        if point.feasible:
+            ends.append(point)
+    if not ends:
+        return None, None
+    lowest, highest = min(ends, key=lambda e: e.objective), max(ends, key=lambda e: e.objective)
+    search.ranges[k] = (lowest.objective, highest.objective)
+    nearer = min(ends, key=lambda end: abs(end.objective - value))
+    nearest = checked(model, search.functions, bounds, nearer.share)
+    if not lowest.objective <= value <= highest.objective:
+        return None, nearest
+    return _between(search, functions([own]), lowest.share, highest.share, value), nearest
+
+
+def _between(search: _Search, rows: Functions, low: Array, high: Array, value: float) -> Array:
+    """A place on the line between two where an expression has a value that lies between theirs, by bisection.
+
+    Eight places at a time, which cost what one does.
+    """
+    model, d = search.model, len(search.model.box.names)
+    for _ in range(_STEPS):
+        along = np.linspace(0.0, 1.0, 10)[1:-1, np.newaxis]
+        places = low + along * (high - low)
+        found = rows.values(model.figures(model.box.at(places), _DESCENT))[:, 0]
+        below = np.flatnonzero(found <= value)
+        above = np.flatnonzero(found > value)
+        if below.size + above.size < len(places):  # no orbit in between
+            return low
+        last = below.max() if below.size else -1
+        new_low = low if last < 0 else places[last]
+        new_high = high if last + 1 == len(places) else places[last + 1]
+        low, high = new_low, new_high
+        if np.max(np.abs(high - low)) < 1e-9 * max(d, 1):
+            break
+    return low
+
+
+def _excluded(search: _Search, best: Finished | None) -> bool:
+    """Whether what was found excludes a feasible point: an end of the range, or a least violation above rounding."""
+    for k, (lowest, highest) in search.ranges.items():
+        if not lowest <= search.bounds.low[k] <= highest:
+            return True
+    return best is not None and 1e-6 < best.violation < math.inf and not search.ranges
