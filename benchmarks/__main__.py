@@ -11,7 +11,7 @@ import trum_sym as ts  # noqa: F401
 from benchmarks.rows import Row, cpu_name, table
 from trum_sym import _kernels
 
-SECTIONS = ("step", "point", "map", "start")
+SECTIONS = ("step", "point", "map", "start", "optimise")
 
 
 def main() -> None:
@@ -23,6 +23,7 @@ def main() -> None:
     parser.add_argument("--repeats", type=int, default=5, help="runs behind each median (default 5)")
     parser.add_argument("--points", type=int, default=100_000, help="of the largest map (default 100000)")
     parser.add_argument("--cycles", type=int, default=12, help="of LSODA, before its rate is extrapolated (default 12)")
+    parser.add_argument("--problems", type=int, default=20, help="that the optimisers solve (default 20)")
     chosen = parser.parse_args()
     repeats = 2 if chosen.quick else max(1, chosen.repeats)
     rows: list[Row] = []
@@ -42,6 +43,10 @@ def main() -> None:
         from benchmarks import cold_start
 
         rows += cold_start.rows(repeats)
+    if "optimise" in chosen.only:
+        from benchmarks import optimise
+
+        rows += optimise.rows(2 if chosen.quick else chosen.problems)
     machine = {
         "cpu": cpu_name(),
         "instruction_sets": list(_kernels.instruction_sets()),

@@ -300,6 +300,12 @@ def _rotor() -> list[Kernel]:
             {"theta": "rad", "sin_theta": "1", "share": "1", "engagement": "1"},
         ),
         Kernel(
+            "trum_peak_pressure",
+            "Contact pressure under a crest (eqs. 28, 30, 31)",
+            {"pressure": rotor.peak_pressure()},
+            {"pressure": "Pa"},
+        ),
+        Kernel(
             "trum_stall_torque", "Torque on a held rotor (eq. 38)", {"torque": rotor.stall_torque()}, {"torque": "N*m"}
         ),
         Kernel(

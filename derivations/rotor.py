@@ -25,6 +25,7 @@ __all__ = [
     "friction_slopes",
     "hertz_full_height",
     "less",
+    "peak_pressure",
     "phasor",
     "rotation",
     "stall_torque",
@@ -39,7 +40,7 @@ f_A_re, f_A_im, f_B_re, f_B_im = sym("f_A_re f_A_im f_B_re f_B_im")
 p_re, p_im, e_re, e_im, d_re, d_im, g_A, g_B = sym("p_re p_im e_re e_im d_re d_im g_A g_B")
 W_c, engagement, share, theta, phi, R_v, v = sym("W_c engagement share theta phi R_v v")
 fullness, fullness_root, sin_theta, cos_phi, sin_phi = sym("fullness fullness_root sin_theta cos_phi sin_phi")
-n_j, k_N, F_c, mu, r_c, J, T_load = sym("n_j k_N F_c mu r_c J T_load")
+n_j, k_N, F_c, mu, r_c, J, T_load, b_m = sym("n_j k_N F_c mu r_c J T_load b_m")
 engagement_per_height, W_full, fraction = sym("engagement_per_height W_full f")
 
 
@@ -189,6 +190,16 @@ def contact_hertz() -> dict[str, sp.Expr]:
     angle = sp.pi * sp.sqrt(sp.Min(1, W_full / (W_c + TINY)))
     scale = 1 / (sp.sin(angle) - angle * sp.cos(angle))
     return {"theta": angle, "sin_theta": sp.sin(angle), "share": -scale * sp.cos(angle), "engagement": scale}
+
+
+def peak_pressure() -> sp.Expr:
+    """Pressure under a crest, where it is highest (eqs. 28, 30, 31): the wear's proxy.
+
+    The share of the load between -u and u is engagement sin u + share u, and one crest of n_j carries F_c / n_j on a
+    strip of width b_m: what it has at u = 0 per length u / k_c.  For the layer that is k_N W_c (1 - cos theta) / b_m.
+    """
+    share_per_angle = sp.diff(engagement * sp.sin(phi) + share * phi, phi).subs(phi, 0) / 2
+    return F_c / n_j * k_c * share_per_angle / b_m
 
 
 def _points() -> list[tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr, sp.Expr]]:

@@ -128,6 +128,11 @@ int trum_contact_hertz(const trum_real** arg, trum_real** res, long long int* iw
 enum { trum_contact_hertz_in_W_c, trum_contact_hertz_in_W_full, trum_contact_hertz_n_arg };
 enum { trum_contact_hertz_out_theta, trum_contact_hertz_out_sin_theta, trum_contact_hertz_out_share, trum_contact_hertz_out_engagement, trum_contact_hertz_n_res };
 
+/* Contact pressure under a crest (eqs. 28, 30, 31) */
+int trum_peak_pressure(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_peak_pressure_in_F_c, trum_peak_pressure_in_b_m, trum_peak_pressure_in_engagement, trum_peak_pressure_in_k_c, trum_peak_pressure_in_n_j, trum_peak_pressure_in_share, trum_peak_pressure_n_arg };
+enum { trum_peak_pressure_out_pressure, trum_peak_pressure_n_res };
+
 /* Torque on a held rotor (eq. 38) */
 int trum_stall_torque(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_stall_torque_in_F_c, trum_stall_torque_in_f, trum_stall_torque_in_mu, trum_stall_torque_in_r_c, trum_stall_torque_n_arg };
@@ -188,6 +193,7 @@ enum { trum_friction_slopes_out_f_phi, trum_friction_slopes_out_f_E, trum_fricti
   X(trum_filling, 2, 2, "W_c engagement_per_height", "engagement fullness") \
   X(trum_contact_winkler, 2, 3, "fullness fullness_root", "theta sin_theta share") \
   X(trum_contact_hertz, 2, 4, "W_c W_full", "theta sin_theta share engagement") \
+  X(trum_peak_pressure, 6, 1, "F_c b_m engagement k_c n_j share", "pressure") \
   X(trum_stall_torque, 4, 1, "F_c f mu r_c", "torque") \
   X(trum_friction, 9, 4, "R_v cos_phi engagement phi share sin_phi sin_theta theta v", "f f_v p_1 p_2") \
   X(trum_start_periodic_slopes, 8, 8, "Delta_omega W m n omega_n psi s xi", "a_A_omega_n b_A_omega_n a_B_omega_n b_B_omega_n a_A_Delta_omega b_A_Delta_omega a_B_Delta_omega b_B_Delta_omega") \

@@ -152,6 +152,7 @@ enum {
   trum_at_phi,
   trum_at_phi_Delta_omega,
   trum_at_phi_omega_n,
+  trum_at_pressure,
   trum_at_printed,
   trum_at_psi,
   trum_at_push,
@@ -344,6 +345,12 @@ static inline void trum_call_contact_hertz(trum_real* v) {
   const trum_real* arg[trum_contact_hertz_n_arg] = {v + trum_at_W_c, v + trum_at_W_full};
   trum_real* res[trum_contact_hertz_n_res] = {v + trum_at_theta, v + trum_at_sin_theta, v + trum_at_share, v + trum_at_engagement};
   trum_contact_hertz(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_peak_pressure(trum_real* v) {
+  const trum_real* arg[trum_peak_pressure_n_arg] = {v + trum_at_F_c, v + trum_at_b_m, v + trum_at_engagement, v + trum_at_k_c, v + trum_at_n_j, v + trum_at_share};
+  trum_real* res[trum_peak_pressure_n_res] = {v + trum_at_pressure};
+  trum_peak_pressure(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_stall_torque(trum_real* v) {

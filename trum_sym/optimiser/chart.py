@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
 from trum_sym.optimiser.model import Functions, Model
 from trum_sym.validate import Array
 
 __all__ = ["Chart", "basins", "chart"]
+
+Index: TypeAlias = npt.NDArray[np.intp]
 
 _DIVISIONS = {1: 64, 2: 16, 3: 9}  # grid points along a side, by the number of variables
 _TOLERANCE = 1e-3
@@ -42,7 +46,7 @@ def chart(model: Model, divisions: int | None = None) -> Chart:
     return Chart(share, (side.size,) * d, model.figures(model.box.at(share), _TOLERANCE))
 
 
-def _crossings(found: Chart, residual: Array) -> tuple[Array, Array, Array]:
+def _crossings(found: Chart, residual: Array) -> tuple[Index, Index, Array]:
     """Edges of the grid along which a residual changes sign: their ends, and where along them."""
     grid = np.arange(residual.size).reshape(found.shape)
     first, second = [], []

@@ -9,6 +9,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import casadi
 import numpy as np
@@ -16,10 +17,10 @@ import numpy as np
 from trum_sym.optimiser.model import Functions, Model
 from trum_sym.validate import Array
 
-__all__ = ["Task", "descend"]
+__all__ = ["Task", "Visit", "descend"]
 
 _INFINITE = 1e19  # IPOPT's
-_OPTIONS = {
+_OPTIONS: dict[str, Any] = {
     "print_time": False,
     "error_on_fail": False,
     "show_eval_warnings": False,
@@ -32,9 +33,10 @@ _OPTIONS = {
     "ipopt.bound_push": 1e-3,
     "ipopt.bound_frac": 1e-3,
     "ipopt.mu_strategy": "adaptive",
-    "ipopt.tol": 1e-6,
+    "ipopt.tol": 1e-5,
     "ipopt.acceptable_tol": 1e-4,
-    "ipopt.acceptable_iter": 4,
+    "ipopt.acceptable_iter": 2,
+    "ipopt.accept_after_max_steps": 3,
     "ipopt.max_iter": 40,
 }
 _MOST_PLACES = 60  # of one start: where orbits are too rough for IPOPT, its line search would go on
@@ -55,8 +57,8 @@ class Task:
 
 
 @dataclass
-class _Visit:
-    """A place, its objective and constraints, their slopes; filled in by the round."""
+class Visit:
+    """A place in the unit cube, objective and constraints there, and their slopes, (1 + constraints, d)."""
 
     share: Array
     values: Array = field(default_factory=lambda: np.empty(0))
@@ -66,10 +68,10 @@ class _Visit:
 class _Round:
     """Collects what the threads ask until all of them wait, and lets one thread work at a time."""
 
-    def __init__(self, answer: Callable[[list[tuple[int, _Visit]]], None], count: int) -> None:
+    def __init__(self, answer: Callable[[list[tuple[int, Visit]]], None], count: int) -> None:
         self._answer, self._running = answer, count
         self._changed = threading.Condition()
-        self._asked: list[tuple[int, _Visit]] = []
+        self._asked: list[tuple[int, Visit]] = []
         self._waiting: set[int] = set()
         self._turn = threading.Lock()
         self.error: BaseException | None = None
@@ -85,7 +87,7 @@ class _Round:
             self._running -= 1
             self._serve()
 
-    def ask(self, number: int, visit: _Visit) -> None:
+    def ask(self, number: int, visit: Visit) -> None:
         """Have a place's figures computed together with those of the other threads."""
         self._turn.release()
         with self._changed:
@@ -111,10 +113,10 @@ class _Round:
         self._changed.notify_all()
 
 
-class _Values(casadi.Callback):  # type: ignore[misc]
+class _Values(casadi.Callback):
     """Objective or constraints to CasADi, with their exact slopes."""
 
-    def __init__(self, name: str, rows: slice, count: int, d: int, look: Callable[[Array], _Visit]) -> None:
+    def __init__(self, name: str, rows: slice, count: int, d: int, look: Callable[[Array], Visit]) -> None:
         casadi.Callback.__init__(self)
         self._rows, self._count, self._d, self._look = rows, count, d, look
         self._slopes: _Slopes | None = None
@@ -144,8 +146,8 @@ class _Values(casadi.Callback):  # type: ignore[misc]
         return self._slopes
 
 
-class _Slopes(casadi.Callback):  # type: ignore[misc]
-    def __init__(self, name: str, rows: slice, count: int, d: int, look: Callable[[Array], _Visit]) -> None:
+class _Slopes(casadi.Callback):
+    def __init__(self, name: str, rows: slice, count: int, d: int, look: Callable[[Array], Visit]) -> None:
         casadi.Callback.__init__(self)
         self._rows, self._count, self._d, self._look = rows, count, d, look
         self.construct(name, {})
@@ -167,7 +169,7 @@ class _Slopes(casadi.Callback):  # type: ignore[misc]
         return [casadi.DM(visit.slopes[self._rows])]
 
 
-def descend(model: Model, tasks: Sequence[Task], tolerance: float) -> list[Array]:
+def descend(model: Model, tasks: Sequence[Task], tolerance: float) -> list[Visit]:
     """The best place that IPOPT saw from each start.
 
     Best is by violation of the constraints down to a millionth of their scale, then by the objective: whatever IPOPT
@@ -183,12 +185,12 @@ def descend(model: Model, tasks: Sequence[Task], tolerance: float) -> list[Array
 
     Returns
     -------
-    list of (d,) arrays
-        In the unit cube, in the order of the tasks.
+    list of Visit
+        In the order of the tasks; of NaN where a start and all that came after it have no orbit.
     """
     box = model.box
 
-    def answer(asked: list[tuple[int, _Visit]]) -> None:
+    def answer(asked: list[tuple[int, Visit]]) -> None:
         points = box.at(np.array([visit.share for _, visit in asked]))
         figures, slopes = model.figures_with_slopes(points, tolerance)
         for row, (number, visit) in enumerate(asked):
@@ -199,7 +201,7 @@ def descend(model: Model, tasks: Sequence[Task], tolerance: float) -> list[Array
             visit.slopes = task.functions.slopes(own, by)[0] / task.scale[:, np.newaxis]
 
     table = _Round(answer, len(tasks))
-    best: list[Array] = [task.start for task in tasks]
+    best = [Visit(task.start) for task in tasks]
 
     def work(number: int) -> None:
         table.begin()
@@ -220,14 +222,14 @@ def descend(model: Model, tasks: Sequence[Task], tolerance: float) -> list[Array
     return best
 
 
-def _ipopt(task: Task, ask: Callable[[_Visit], None]) -> Array:
-    d, seen = task.start.size, list[_Visit]()
+def _ipopt(task: Task, ask: Callable[[Visit], None]) -> Visit:
+    d, seen = task.start.size, list[Visit]()
 
-    def look(share: Array) -> _Visit:
+    def look(share: Array) -> Visit:
         for visit in reversed(seen):
             if np.array_equal(visit.share, share):
                 return visit
-        visit = _Visit(share.copy())
+        visit = Visit(share.copy())
         if len(seen) < _MOST_PLACES:
             ask(visit)
         if visit.slopes.size == 0:
@@ -238,8 +240,8 @@ def _ipopt(task: Task, ask: Callable[[_Visit], None]) -> Array:
     x = casadi.MX.sym("x", d)
     count = task.scale.size - 1
     objective = _Values("objective", slice(0, 1), 1, d, look)
-    problem = {"x": x, "f": objective(x)}
-    bounds: dict[str, object] = {"lbx": np.zeros(d), "ubx": np.ones(d), "x0": task.start}
+    problem: dict[str, Any] = {"x": x, "f": objective(x)}
+    bounds: dict[str, Any] = {"lbx": np.zeros(d), "ubx": np.ones(d), "x0": task.start}
     low, high = task.low / task.scale[1:], task.high / task.scale[1:]
     if count:
         constraints = _Values("constraints", slice(1, None), count, d, look)
@@ -248,10 +250,11 @@ def _ipopt(task: Task, ask: Callable[[_Visit], None]) -> Array:
     solver = casadi.nlpsol("solver", "ipopt", problem, _OPTIONS)
     solver(**bounds)
 
-    def rank(visit: _Visit) -> tuple[float, float]:
+    def rank(visit: Visit) -> tuple[float, float]:
         g = visit.values[1:]
         violation = float(np.max(np.maximum(low - g, g - high), initial=0.0))
         return max(violation, 1e-6), float(visit.values[0])
 
     usable = [visit for visit in seen if np.all(np.isfinite(visit.values))]
-    return min(usable, key=rank).share if usable else task.start
+    found = min(usable, key=rank) if usable else seen[0]
+    return Visit(found.share, found.values * task.scale, found.slopes * task.scale[:, np.newaxis])

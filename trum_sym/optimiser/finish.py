@@ -7,10 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from trum_sym.optimiser.descent import Visit
 from trum_sym.optimiser.model import Functions, Model
 from trum_sym.validate import Array
 
-__all__ = ["ALLOWED", "TOLERANCE", "Bounds", "Finished", "finish"]
+__all__ = ["ALLOWED", "TOLERANCE", "Bounds", "Finished", "checked", "finish"]
 
 TOLERANCE = 1e-9  # of the orbits that decide
 ALLOWED = 1e-8  # violation of a constraint, over its bound
@@ -52,7 +53,7 @@ class Finished:
         In the unit cube, and in SI units.
     figures : mapping
         Every figure of an independent evaluation at :data:`TOLERANCE`.
-    objective, violation : float
+    objective, constraints, violation : float, (k,) array, float
         From those figures.
     """
 
@@ -60,6 +61,7 @@ class Finished:
     point: Array
     figures: Mapping[str, float]
     objective: float
+    constraints: Array
     violation: float
 
     @property
@@ -68,42 +70,37 @@ class Finished:
         return self.violation <= ALLOWED and bool(np.isfinite(self.objective))
 
 
-def finish(model: Model, functions: Functions, bounds: Bounds, share: Array) -> Finished:
-    """Newton onto the constraints that are violated, along their slopes and inside the box; then the check.
+def finish(model: Model, functions: Functions, bounds: Bounds, found: Visit) -> Finished:
+    """Newton onto the constraints that are violated, along their slopes and inside the box; every step is checked.
 
     Parameters
     ----------
     functions : Functions
         The objective, then the constraints.
-    share : (d,) array
-        A place in the unit cube.
+    found : Visit
+        Where the descent ended, with these functions' slopes.
     """
-    share = np.where(share < _AT_EDGE, 0.0, np.where(share > 1 - _AT_EDGE, 1.0, share))
-    best, least = share, np.inf
-    slopes = np.empty((0, share.size))
-    before = previous = np.empty(0)
-    for step in range(_MOST_STEPS + 1):
-        point = model.box.at(share[np.newaxis])
-        if step == 0 and bounds.unit.size:
-            figures, by = model.figures_with_slopes(point, TOLERANCE)
-            by = {name: slope * model.box.width for name, slope in by.items()}
-            slopes = functions.slopes(figures, by)[0, 1:] / bounds.unit[:, np.newaxis]
-        else:
-            figures = model.figures(point, TOLERANCE)
-        values = functions.values(figures)[0, 1:]
-        violation = bounds.violation(values)
-        if violation < least:
-            best, least = share, violation
-        if violation <= _AIM or not np.isfinite(violation) or not np.all(np.isfinite(slopes)):
+    share = np.where(found.share < _AT_EDGE, 0.0, np.where(found.share > 1 - _AT_EDGE, 1.0, found.share))
+    slopes = found.slopes[1:] / bounds.unit[:, np.newaxis]
+    guess = found.values[1:] + found.slopes[1:] @ (share - found.share)
+    if np.all(np.isfinite(slopes)) and bounds.violation(guess) > _AIM:  # on rougher orbits, but a start
+        share = _towards(share, slopes, bounds.excess(guess))
+    best = checked(model, functions, bounds, share)
+    point = best
+    for _ in range(_MOST_STEPS):
+        if best.violation <= _AIM or not np.all(np.isfinite(slopes)) or not np.isfinite(point.violation):
             break
-        values = values / bounds.unit
-        if step > 0:  # Broyden's update keeps the slopes true along the path
-            moved = share - previous
-            if moved @ moved > 0:
-                slopes = slopes + np.outer(values - before - slopes @ moved, moved) / (moved @ moved)
-        before, previous = values, share
-        share = _towards(share, slopes, bounds.excess(values * bounds.unit))
-    return checked(model, functions, bounds, best)
+        before = point
+        point = checked(model, functions, bounds, _towards(before.share, slopes, bounds.excess(before.constraints)))
+        moved = point.share - before.share
+        if not moved @ moved > 0:
+            break
+        # Broyden's update keeps the slopes true along the path
+        change = (point.constraints - before.constraints) / bounds.unit
+        slopes = slopes + np.outer(change - slopes @ moved, moved) / (moved @ moved)
+        if point.violation < best.violation:
+            best = point
+    return best
 
 
 def _towards(share: Array, slopes: Array, excess: Array) -> Array:
@@ -125,4 +122,4 @@ def checked(model: Model, functions: Functions, bounds: Bounds, share: Array) ->
     point = model.box.at(share[np.newaxis])[0]
     figures = model.check(point, TOLERANCE)
     values = functions.values({name: np.array([figures[name]]) for name in functions.names})[0]
-    return Finished(share, point, figures, float(values[0]), bounds.violation(values[1:]))
+    return Finished(share, point, figures, float(values[0]), values[1:], bounds.violation(values[1:]))

@@ -17,6 +17,7 @@ from trum_sym.modal import cycle_sums
 from trum_sym.motor import Motor
 from trum_sym.operating_point import Case, evaluate, prepare
 from trum_sym.optimiser.expressions import Expression, symbol
+from trum_sym.pressure import peak_pressure
 from trum_sym.rotor import Orbit, solve_orbit
 from trum_sym.slopes import orbit_with_slopes
 from trum_sym.stator import Levels
@@ -25,10 +26,11 @@ from trum_sym.validate import Array
 __all__ = ["Box", "Functions", "Model", "functions"]
 
 _TURN = 2 * np.pi
-_ORBIT = ("mean_speed", "min_speed", "max_speed", "speed_volatility", "contact_fraction", "stall_torque")
 _DETERMINANT = ("q_ratio", "q_square_ratio", "q_average", "q_volatility")
 _INPUTS = ("prepressure", "frequency_difference", "switching_phase", "load_torque", "periods", "on_periods")
-_STEP = 1e-3  # of the closed forms' differences, relative: their error is its sixth power
+_PHASE = "switching_phase"
+_STEPS = {"prepressure": 0.2, "frequency_difference": 20.0, _PHASE: 0.02}  # of differences: N, Hz, rad
+_FINEST = 1e-9
 
 
 @dataclass(frozen=True)
@@ -123,9 +125,13 @@ class Model:
         case = self._case(points, tolerance)
         self.evaluations += len(points)
         orbit, found = orbit_with_slopes(case, self.levels)
-        figures, slopes = {**self._closed(case), **_speeds(orbit)}, self._closed_slopes(points, tolerance)
-        for name in (*_ORBIT, "speed_deviation"):
-            slopes[name] = np.stack([found[name][variable] for variable in self.box.names], axis=-1)
+        figures, slopes = {**self._closed(case), **_speeds(orbit)}, self._differences(points, range(points.shape[1]))
+        if _PHASE in self.box.names:
+            by_phase = self._differences(points, [self.box.names.index(_PHASE)], orbits=True)
+            for of in found:
+                found[of][_PHASE] = by_phase[of][:, 0]
+        for of in found:
+            slopes[of] = np.stack([found[of][variable] for variable in self.box.names], axis=-1)
         return figures, slopes
 
     def check(self, point: Array, tolerance: float) -> dict[str, float]:
@@ -155,18 +161,25 @@ class Model:
         found |= {"neutral_axis": case.stator.D, "wavenumber": case.stator.k_c}
         if self.names.intersection(_DETERMINANT):
             found |= cycle_sums(case.values)
+        if "peak_pressure" in self.names:
+            found["peak_pressure"] = peak_pressure(case)
         return {name: np.broadcast_to(value, case.shape) for name, value in found.items()}
 
-    def _closed_slopes(self, points: Array, tolerance: float) -> dict[str, Array]:
-        """Their slopes, by central differences of sixth order."""
+    def _differences(self, points: Array, axes: Sequence[int], orbits: bool = False) -> dict[str, Array]:
+        """Slopes along some variables, by central differences of sixth order: of what needs no orbit, or of orbits."""
         shifts = np.array([1.0, -1.0, 2.0, -2.0, 3.0, -3.0])
         weights = np.array([45.0, -45.0, -9.0, 9.0, 1.0, -1.0]) / 60
         columns: dict[str, list[Array]] = {}
-        for k, name in enumerate(self.box.names):
-            step = _STEP * (np.abs(points[:, k]) if name == "prepressure" else 1e4 if "freq" in name else 1.0)
+        for k in axes:
+            step = _STEPS[self.box.names[k]]
             moved = np.repeat(points[np.newaxis], 6, axis=0)
             moved[:, :, k] += shifts[:, np.newaxis] * step
-            for figure, value in self._closed(self._case(moved, tolerance)).items():
+            if orbits:
+                flat = self.figures(moved.reshape(-1, points.shape[1]), _FINEST)
+                found = {name: value.reshape(6, -1) for name, value in flat.items()}
+            else:
+                found = self._closed(self._case(moved, _FINEST))
+            for figure, value in found.items():
                 columns.setdefault(figure, []).append(weights @ value / step)
         return {figure: np.stack(by, axis=-1) for figure, by in columns.items()}
 

@@ -7,6 +7,7 @@ import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 
@@ -20,7 +21,7 @@ from trum_sym.optimiser.result import Evidence, Optimum
 from trum_sym.optimiser.solve import Answer, Problem, solve
 from trum_sym.stator import Amplitude, Contact, Foundation, Levels, Resonance
 from trum_sym.units import parse_quantity
-from trum_sym.validate import number
+from trum_sym.validate import Domain, number
 
 __all__ = ["OBJECTIVES", "optimize"]
 
@@ -34,7 +35,7 @@ OBJECTIVES: Mapping[str, str] = MappingProxyType(
     }
 )
 PAPER_BOX = {"prepressure": (160.0, 210.0), "frequency_difference": (2800.0, 3300.0)}
-_VARIABLES = ("prepressure", "frequency_difference")
+_VARIABLES = ("prepressure", "frequency_difference", "switching_phase")
 _PULSES = ("periods", "on_periods")
 _COARSE = 8  # divisions of the maps that rank pulse counts
 _MARGIN = 0.25  # by which such a map may overrate a pair's objective
@@ -121,8 +122,6 @@ def _check_scalars(motor: Motor, drive: Drive) -> None:
 
 def _number(name: str, value: object, unit: str) -> float:
     """A finite number in its SI unit, from a number or text."""
-    from trum_sym.validate import Domain
-
     given = parse_quantity(name, value, unit) if isinstance(value, str) else value
     if np.ndim(given):  # type: ignore[arg-type]
         raise ParameterError(name, value, f"one number in {unit}")
@@ -151,11 +150,12 @@ def _box(drive: Drive, bounds: Mapping[str, Bound] | None) -> tuple[Box, list[tu
             empty = "one number holds it there" if low == high else "these are reversed"
             raise ParameterError(f"bounds of {name}", f"{low:g} to {high:g}", f"low < high in {unit} ({empty})")
         ranges[name] = (low, high)
-    drive = replace(drive, **{name: value for name, value in held.items() if name not in _PULSES})
-    axes = [
-        ranges.get(name, (held.get(name, float(getattr(drive, name))),) * 2)
-        for name in _PULSES  # type: ignore[arg-type]
-    ]
+    continuous: dict[str, Any] = {name: value for name, value in held.items() if name not in _PULSES}
+    drive = replace(drive, **continuous)
+    axes = []
+    for name in _PULSES:
+        alone = held.get(name, float(getattr(drive, name)))
+        axes.append(ranges.get(name, (alone, alone)))
     counts = [range(int(low), int(high) + 1) for low, high in axes]
     pulses = [(m, n) for m in counts[0] for n in counts[1] if m <= 2 * n <= 2 * m]
     if not pulses:
@@ -182,13 +182,10 @@ def _aim(
     if target == 0 and objective in ("volatility", "ripple"):
         raise ParameterError("target_speed", target, f"a speed other than 0 for the objective {objective}, which is "
                              "relative to it; speed_deviation and max_speed - min_speed are not")  # fmt: skip
-    if objective.isidentifier() or ("-" in objective and objective.replace("-", "").isalpha()):
-        from trum_sym.optimiser.expressions import FIGURES
-
-        if objective not in OBJECTIVES and not any(part.strip() in FIGURES for part in objective.split("-")):
-            raise ParameterError("objective", objective, f"one of {', '.join(OBJECTIVES)}, or arithmetic on figures "
-                                 "such as speed_volatility")  # fmt: skip
-    aim = parse_expression("objective", OBJECTIVES.get(objective, objective))
+    try:
+        aim = parse_expression("objective", OBJECTIVES.get(objective, objective))
+    except ParameterError as error:
+        raise ParameterError("objective", objective, f"one of {', '.join(OBJECTIVES)}, or {error.allowed}") from None
     if target is not None:
         limits.insert(0, Constraint(parse_expression("target_speed", "mean_speed"), target, target))
         if aim.text == "speed_volatility":  # the same where the speed is the target, and smooth everywhere
@@ -284,8 +281,7 @@ def _optimum(
     figures = {} if best is None else best.figures
     if objective == "speed-error" and best is not None and target is not None:
         error = abs(figures["mean_speed"] - target)
-        others = [c for c in problem.constraints[1:]]
-        if status == "infeasible" and not others:
+        if status == "infeasible" and len(problem.constraints) == 1:
             status = "solved"
         value: float | None = error
         optima = tuple([error] if status == "solved" else [])

@@ -11,9 +11,9 @@ import numpy as np
 from trum_sym.drive import Drive
 from trum_sym.motor import Motor
 from trum_sym.optimiser.chart import Chart, basins, chart
-from trum_sym.optimiser.descent import Task, descend
+from trum_sym.optimiser.descent import Task, Visit, descend
 from trum_sym.optimiser.expressions import Constraint, Expression
-from trum_sym.optimiser.finish import Bounds, Finished, checked, finish
+from trum_sym.optimiser.finish import ALLOWED, Bounds, Finished, checked, finish
 from trum_sym.optimiser.model import Box, Functions, Model, functions
 from trum_sym.stator import Levels
 from trum_sym.validate import Array
@@ -109,6 +109,7 @@ def solve(problem: Problem, model: Model | None = None, known: Chart | None = No
     Parameters
     ----------
     problem : Problem
+        Objective, constraints and box.
     model : Model, optional
         From a problem that names the same figures; counts the evaluations.
     known : Chart, optional
@@ -128,12 +129,12 @@ def solve(problem: Problem, model: Model | None = None, known: Chart | None = No
     places, objective, violation = basins(known, rows, low, high, span)
     met = violation <= 1e-12
     search.basins = int(met.sum())
-    best = _descend_and_finish(search, places[met]) if met.any() else None
+    best = _descend_and_finish(search, places[met], objective[met]) if met.any() else None
     if best is None or not best.feasible:
         begun, nearest = _towards_feasible(search, places[~met])
-        again = _descend_and_finish(search, begun) if len(begun) else None
+        again = _descend_and_finish(search, begun, objective) if len(begun) else None
         found = [point for point in (best, again, nearest) if point is not None]
-        best = min(found, key=lambda point: (max(point.violation, 1e-8), point.objective), default=None)
+        best = min(found, key=_order, default=None)
     if best is not None and best.feasible:
         return search.answer("solved", best)
     return search.answer("infeasible" if _excluded(search, best) else "failed", best)
@@ -149,26 +150,25 @@ def _extent(values: Array) -> tuple[Array, Array]:
     return np.where(span > 0, span, np.where(size > 0, size, 1.0)), np.where(size > 0, size, 1.0)
 
 
-def _descend_and_finish(search: _Search, starts: Array) -> Finished | None:
+def _descend_and_finish(search: _Search, starts: Array, objective: Array) -> Finished | None:
     """IPOPT from each start; the best of what comes out, onto its constraints and checked."""
-    starts = starts[:_MOST_STARTS]
     model, rows, bounds = search.model, search.functions, search.bounds
-    first = rows.values(model.figures(model.box.at(starts), _DESCENT))[:, 0]
-    sizes = np.abs(first[np.isfinite(first)])
-    scale = np.concatenate([[float(np.min(sizes, initial=np.inf))], search.span])
-    scale[0] = scale[0] if 0 < scale[0] < np.inf else 1.0
-    tasks = [Task(rows, bounds.low, bounds.high, scale, start) for start in starts]
+    sizes = np.abs(objective[np.isfinite(objective)])
+    size = float(np.min(sizes[sizes > 0], initial=np.inf))
+    scale = np.concatenate([[size if np.isfinite(size) else 1.0], search.span])
+    tasks = [Task(rows, bounds.low, bounds.high, scale, start) for start in starts[:_MOST_STARTS]]
     found = descend(model, tasks, _DESCENT)
     search.starts += len(tasks)
-    values = rows.values(model.figures(model.box.at(np.array(found)), _DESCENT))
-    near = np.array([np.max(np.abs(bounds.excess(g)) * bounds.unit / search.span, initial=0.0) for g in values[:, 1:]])
-    near = np.where(np.isfinite(near) & np.isfinite(values[:, 0]), near, np.inf)
-    order = np.lexsort((values[:, 0], np.maximum(near, 1e-5)))
+    missed = [
+        float(np.max(np.abs(bounds.excess(v.values[1:])) * bounds.unit / search.span, initial=0.0)) for v in found
+    ]
+    missed = [miss if np.isfinite(miss) and np.isfinite(v.values[0]) else math.inf
+              for miss, v in zip(missed, found, strict=True)]  # fmt: skip
     best: Finished | None = None
-    for k in order:
-        place, value = found[k], float(values[k, 0])
+    for k in sorted(range(len(found)), key=lambda k: (max(missed[k], 1e-5), found[k].values[0])):
+        place, value = found[k].share, float(found[k].values[0])
         distinct = all(np.max(np.abs(place - other)) > _CLOSE for other, _ in search.optima)
-        if distinct and near[k] <= 1e-4:
+        if distinct and missed[k] <= 1e-4:
             search.optima.append((place, value))
         if (
             best is not None
@@ -176,11 +176,16 @@ def _descend_and_finish(search: _Search, starts: Array) -> Finished | None:
             and (not distinct or value > best.objective + _CLOSE * abs(best.objective))
         ):
             continue
-        point = finish(model, rows, bounds, place)
-        if best is None or (max(point.violation, 1e-8), point.objective) < (max(best.violation, 1e-8), best.objective):
+        point = finish(model, rows, bounds, found[k])
+        if best is None or _order(point) < _order(best):
             best = point
     search.optima.sort(key=lambda optimum: optimum[1])
     return best
+
+
+def _order(point: Finished) -> tuple[float, float]:
+    """By violation, and among points without by the objective."""
+    return max(point.violation, ALLOWED), point.objective
 
 
 def _towards_feasible(search: _Search, places: Array) -> tuple[Array, Finished | None]:
@@ -193,35 +198,47 @@ def _towards_feasible(search: _Search, places: Array) -> tuple[Array, Finished |
         if started is not None:
             return started[np.newaxis], nearest
     starts = places[:_MOST_STARTS]
-    excess = casadi.vertcat(
-        *(
-            casadi.fmax(0, (constraint.low if math.isfinite(constraint.low) else -1e300) - constraint.expression.graph)
-            / unit
-            if not math.isfinite(constraint.high)
-            else casadi.fmax(0, constraint.expression.graph - constraint.high) / unit
-            if not math.isfinite(constraint.low)
-            else (constraint.expression.graph - constraint.low) / unit
-            for constraint, unit in zip(search.problem.constraints, search.span, strict=True)
-        )
-    )
-    names = search.problem.names
-    merit = functions([Expression("violation", casadi.sumsqr(excess), names, "1")])
+    merit = functions([_merit(search)])
     none = np.empty(0)
     found = descend(model, [Task(merit, none, none, np.ones(1), start) for start in starts], _DESCENT)
     search.starts += len(found)
-    points = [finish(model, rows, bounds, place) for place in _distinct(found)]
+    places = np.array([visit.share for visit in _distinct(found)])
+    points = [finish(model, rows, bounds, visit) for visit in _looked(search, rows, places)]
     if nearest is not None:
         points.append(nearest)
-    best = min(points, key=lambda point: (max(point.violation, 1e-8), point.objective), default=None)
     good = [point.share for point in points if point.feasible]
-    return np.array(good).reshape(len(good), len(model.box.names)), best
+    return np.array(good).reshape(len(good), len(model.box.names)), min(points, key=_order, default=None)
 
 
-def _distinct(places: list[Array]) -> list[Array]:
-    kept: list[Array] = []
-    for place in places:
-        if all(np.max(np.abs(place - other)) > _CLOSE for other in kept):
-            kept.append(place)
+def _merit(search: _Search) -> Expression:
+    """The sum of the violations' squares, over the constraints' ranges in the box."""
+    terms = []
+    for constraint, span in zip(search.problem.constraints, search.span, strict=True):
+        graph = constraint.expression.graph
+        if constraint.low == constraint.high:
+            terms.append((graph - constraint.low) / span)
+        elif math.isfinite(constraint.low):
+            terms.append(casadi.fmax(0, constraint.low - graph) / span)
+        else:
+            terms.append(casadi.fmax(0, graph - constraint.high) / span)
+    return Expression("violation", casadi.sumsqr(casadi.vertcat(*terms)), search.problem.names, "1")
+
+
+def _looked(search: _Search, rows: Functions, places: Array) -> list[Visit]:
+    """Places with values and slopes of other functions than those that led to them."""
+    if not len(places):
+        return []
+    model = search.model
+    figures, by = model.figures_with_slopes(model.box.at(places), _DESCENT)
+    slopes = rows.slopes(figures, {name: slope * model.box.width for name, slope in by.items()})
+    return [Visit(*entry) for entry in zip(places, rows.values(figures), slopes, strict=True)]
+
+
+def _distinct(found: list[Visit]) -> list[Visit]:
+    kept: list[Visit] = []
+    for visit in found:
+        if all(np.max(np.abs(visit.share - other.share)) > _CLOSE for other in kept):
+            kept.append(visit)
     return kept
 
 
@@ -250,11 +267,9 @@ def _by_extremes(search: _Search, k: int) -> tuple[Array | None, Finished | None
     found = descend(model, tasks, _DESCENT)
     search.starts += len(found)
     rows = functions([own, *(constraint.expression for constraint in others)])
-    ends = []
-    for place in _distinct(found):
-        point = finish(model, rows, rest, place)
-        if point.feasible:
-            ends.append(point)
+    for visit, sign in zip(found, signs, strict=True):
+        visit.values[0], visit.slopes[0] = sign * visit.values[0], sign * visit.slopes[0]
+    ends = [point for point in (finish(model, rows, rest, visit) for visit in _distinct(found)) if point.feasible]
     if not ends:
         return None, None
     lowest, highest = min(ends, key=lambda e: e.objective), max(ends, key=lambda e: e.objective)
