@@ -31,11 +31,12 @@ _COUNT = Domain(low=2, low_open=False, high=1000, high_open=False, integer=True)
 class Segment:
     """A stretch of speeds along which the drive varies continuously; arrays of one length, speeds rising.
 
-    Speeds and their standard deviation in rad/s; ``drive`` has the box's variables in SI units.
+    Speeds and their standard deviation in rad/s, drive frequency in Hz; ``drive`` has what varies, in SI units.
     """
 
     speed: Array
     deviation: Array
+    drive_frequency: Array
     drive: Mapping[str, Array]
 
 
@@ -90,6 +91,12 @@ class SpeedTable:
     def __len__(self) -> int:
         return sum(segment.speed.size for segment in self.segments)
 
+    def held(self) -> str:
+        """What does not vary of prepressure and frequency difference, in words."""
+        numbers = self.drive.numbers()
+        known = {"prepressure": "N", "frequency_difference": "Hz"}
+        return ", ".join(f"{name} {numbers[name]:g} {known[name]}" for name in known if name not in self.variables)
+
     def at(self, speed: float) -> dict[str, float]:
         """The drive for a speed in rad/s, linear between neighbours.
 
@@ -110,13 +117,15 @@ class SpeedTable:
         Raises
         ------
         ParameterError
-            For another suffix, or a file that cannot be written.
+            For another suffix, a table without entries, or a file that cannot be written.
         """
         from trum_sym.studies.table_files import as_c, as_csv
         from trum_sym.text_files import check_text_target, write_text
 
         path = Path(target)
         check_text_target(name, path, (".csv", ".h"))
+        if not self.segments:
+            raise ParameterError(name, "a table without entries", "a range of speeds that the box has")
         write_text(name, as_csv(self) if path.suffix == ".csv" else as_c(self, path.stem), path)
 
 
@@ -202,6 +211,7 @@ def _segment(model: Model, entries: list[Entry]) -> Segment:
     return Segment(
         speed=np.array([entry.speed for entry in entries]),
         deviation=np.array([entry.deviation for entry in entries]),
+        drive_frequency=np.array([entry.drive_frequency for entry in entries]),
         drive={name: points[:, k] for k, name in enumerate(model.box.names)},
     )
 

@@ -22,17 +22,18 @@ _NEWTON = 12
 _MOST = 4000  # entries
 _LEAST_STEP = 1e-4  # of the speed: neighbours closer than this whose drives differ too much are a jump
 _BETWEEN = np.array([0.25, 0.5, 0.75])  # where interpolation is tried
-_EDGE = 8  # bisections towards the end of what can be reached
+_EDGE = 12  # bisections towards the end of what can be reached
 _INSIDE = 0.01  # of a constraint's span, by which the path on the map keeps away from its bound
 
 
 @dataclass
 class Entry:
-    """A speed, its place in the unit cube, and the speed's standard deviation there."""
+    """A speed, its place in the unit cube, and the speed's standard deviation and the drive frequency there."""
 
     speed: float
     share: Array
     deviation: float
+    drive_frequency: float
 
 
 @dataclass
@@ -124,8 +125,8 @@ class Builder:
             for place in np.flatnonzero(met):
                 k = int(active[place])
                 if self._allowed({name: value[place : place + 1] for name, value in figures.items()}):
-                    deviation = float(figures["speed_deviation"][place])
-                    found[k] = Entry(float(wanted[k]), share[k].copy(), deviation)
+                    more = (float(figures[name][place]) for name in ("speed_deviation", "drive_frequency"))
+                    found[k] = Entry(float(wanted[k]), share[k].copy(), *more)
             slope = slopes["mean_speed"] * self.model.box.width
             go = ~met & np.isfinite(off) & np.all(np.isfinite(slope), axis=1)
             # a step that does not help is halved by trying again from between
