@@ -165,8 +165,9 @@ def _header() -> str:
     return "\n".join(lines)
 
 
-# The kernels that the rotor's driver evaluates over lanes of points at once.
+# The kernels that the drivers evaluate over lanes of points at once.
 LANE_KERNELS = (
+    "trum_response",
     "trum_rotation",
     "trum_wave",
     "trum_filling",

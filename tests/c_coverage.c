@@ -123,11 +123,6 @@ static void edges(void) {
 
   expect(trum_half_angle(NAN, 1, 1, 1, 1) != trum_half_angle(NAN, 1, 1, 1, 1), "half-angle at no force");
   expect(trum_half_angle(1, 1, NAN, 1, 1) != trum_half_angle(1, 1, NAN, 1, 1), "half-angle at no amplitude");
-  {
-    trum_sums sums = {1, 2, 3, 4};
-    trum_piece(0, &sums, 1, 1);
-    expect(sums.q_plus == 1 && sums.q_minus == 2, "a piece of no length");
-  }
   for (contact = 0; contact < 2; ++contact) { /* orbits of several points, of none, and with slopes */
     drive = trum_table3, drive.start = TRUM_START_STEADY, drive.contact = contact, drive.load_torque = (trum_real)0.05;
     expect(trum_solve_point(&motor, &drive, &point, &in, out) == TRUM_OK, "a point that converges");

@@ -8,14 +8,14 @@ import pytest
 from reference import reference_measures
 
 import trum_sym as ts
-from trum_sym.modal import cycle_sums, modal_values
+from trum_sym.modal import PANELS_PER_PERIOD, cycle_sums, modal_values
 
 STARTS = ("periodic", "steady", "rest")
 MEASURES = ("q_ratio", "q_square_ratio", "q_average", "q_volatility")
 TABLE_3 = {"f_n": 39703.0, "df": 3000.0, "xi": 0.006, "psi": 0.0, "s": 1, "m": 20, "n": 14}
 
 
-def compiled(f_n, df, xi, psi, s, m, n, start, panels=4):
+def compiled(f_n, df, xi, psi, s, m, n, start, panels=PANELS_PER_PERIOD):
     drive = ts.Drive(
         frequency_difference=df, periods=m, on_periods=n, start=start, switching_phase=psi, phase_lead=s
     )  # fmt: skip

@@ -13,7 +13,7 @@ from trum_sym.validate import ArrayLike
 __all__ = ["check_steady_state", "cycle_sums", "modal_values", "response", "scaled"]
 
 _MIN_REPETITION = 1e-9
-PANELS_PER_PERIOD = 4
+PANELS_PER_PERIOD = 2
 
 
 def check_steady_state(damping_ratio: ArrayLike, drive: Drive) -> None:

@@ -145,18 +145,19 @@ static inline void trum_add(trum_sums* sums, trum_real integral, trum_real squar
   else sums->q_minus -= integral, sums->p_minus += square;
 }
 
-/* Gauss-Legendre over [from, to], where Q keeps its sign. */
-static inline void trum_piece(trum_cycle* c, trum_sums* sums, trum_real from, trum_real to) {
+/* Gauss-Legendre over [from, to], where Q keeps its sign, taken off what the panel has left. */
+static inline void trum_piece(trum_cycle* c, trum_sums* sums, trum_real from, trum_real to, trum_real* integral_left,
+                              trum_real* square_left) {
   static const double nodes[] = TRUM_GAUSS_NODES, weights[] = TRUM_GAUSS_WEIGHTS;
   const trum_real half = (trum_real)0.5 * (to - from), middle = (trum_real)0.5 * (to + from);
   trum_real integral = 0, square = 0;
   int i;
-  if (!(to > from)) return;
   for (i = 0; i < TRUM_GAUSS_POINTS; ++i) {
     const trum_real Q = trum_sample_at(c, middle + half * (trum_real)nodes[i]).Q;
     integral += (trum_real)weights[i] * Q;
     square += (trum_real)weights[i] * Q * Q;
   }
+  *integral_left -= half * integral, *square_left -= half * square;
   trum_add(sums, half * integral, half * square);
 }
 
@@ -177,6 +178,15 @@ static inline trum_sample trum_extremum(trum_cycle* c, const trum_sample* p, con
 /* Zero counts as positive, as in the sign changes: a phase at rest starts a region with Q = 0. */
 static inline int trum_towards_zero(const trum_sample* p) { return p->Q >= 0 ? p->rate < 0 : p->rate > 0; }
 
+/* Whether |Q| dips between two samples of one sign, so near to zero that it may cross it: samples stand so close that
+ * the steeper of their slopes, doubled, bounds those between. */
+static inline int trum_may_dip(const trum_sample* p, const trum_sample* q) {
+  const trum_real fall = p->rate < 0 ? -p->rate : p->rate, rise = q->rate < 0 ? -q->rate : q->rate;
+  const trum_real depth = 2 * (q->tau - p->tau) * (fall > rise ? fall : rise);
+  const trum_real low = p->Q < 0 ? -p->Q : p->Q, high = q->Q < 0 ? -q->Q : q->Q;
+  return trum_towards_zero(p) && !trum_towards_zero(q) && (low < high ? low : high) <= depth;
+}
+
 /* Gauss-Legendre on a panel short against the fastest oscillation of Q; a panel in which Q changes sign is cut at
  * every crossing, so that each piece is smooth and of one sign. */
 static inline void trum_panel(trum_cycle* c, trum_sums* sums, const trum_sample* left, const trum_sample* right,
@@ -185,20 +195,21 @@ static inline void trum_panel(trum_cycle* c, trum_sums* sums, const trum_sample*
   const trum_real half = (trum_real)0.5 * (to - from), middle = (trum_real)0.5 * (to + from);
   trum_sample s[TRUM_GAUSS_POINTS + 2];
   trum_real integral = 0, square = 0, start = from;
-  int i, k, count, pieces = 0;
+  int i, k, count;
   s[0] = *left, s[TRUM_GAUSS_POINTS + 1] = *right;
   for (i = 0; i < TRUM_GAUSS_POINTS; ++i) {
     s[i + 1] = trum_sample_at(c, middle + half * (trum_real)nodes[i]);
     integral += (trum_real)weights[i] * s[i + 1].Q;
     square += (trum_real)weights[i] * s[i + 1].Q * s[i + 1].Q;
   }
+  integral *= half, square *= half;
   for (i = 0; i <= TRUM_GAUSS_POINTS; ++i) {
     const trum_sample *p = &s[i], *q = &s[i + 1];
     trum_real cuts[2];
     count = 0;
     if ((p->Q >= 0) != (q->Q >= 0)) {
       cuts[count++] = trum_bracketed_root(trum_determinant_at, c, p->tau, q->tau);
-    } else if (trum_towards_zero(p) && !trum_towards_zero(q)) { /* |Q| dips between the samples */
+    } else if (trum_may_dip(p, q)) {
       const trum_sample dip = trum_extremum(c, p, q);
       if ((dip.Q >= 0) != (p->Q >= 0)) {
         cuts[count++] = trum_bracketed_root(trum_determinant_at, c, p->tau, dip.tau);
@@ -206,24 +217,27 @@ static inline void trum_panel(trum_cycle* c, trum_sums* sums, const trum_sample*
       }
     }
     for (k = 0; k < count; ++k) {
-      trum_piece(c, sums, start, cuts[k]);
-      start = cuts[k], ++pieces;
+      trum_piece(c, sums, start, cuts[k], &integral, &square);
+      start = cuts[k];
     }
   }
-  if (pieces) trum_piece(c, sums, start, to);
-  else trum_add(sums, half * integral, half * square);
+  trum_add(sums, integral, square);
 }
 
-/* The sums of a cycle whose fields down to k_c are set, on so many panels in a period of drive or resonance. */
+/* How many panels a region takes, at so many in a period of the faster of drive and resonance. */
+static inline trum_real trum_panel_count(const trum_cycle* c, int region, trum_real panels_per_period) {
+  const trum_real driven = c->omega_n + c->Delta_omega, fastest = c->omega_n < driven ? driven : c->omega_n;
+  const trum_real turns = panels_per_period * c->duration[region] * fastest / (trum_real)6.283185307179586;
+  return (trum_real)ceil((double)turns - 1e-9);
+}
+
+/* The sums of a cycle whose fields down to k_c are set, on so many panels in a period. */
 static inline trum_sums trum_cycle_sums(trum_cycle* c, trum_real panels_per_period) {
   trum_sums sums = {0, 0, 0, 0};
   int region;
   trum_cycle_regions(c);
   for (region = 0; region < TRUM_REGIONS; ++region) {
-    const trum_real length = c->duration[region], driven = c->omega_n + c->Delta_omega;
-    const trum_real fastest = c->omega_n < driven ? driven : c->omega_n;
-    const trum_real turns = panels_per_period * length * fastest / (trum_real)6.283185307179586;
-    const trum_real count = (trum_real)ceil((double)turns - 1e-9);
+    const trum_real length = c->duration[region], count = trum_panel_count(c, region, panels_per_period);
     trum_sample left;
     trum_real i;
     if (!(length > 0)) continue;

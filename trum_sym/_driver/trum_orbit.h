@@ -126,6 +126,8 @@ static const double trum_margin = 0.8, trum_grows = 1.5;
 /* Shares that make the figures meet the tolerance: error of a step per drive period, of the quadrature's estimate, of
  * an event's place beside a square root and at a kink, of Newton's last change squared.  Measured over the domain. */
 static const double trum_level = 0.05, trum_estimate = 0.2, trum_event = 4.0, trum_kink = 100.0, trum_newton = 0.05;
+/* The tolerance of the first lap: far off the orbit, errors weigh little. */
+static const double trum_coarse = 1e-2;
 
 static void trum_turn(const trum_lanes* l, real tau, real* turn) {
   const real* arg[trum_rotation_n_arg];
@@ -955,9 +957,9 @@ static void trum_load(trum_lanes* l, int i, trum_job* job, const trum_orbit_in* 
   trum_start_lap(l, i, job);
 }
 
-/* The rough level that makes one fine lap enough. */
+/* The rough level that makes one fine lap enough: Newton's step from there leaves its square. */
 static double trum_rough(double tolerance) {
-  const double rough = 0.03 * sqrt(tolerance);
+  const double rough = 0.1 * sqrt(tolerance);
   return trum_level * (rough > tolerance ? rough : tolerance);
 }
 
@@ -977,29 +979,40 @@ static int trum_judge(trum_lanes* l, int i, trum_job* job) {
       out->flags += trum_runaway;
       return 0;
     }
-    job->stage = ROUGH, job->level = trum_rough(in->tolerance);
+    job->stage = ROUGH, job->level = trum_level * trum_coarse;
     job->scale = 0.1 * in->D * in->k_c * in->W * (in->omega_n + in->Delta_omega);
     trum_start_lap(l, i, job);
     return 1;
   }
-  if (lost) return 0;
+  if (lost) { /* steps that are too bold chatter where the rotor is as fast as a line of contact */
+    const double fine = trum_level * in->tolerance;
+    if (++job->finer > 3) return 0;
+    job->level = job->level > fine ? fine : 0.1 * job->level, ++job->laps;
+    trum_start_lap(l, i, job);
+    return 1;
+  }
   {
     const double gain = get(&l->x, i), growth = get(&l->S, i), pull = 1.0 - growth > 1e-14 ? 1.0 - growth : 1e-14;
     const double low = get(&r->low, i), high = get(&r->high, i), bound = 1.5 * get(&r->fastest, i);
     const double top = fabs(job->v0 + low) > fabs(job->v0 + high) ? fabs(job->v0 + low) : fabs(job->v0 + high);
     const double fine = trum_level * in->tolerance;
     const int accurate = job->level <= fine * 1.0001, last = ++job->laps >= trum_most_laps;
+    const int coarse = job->laps == 1 && !accurate;
     double next = job->v0 + gain / pull, away, noise;
     int close;
-    if (gain > 0.0) job->low = job->v0;
-    else job->high = job->v0;
+    if (!coarse) {
+      if (gain > 0.0) job->low = job->v0;
+      else job->high = job->v0;
+    }
     next = next > bound ? bound : next < -bound ? -bound : next;
     if (!(next > job->low && next < job->high) && job->low > -HUGE_VAL && job->high < HUGE_VAL)
       next = 0.5 * (job->low + job->high);
     away = next - job->v0;
     noise = get(&r->error, i) * in->push / pull;
     /* a Newton step this small leaves an error of its square, which the figures' derivatives take along */
-    close = away * away <= 0.1 * in->tolerance * top * top || fabs(away) <= noise || job->high - job->low <= 1e-15 * bound;
+    close = !coarse && (away * away <= 0.1 * in->tolerance * top * top || fabs(away) <= noise ||
+                        job->high - job->low <= 1e-15 * bound);
+    if (coarse) job->level = trum_rough(in->tolerance);
     /* the less a lap pulls speeds together, the more an error of a step weighs */
     job->scale = top * (pull > 1e-3 ? pull : 1e-3 * (in->push * whole < top ? pull + in->push * whole / top : 1.0));
     if (close && accurate && noise > in->tolerance * top && !last && ++job->finer <= 3) {

@@ -161,7 +161,7 @@ static inline void trum_determinants(trum_real* v) {
   c.psi = v[trum_at_psi], c.s = v[trum_at_s], c.m = v[trum_at_m], c.n = v[trum_at_n];
   c.a_A = v[trum_at_a_A], c.b_A = v[trum_at_b_A], c.a_B = v[trum_at_a_B], c.b_B = v[trum_at_b_B];
   c.W = c.D = c.k_c = 1;
-  sums = trum_cycle_sums(&c, 4);
+  sums = trum_cycle_sums(&c, 2);
   v[trum_at_q_plus] = sums.q_plus, v[trum_at_q_minus] = sums.q_minus;
   v[trum_at_p_plus] = sums.p_plus, v[trum_at_p_minus] = sums.p_minus;
   trum_call_measures(v);

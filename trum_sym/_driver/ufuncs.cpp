@@ -2,6 +2,7 @@
 // take strides and release the GIL by themselves.
 #include <Python.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstring>
@@ -67,17 +68,6 @@ void half_angle_loop(char** args, const npy_intp* dimensions, const npy_intp* st
 
 constexpr char cycle_sums_in[] = "omega_n Delta_omega xi psi s m n a_A b_A a_B b_B panels";
 constexpr char cycle_sums_out[] = "q_plus q_minus p_plus p_minus";
-void cycle_sums_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
-  const Unlocked unlocked;
-  for (npy_intp i = 0; i < dimensions[0]; ++i) {
-    const auto v = gather<12>(args, steps, i);
-    trum_cycle cycle = {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8], v[9], v[10], 1.0, 1.0, 1.0,
-                        {}, {}, {}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-    const trum_sums sums = trum_cycle_sums(&cycle, v[11]);
-    scatter<4>({sums.q_plus, sums.q_minus, sums.p_plus, sums.p_minus}, args + 12, steps + 12, i);
-  }
-}
-
 constexpr char cycle_response_in[] = "t omega_n Delta_omega xi psi s m n a_A b_A a_B b_B W D k_c";
 constexpr char cycle_response_out[] = "w_A w_B v_A v_B Q";
 void cycle_response_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
@@ -116,6 +106,19 @@ void rotor_orbit_loop(char** args, const npy_intp* dimensions, const npy_intp* s
     orbit_code->orbits(in[0].data(), out[0].data(), nullptr, nullptr, static_cast<long>(count));
     for (npy_intp k = 0; k < count; ++k) scatter(out[k], args + n_orbit_in, steps + n_orbit_in, i + k);
     i += count;
+  }
+}
+
+void cycle_sums_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
+  const Unlocked unlocked;
+  constexpr npy_intp most = 512;
+  std::array<std::array<double, 12>, most> in;
+  std::array<std::array<double, 4>, most> out;
+  for (npy_intp i = 0; i < dimensions[0]; i += most) {
+    const npy_intp count = std::min(most, dimensions[0] - i);
+    for (npy_intp k = 0; k < count; ++k) in[k] = gather<12>(args, steps, i + k);
+    orbit_code->sums(in[0].data(), out[0].data(), static_cast<long>(count));
+    for (npy_intp k = 0; k < count; ++k) scatter(out[k], args + 12, steps + 12, i + k);
   }
 }
 
