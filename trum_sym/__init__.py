@@ -24,6 +24,9 @@ if TYPE_CHECKING:
     from trum_sym.optimiser.result import Optimum
     from trum_sym.optimiser.search import optimize
     from trum_sym.slopes import sensitivities
+    from trum_sym.studies.pareto import pareto
+    from trum_sym.studies.robust import robust
+    from trum_sym.studies.speed_table import speed_table
 
 __all__ = [
     "Calibration",
@@ -40,8 +43,11 @@ __all__ = [
     "evaluate",
     "load_motor",
     "optimize",
+    "pareto",
+    "robust",
     "sensitivities",
     "simulate",
+    "speed_table",
 ]
 
 _HOME = {
@@ -59,8 +65,11 @@ _HOME = {
     "evaluate": "operating_point",
     "load_motor": "motor_file",
     "optimize": "optimiser.search",
+    "pareto": "studies.pareto",
+    "robust": "studies.robust",
     "sensitivities": "slopes",
     "simulate": "histories",
+    "speed_table": "studies.speed_table",
 }
 
 

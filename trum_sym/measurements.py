@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -17,7 +17,7 @@ from trum_sym.outputs import OUTPUTS
 from trum_sym.units import Unit, parse_unit
 from trum_sym.validate import Array, Domain, number
 
-__all__ = ["INPUTS", "SIGNALS", "UNCERTAINTY", "Measurements", "from_columns", "read_measurements"]
+__all__ = ["INPUTS", "SIGNALS", "UNCERTAINTY", "Measurements", "from_columns", "read_measurements", "table_of"]
 
 INPUTS = MappingProxyType(
     {**DRIVE_DOMAINS, "phase_lead": (Domain(low=-1, low_open=False, high=1, high_open=False), "1")}
@@ -173,11 +173,25 @@ def read_measurements(source: str | PathLike[str]) -> Measurements:
         If the file cannot be read, a header has no known name or a wrong unit, or a cell is no finite number.
     """
     path = Path(source)
+    found, units, comments = table_of(path, lambda name: _expected(name)[0])
+    synthetic = any(comment.lstrip("# ").casefold().startswith("synthetic") for comment in comments)
+    return from_columns(path.name, found, units, synthetic)
+
+
+def table_of(path: Path, unit_of: Callable[[str], str | None]) -> tuple[dict[str, Array], dict[str, str], list[str]]:
+    """Columns in SI, the unit each was given in, and the comments of a CSV file with units in its headers.
+
+    Parameters
+    ----------
+    path : Path
+    unit_of : callable
+        The SI unit of a column by name, None if any will do; raises a ParameterError for a name that is none.
+    """
     comments, rows = _rows(path)
     if not rows:
         raise ParameterError("data", str(path), "a CSV file with a header line such as prepressure [N],amplitude [um]")
     (_, header), *body = rows
-    columns = [_header(cell) for cell in header]
+    columns = [_header(cell, unit_of) for cell in header]
     names = [name for name, _, _ in columns]
     for place, name in enumerate(names):
         if name in names[:place]:
@@ -190,9 +204,8 @@ def read_measurements(source: str | PathLike[str]) -> Measurements:
             raise ParameterError(f"data: line {line}", f"{len(cells)} cells", f"{len(names)}, one for each column")
         for (name, unit, given), cell in zip(columns, cells, strict=True):
             found[name].append(_cell(f"{name}: line {line}", cell, unit, given))
-    synthetic = any(comment.lstrip("# ").casefold().startswith("synthetic") for comment in comments)
     units = {name: given for name, _, given in columns}
-    return from_columns(path.name, {name: np.array(values) for name, values in found.items()}, units, synthetic)
+    return {name: np.array(values) for name, values in found.items()}, units, comments
 
 
 def _rows(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
@@ -220,10 +233,10 @@ def _rows(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
     return comments, [(k, row) for (k, _), row in zip(data, cells, strict=True)]
 
 
-def _header(cell: str) -> tuple[str, Unit, str]:
+def _header(cell: str, unit_of: Callable[[str], str | None]) -> tuple[str, Unit, str]:
     """Name, unit and the unit's text of ``name [unit]``; a pure number needs no unit."""
     name, bracket, rest = (part.strip() for part in cell.partition("["))
-    wanted, _ = _expected(name)
+    wanted = unit_of(name)
     if bracket and not rest.endswith("]"):
         raise ParameterError("column", cell, "a header such as prepressure [N]")
     given = rest.removesuffix("]").strip() if bracket else ""

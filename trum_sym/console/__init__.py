@@ -8,7 +8,10 @@ from trum_sym.console.calibrate import calibrate
 from trum_sym.console.equations import equations
 from trum_sym.console.evaluate import evaluate
 from trum_sym.console.optimize import optimize
+from trum_sym.console.pareto import pareto
+from trum_sym.console.robust import robust
 from trum_sym.console.simulate import simulate
+from trum_sym.console.speed_table import speed_table
 
 __all__ = ["main"]
 
@@ -22,7 +25,7 @@ def _cli() -> None:
     """
 
 
-for _command in (evaluate, simulate, optimize, calibrate, equations):
+for _command in (evaluate, simulate, optimize, pareto, robust, speed_table, calibrate, equations):
     _cli.add_command(_command)
 
 

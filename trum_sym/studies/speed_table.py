@@ -22,7 +22,7 @@ from trum_sym.validate import Array, Domain, number
 
 __all__ = ["Gap", "Segment", "SpeedTable", "speed_table"]
 
-_DIVISIONS = {1: 513, 2: 33}
+_DIVISIONS = {1: 513, 2: 33, 3: 11}
 _DIRECTIONS = ("both", "positive", "negative")
 _COUNT = Domain(low=2, low_open=False, high=1000, high_open=False, integer=True)
 

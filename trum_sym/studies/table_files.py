@@ -13,23 +13,28 @@ from trum_sym.validate import Array
 __all__ = ["as_c", "as_csv", "as_json_text", "as_text"]
 
 _ARCSEC = math.pi / 648000
-_COLUMNS = (("prepressure", "N"), ("frequency_difference", "Hz"), ("drive_frequency", "Hz"))
+_ALWAYS = (("prepressure", "N"), ("frequency_difference", "Hz"), ("drive_frequency", "Hz"))
+
+
+def _named(table: SpeedTable) -> tuple[tuple[str, str], ...]:
+    """The columns beside the speed, with units; the switching phase is one if it varies."""
+    return (*_ALWAYS, ("switching_phase", "rad")) if "switching_phase" in table.variables else _ALWAYS
 
 
 def _columns(table: SpeedTable, segment: Segment) -> list[Array]:
-    """Prepressure, frequency difference and drive frequency of every entry."""
-    held = table.drive.numbers()
+    """Their values at every entry."""
+    held = {**table.drive.numbers(), "drive_frequency": segment.drive_frequency}
     size = segment.speed.size
-    values = [segment.drive.get(name, np.full(size, held[name])) for name, _ in _COLUMNS[:2]]
-    return [*(np.asarray(value, np.float64) for value in values), segment.drive_frequency]
+    return [np.asarray(np.broadcast_to(segment.drive.get(name, held[name]), size)) for name, _ in _named(table)]
 
 
 def _about(table: SpeedTable) -> list[str]:
     drive = table.drive
     held = "" if len(table.variables) == 2 else f"{table.held()}, "
+    phase = "" if "switching_phase" in table.variables else f", switching phase {drive.switching_phase:g} rad"
     lines = [
-        f"speed table of {table.motor}: {held}load {drive.load_torque:g} N m, {drive.on_periods:g} of {drive.periods:g} "
-        f"periods on, start {drive.start}, phase lead {drive.phase_lead:+g}, switching phase {drive.switching_phase:g} rad",
+        f"speed table of {table.motor}: {held}load {drive.load_torque:g} N m, {drive.on_periods:g} of "
+        f"{drive.periods:g} periods on, start {drive.start}, phase lead {drive.phase_lead:+g}" + phase,
         f"linear interpolation between entries meets the speed within {100 * table.error:g} % "
         f"(of {table.floor / _ARCSEC:.6g} arcsec/s where it is slower); largest error seen "
         f"{100 * table.largest_error:.3g} %",
@@ -43,7 +48,7 @@ def _about(table: SpeedTable) -> list[str]:
 
 def as_csv(table: SpeedTable) -> str:
     """One row an entry; comments on top say what holds for all, and name the gaps."""
-    header = ["segment", "mean_speed [arcsec/s]", *(f"{name} [{unit}]" for name, unit in _COLUMNS),
+    header = ["segment", "mean_speed [arcsec/s]", *(f"{name} [{unit}]" for name, unit in _named(table)),
               "speed_deviation [arcsec/s]"]  # fmt: skip
     lines = [*(f"# {line}" for line in _about(table)), ",".join(header)]
     for number, segment in enumerate(table.segments, 1):
@@ -70,10 +75,10 @@ def as_c(table: SpeedTable, name: str) -> str:
     rows = [row for segment in table.segments for row in zip(*_columns(table, segment), strict=True)]
     about = "\n".join(f" * {line}" for line in _about(table)).replace("*/", "* /")
     places = "\n".join(
-        f"#define {upper}_{column.upper()} {k} /* {unit} */" for k, (column, unit) in enumerate(_COLUMNS)
+        f"#define {upper}_{column.upper()} {k} /* {unit} */" for k, (column, unit) in enumerate(_named(table))
     )
     return _C_TEXT.format(
-        about=about, name=name, upper=upper, places=places, columns=len(_COLUMNS), segments=len(table.segments),
+        about=about, name=name, upper=upper, places=places, columns=len(_named(table)), segments=len(table.segments),
         entries=len(speeds), begins=", ".join(str(int(begin)) for begin in begins),
         speeds=",\n    ".join(repr(float(speed)) for speed in speeds),
         rows=",\n    ".join("{" + ", ".join(repr(float(value)) for value in row) + "}" for row in rows),
@@ -132,9 +137,17 @@ def as_text(table: SpeedTable) -> str:
         ends = [f"{value:.6g}" for value in (segment.speed[[0, -1]] / _ARCSEC)]
         drives = [f"{column[0]:.7g} to {column[-1]:.7g}" for column in _columns(table, segment)]
         rows.append((number, segment.speed.size, *ends, *drives))
-    headers = ("segment", "entries", "from arcsec/s", "to arcsec/s", *(f"{name} {unit}" for name, unit in _COLUMNS))
+    headers = (
+        "segment",
+        "entries",
+        "from arcsec/s",
+        "to arcsec/s",
+        *(f"{name} {unit}" for name, unit in _named(table)),
+    )
     low, high = (speed / _ARCSEC for speed in table.reachable)
-    body = [tabulate(rows, headers, disable_numparse=True, colalign=("right",) * 7)] if rows else ["no entries"]
+    body = (
+        [tabulate(rows, headers, disable_numparse=True, colalign=("right",) * len(headers))] if rows else ["no entries"]
+    )
     return "\n".join(
         [
             *_about(table)[:2], "", *body, "", *_about(table)[2:],
@@ -159,7 +172,10 @@ def as_json_text(table: SpeedTable) -> str:
         "segments": [
             {
                 "mean_speed": segment.speed.tolist(),
-                **{name: column.tolist() for (name, _), column in zip(_COLUMNS, _columns(table, segment), strict=True)},
+                **{
+                    name: column.tolist()
+                    for (name, _), column in zip(_named(table), _columns(table, segment), strict=True)
+                },
                 "speed_deviation": segment.deviation.tolist(),
             }
             for segment in table.segments
