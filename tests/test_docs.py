@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -66,3 +67,21 @@ def test_the_synthetic_data_are_what_their_script_makes(tmp_path):
         assert path.read_text("utf-8").splitlines()[:2] == kept.read_text("utf-8").splitlines()[:2]
         ours, theirs = (np.loadtxt(p, delimiter=",", skiprows=2) for p in (path, kept))
         assert ours == pytest.approx(theirs, rel=1e-5)  # other instruction sets round otherwise
+
+
+STUDIES = re.findall(r"^<!-- trum-sym (.*) -->$", (ROOT / "docs/studies.md").read_text("utf-8"), re.M)
+NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+
+
+def skeleton(text):
+    """Text without numbers, blanks and rules, and the numbers; how many orbits a search takes is the processor's."""
+    text = re.sub(r"\d+ orbits computed|[-\d.]+e[-+]\d+|  +|-{3,}", " ", text)
+    return re.sub(r"\s+", " ", NUMBER.sub("#", text)), [float(x) for x in NUMBER.findall(text)]
+
+
+@pytest.mark.parametrize("command", STUDIES)
+def test_the_docs_show_what_the_studies_print(command, capsys):
+    main(shlex.split(command))
+    theirs, ours = skeleton(shown("docs/studies.md", f"trum-sym {command}")), skeleton(capsys.readouterr().out)
+    assert ours[0].strip() == theirs[0].strip()
+    assert ours[1] == pytest.approx(theirs[1], rel=2e-3)

@@ -183,9 +183,8 @@ def table_of(path: Path, unit_of: Callable[[str], str | None]) -> tuple[dict[str
 
     Parameters
     ----------
-    path : Path
-    unit_of : callable
-        The SI unit of a column by name, None if any will do; raises a ParameterError for a name that is none.
+    path, unit_of : Path, callable
+        The file; the SI unit of a column by name, None if any will do; raises a ParameterError for a name that is none.
     """
     comments, rows = _rows(path)
     if not rows:

@@ -29,7 +29,7 @@ def pareto(
     objective: str,
     against: str,
     target_speed: str | None,
-    points: float,
+    points: Any,  # noqa: ANN401  # a number, which has to be an integer
     bounds: tuple[str, ...],
     constraints: tuple[str, ...],
     as_json: bool,

@@ -35,7 +35,7 @@ def speed_table(
     slowest: str,
     fastest: str,
     direction: str,
-    points: float,
+    points: Any,  # noqa: ANN401  # a number, which has to be an integer
     error: float,
     bounds: tuple[str, ...],
     constraints: tuple[str, ...],

@@ -24,7 +24,7 @@ _CLOSE = 1e-6  # of the objective: the search's steps that gain less are its las
 _MOST_PLACES = 40  # of one search: a line search on rough orbits would go on
 
 
-class _Enough(Exception):  # noqa: N818
+class _Enough(Exception):
     """The search has seen enough places."""
 
 

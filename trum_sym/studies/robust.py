@@ -100,7 +100,7 @@ class RobustPoint:
             at = f"prepressure {self.prepressure:.7g} N, frequency difference {self.frequency_difference:.8g} Hz"
             lines += ["", f"{at}, switching phase {self.switching_phase:.6g} rad"]
             rows = [
-                (", ".join(f"{name} {value:.6g}" for name, value in case.changed.items()) or "nominal",
+                (_words(case.changed),
                  f"{case.objective:.6g}", f"{case.mean_speed / arcsec:.6g}", f"{100 * case.speed_volatility:.5g}",
                  f"{case.stall_torque:.5g}", f"{case.violation:.1e}")
                 for case in self.cases
@@ -112,6 +112,10 @@ class RobustPoint:
             if math.isfinite(self.worst_of_nominal_optimum):
                 lines.append(f"worst case of the nominal optimum: {self.worst_of_nominal_optimum:.6g}")
         return "\n".join([*lines, f"{self.evaluations} orbits computed"])
+
+
+def _words(changed: Mapping[str, float]) -> str:
+    return ", ".join(f"{name} {value:.6g}" for name, value in changed.items()) or "nominal"
 
 
 def _known(value: object) -> object:
@@ -292,8 +296,8 @@ def _result(
         )  # fmt: skip
     drive = {**problem.drive.numbers(), **dict(zip(problem.box.names, found.point.tolist(), strict=True))}
     worst = max(found.objectives)
-    which = found.objectives.index(worst)
-    named = ", ".join(f"{name} {value:.6g}" for name, value in cases[which].items()) or "the nominal case"
+    alike = [case for case, value in zip(cases, found.objectives, strict=True) if value >= worst - 1e-4 * abs(worst)]
+    named = " and at ".join(_words(case) for case in alike[:4]) + (" and others" if len(alike) > 4 else "")
     return RobustPoint(
         status="solved", objective=objective, worst=worst, nominal=found.objectives[0],
         worst_of_nominal_optimum=nominal_optimum, worst_inside=inside,

@@ -11,7 +11,7 @@ from trum_sym.errors import ParameterError
 from trum_sym.optimiser.chart import Chart
 from trum_sym.optimiser.expressions import Constraint
 from trum_sym.optimiser.model import Model, functions
-from trum_sym.studies.path import candidates, choose
+from trum_sym.studies.path import Candidates, candidates, choose
 from trum_sym.validate import Array
 
 __all__ = ["TOLERANCE", "Builder", "Entry"]
@@ -28,10 +28,11 @@ _INSIDE = 0.01  # of a constraint's span, by which the path on the map keeps awa
 
 @dataclass
 class Entry:
-    """A speed, its place in the unit cube, and the speed's standard deviation and the drive frequency there."""
+    """A speed, its place in the unit cube, and the speed's slope, standard deviation and the drive frequency there."""
 
     speed: float
     share: Array
+    slope: Array
     deviation: float
     drive_frequency: float
 
@@ -99,12 +100,11 @@ class Builder:
                 runs.append([entry])
             else:
                 runs[-1].append(entry)
-        runs = [self._extended(run) for run in runs if run]
-        segments = [segment for run in runs for segment in self._refined(run)]
+        segments = self._grown([segment for run in runs if run for segment in self._refined(run)])
         self._name_gaps(segments)
         return segments
 
-    def _level(self, speed: float):  # noqa: ANN202
+    def _level(self, speed: float) -> Candidates:
         figures = self.known.figures
         return candidates(self.known, figures["mean_speed"], speed, figures["speed_deviation"], self._excess)
 
@@ -122,12 +122,12 @@ class Builder:
             off = figures["mean_speed"] - wanted[active]
             allowed = np.maximum(_MET * np.abs(wanted[active]), self.accuracy)
             met = np.abs(off) <= allowed
+            slope = slopes["mean_speed"] * self.model.box.width
             for place in np.flatnonzero(met):
                 k = int(active[place])
                 if self._allowed({name: value[place : place + 1] for name, value in figures.items()}):
                     more = (float(figures[name][place]) for name in ("speed_deviation", "drive_frequency"))
-                    found[k] = Entry(float(wanted[k]), share[k].copy(), *more)
-            slope = slopes["mean_speed"] * self.model.box.width
+                    found[k] = Entry(float(wanted[k]), share[k].copy(), slope[place], *more)
             go = ~met & np.isfinite(off) & np.all(np.isfinite(slope), axis=1)
             # a step that does not help is halved by trying again from between
             worse = np.abs(off) > best[active]
@@ -145,22 +145,33 @@ class Builder:
             for c, value in zip(self.constraints, values, strict=True)
         )
 
-    def _extended(self, run: list[Entry]) -> list[Entry]:
-        """Both ends moved towards the next speed asked for, which the path does not have."""
-        for end, step in ((0, -1), (-1, 1)):
-            at = int(np.searchsorted(self.speeds, run[end].speed)) + step
-            if not 0 <= at < len(self.speeds):
-                continue
-            near, far = run[end].speed, float(self.speeds[at])
-            for _ in range(_EDGE):
-                middle = 0.5 * (near + far)
-                (entry,) = self._onto(np.array([middle]), run[end].share[np.newaxis])
-                if entry is None:
-                    far = middle
-                else:
-                    near = middle
-                    run = [entry, *run] if end == 0 else [*run, entry]
-        return run
+    def _grown(self, segments: list[list[Entry]]) -> list[list[Entry]]:
+        """Segments with both ends moved into the gaps as far as it goes."""
+        grown: list[list[Entry]] = []
+        for k, segment in enumerate(segments):
+            low = grown[-1][-1].speed if grown else float(self.speeds[0])
+            high = segments[k + 1][0].speed if k + 1 < len(segments) else float(self.speeds[-1])
+            down, up = self._towards(segment[0], low), self._towards(segment[-1], high)
+            # one entry alone is between two jumps, and nothing to interpolate on
+            grown += [part for part in self._refined([*down[::-1], *segment, *up]) if len(part) > 1]
+        return grown
+
+    def _towards(self, end: Entry, limit: float) -> list[Entry]:
+        """Entries from the end of a segment towards a speed, by bisection for the last that can be had."""
+        found: list[Entry] = []
+        last, far = end, limit
+        for _ in range(_EDGE):
+            middle = 0.5 * (last.speed + far)
+            if abs(middle - last.speed) <= _MET * max(abs(middle), self.floor):
+                break
+            (entry,) = self._onto(np.array([middle]), last.share[np.newaxis])
+            on_the_way = entry is not None and (entry.slope @ (entry.share - last.share)) * (middle - last.speed) > 0
+            if entry is not None and on_the_way:
+                found.append(entry)
+                last = entry
+            else:
+                far = middle
+        return found
 
     def _refined(self, run: list[Entry]) -> list[list[Entry]]:
         """A run with entries added until interpolation holds, cut where it cannot."""
@@ -212,18 +223,39 @@ class Builder:
         return [k for k, fine in zip(pairs, good, strict=True) if not fine]
 
     def _between(self, pairs: list[tuple[Entry, Entry]]) -> list[Entry | None]:
-        """An entry halfway between each two, from the middle of their places or from the map nearest to it."""
+        """An entry halfway between each two: from the middle of their places, from either, or from the map.
+
+        On the way from one to the other the speed rises; a place where it falls along that way is none of it.
+        """
         if not pairs:
             return []
         speeds = np.array([0.5 * (a.speed + b.speed) for a, b in pairs])
         middles = np.array([0.5 * (a.share + b.share) for a, b in pairs])
-        found = self._onto(speeds, middles)
-        for k, entry in enumerate(found):
-            level = self._level(float(speeds[k])) if entry is None else None
-            if level is not None and level.cost.size:
-                nearest = np.argmin(np.linalg.norm(level.share - middles[k], axis=1))
-                (found[k],) = self._onto(speeds[k : k + 1], level.share[nearest][np.newaxis])
+        found: list[Entry | None] = [None] * len(pairs)
+        for starts in (
+            middles,
+            [a.share for a, _ in pairs],
+            [b.share for _, b in pairs],
+            self._nearest(speeds, middles),
+        ):
+            left = [k for k, entry in enumerate(found) if entry is None]
+            if not left:
+                break
+            tried = self._onto(speeds[left], np.array([starts[k] for k in left]))
+            for k, entry in zip(left, tried, strict=True):
+                a, b = pairs[k]
+                if entry is not None and entry.slope @ (b.share - a.share) > 0:
+                    found[k] = entry
         return found
+
+    def _nearest(self, speeds: Array, middles: Array) -> list[Array]:
+        """The place of the map that has each speed and is nearest to a place; that place if none has."""
+        places = []
+        for speed, middle in zip(speeds, middles, strict=True):
+            level = self._level(float(speed))
+            away = np.linalg.norm(level.share - middle, axis=1)
+            places.append(level.share[np.argmin(away)] if away.size else middle)
+        return places
 
     def _name_gaps(self, segments: list[list[Entry]]) -> None:
         """Every speed between the first and the last asked for that no segment has."""
