@@ -1,4 +1,4 @@
-"""One constrained operating point: ours, SciPy's SLSQP with differences, differential evolution, on the same kernels."""
+"""Least volatility at a speed: ours, SciPy's SLSQP with differences, differential evolution, on the same kernels."""
 
 from __future__ import annotations
 

@@ -12,21 +12,21 @@ from trum_sym.errors import MissingExtraError, ParameterError
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["check_target", "write"]
+__all__ = ["check_target", "write", "write_bytes"]
 
 _SUFFIXES = (".nc", ".csv")
 
 
-def check_target(name: str, target: Path) -> None:
+def check_target(name: str, target: Path, suffixes: tuple[str, ...] = _SUFFIXES) -> None:
     """Refuse, before any work is done, a file that cannot be written.
 
     Raises
     ------
     ParameterError
-        For another suffix than .nc and .csv, a folder that is not there or not ours to write in.
+        For another suffix than those allowed, a folder that is not there or not ours to write in.
     """
-    if target.suffix not in _SUFFIXES:
-        raise ParameterError(name, str(target), f"a file name that ends in {' or '.join(_SUFFIXES)}")
+    if target.suffix not in suffixes:
+        raise ParameterError(name, str(target), f"a file name that ends in {' or '.join(suffixes)}")
     if target.is_dir():
         raise ParameterError(name, str(target), "a file; this is a folder")
     if not target.parent.is_dir() or not os.access(target.parent, os.W_OK):
@@ -76,3 +76,27 @@ def write(name: str, dataset: xr.Dataset, target: Path) -> None:
     finally:
         if beside is not None:
             beside.unlink(missing_ok=True)
+
+
+def write_bytes(name: str, content: bytes, target: Path) -> None:
+    """Write what is there already in the same way: beside the file, then rename.
+
+    Raises
+    ------
+    ParameterError
+        If the file cannot be written.
+    """
+    try:
+        handle, path = tempfile.mkstemp(prefix=f".{target.stem}-", suffix=target.suffix, dir=target.parent)
+        beside = Path(path)
+        try:
+            with os.fdopen(handle, "wb") as stream:
+                stream.write(content)
+            mask = os.umask(0)
+            os.umask(mask)
+            beside.chmod(0o666 & ~mask)
+            beside.replace(target)
+        finally:
+            beside.unlink(missing_ok=True)
+    except OSError as error:
+        raise ParameterError(name, str(target), f"a file that can be written ({error.strerror or error})") from None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import click
@@ -23,6 +24,12 @@ _LEVELS = ("contact", "resonance", "foundation", "amplitude")
                    "[default: prepressure=160:210, frequency_difference=2800:3300]")  # fmt: skip
 @click.option("--constraint", "constraints", multiple=True, metavar="TEXT",
               help='"stall_torque >= 0.35 N*m": arithmetic on figures, >=, <= or ==, a value.')  # fmt: skip
+@click.option(
+    "--plot",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Draw the box: speeds, the target, borders of the constraints, the optimum (.png, .svg, .pdf).",
+)
 @click.option("--json", "as_json", is_flag=True, help="One JSON object instead of a table; SI units, speeds in rad/s.")
 def optimize(
     motor: str,
@@ -31,6 +38,7 @@ def optimize(
     target_speed: str | None,
     bounds: tuple[str, ...],
     constraints: tuple[str, ...],
+    plot: Path | None,
     as_json: bool,
     **options: Any,  # noqa: ANN401
 ) -> int:
@@ -44,6 +52,11 @@ def optimize(
 
     if options["sampling_period"] is not None:
         raise ParameterError("sampling_period", options["sampling_period"], "none: what is optimised is continuous")
+    if plot is not None:
+        from trum_sym.files import check_target
+        from trum_sym.optimiser.picture import SUFFIXES, draw
+
+        check_target("--plot", plot, SUFFIXES)
     machine, drive = chosen_motor(motor, overrides), chosen_drive(options)
     levels = {name: options[name] for name in _LEVELS}
     found = find(
@@ -52,6 +65,8 @@ def optimize(
     )  # fmt: skip
     title = f"{machine.name}: least {objective}" + (f" at {target_speed}" if target_speed else "")
     click.echo(as_json_text(found) if as_json else as_table(found, f"{title}, load {drive.load_torque:g} N m"))
+    if plot is not None:
+        draw(found, plot, "--plot")
     return 0 if found.status == "solved" else 1
 
 

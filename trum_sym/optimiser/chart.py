@@ -68,6 +68,8 @@ def basins(found: Chart, functions: Functions, low: Array, high: Array, scale: A
 
     Parameters
     ----------
+    found : Chart
+        The map.
     functions : Functions
         The objective, then the constraints.
     low, high, scale : (k,) arrays

@@ -11,9 +11,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-import casadi
 import numpy as np
 
+from trum_sym.optimiser.extra import casadi
 from trum_sym.optimiser.model import Functions, Model
 from trum_sym.validate import Array
 
@@ -81,7 +81,7 @@ class _Round:
         self._turn.acquire()
 
     def end(self) -> None:
-        """This thread is done."""
+        """The thread is done."""
         self._turn.release()
         with self._changed:
             self._running -= 1
@@ -180,6 +180,7 @@ def descend(model: Model, tasks: Sequence[Task], tolerance: float) -> list[Visit
     model : Model
         Gives the figures.
     tasks : sequence of Task
+        One for each start.
     tolerance : float
         Of the orbits.
 

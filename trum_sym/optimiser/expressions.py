@@ -15,14 +15,10 @@ from difflib import get_close_matches
 from types import MappingProxyType
 from typing import Any
 
-from trum_sym.errors import MissingExtraError, ParameterError, shorten
+from trum_sym.errors import ParameterError, shorten
+from trum_sym.optimiser.extra import casadi
 from trum_sym.outputs import OUTPUTS
 from trum_sym.units import Dimension, parse_quantity, parse_unit
-
-try:
-    import casadi
-except ImportError as error:
-    raise MissingExtraError("the optimiser", str(error.name), "optimize") from None
 
 __all__ = ["FIGURES", "Constraint", "Expression", "parse_constraint", "parse_expression"]
 
@@ -96,11 +92,16 @@ def symbol(name: str) -> Any:  # noqa: ANN401
 
 @dataclass(frozen=True)
 class _Term:
-    """A part of an expression; the dimension of a bare number is open."""
+    """A part of an expression.
+
+    The dimension of a bare number is open, and a figure that it multiplies is weighted: in a sum a weight may carry
+    any unit.
+    """
 
     graph: Any
     dimension: Dimension | None
     number: float | None = None
+    weighted: bool = False
 
 
 class _Reader:
@@ -127,7 +128,8 @@ class _Reader:
                 return self.figure(figure)
             case ast.UnaryOp(op=ast.USub(), operand=inner):
                 term = self.read(inner, depth + 1)
-                return _Term(-term.graph, term.dimension, None if term.number is None else -term.number)
+                negative = None if term.number is None else -term.number
+                return _Term(-term.graph, term.dimension, negative, term.weighted)
             case ast.UnaryOp(op=ast.UAdd(), operand=inner):
                 return self.read(inner, depth + 1)
             case ast.BinOp(left=left, op=op, right=right):
@@ -145,29 +147,34 @@ class _Reader:
         return _Term(_SYMBOLS[figure], parse_unit(FIGURES[figure]).dimension)
 
     def same(self, terms: list[_Term]) -> Dimension | None:
-        """The one dimension of terms that are added or compared; bare numbers take the others' SI unit."""
-        found = {term.dimension for term in terms if term.dimension is not None}
+        """The one dimension of terms that are added or compared; numbers and weights take what the others need."""
+        found = {term.dimension for term in terms if term.dimension is not None and not term.weighted}
         if len(found) > 1:
-            raise self.refuse(f"{' and '.join(sorted(map(str, found)))} do not add")
-        return found.pop() if found else None
+            raise self.refuse(f"{' and '.join(sorted(map(str, found)))} do not add; a weight may take a unit away")
+        weighted = {term.dimension for term in terms if term.dimension is not None}
+        return found.pop() if found else weighted.pop() if len(weighted) == 1 else None
 
     def combine(self, op: ast.operator, left: _Term, right: _Term) -> _Term:
         first, second = left.dimension or Dimension(), right.dimension or Dimension()
         bare = left.dimension is None and right.dimension is None
+        weighted = left.dimension is None or right.dimension is None or left.weighted or right.weighted
         match op:
             case ast.Add():
                 return _Term(left.graph + right.graph, self.same([left, right]))
             case ast.Sub():
                 return _Term(left.graph - right.graph, self.same([left, right]))
             case ast.Mult():
-                return _Term(left.graph * right.graph, None if bare else first.times(second))
+                return _Term(left.graph * right.graph, None if bare else first.times(second), weighted=weighted)
             case ast.Div():
-                return _Term(left.graph / right.graph, None if bare else first.times(second.power(-1)))
+                return _Term(
+                    left.graph / right.graph, None if bare else first.times(second.power(-1)), weighted=weighted
+                )
             case ast.Pow():
                 if right.number is None or not float(right.number).is_integer() or abs(right.number) > 9:
                     raise self.refuse("exponents are integers from -9 to 9; sqrt() takes roots")
                 power = int(right.number)
-                return _Term(left.graph**power, None if left.dimension is None else first.power(power))
+                dimension = None if left.dimension is None else first.power(power)
+                return _Term(left.graph**power, dimension, weighted=left.weighted)
         raise self.refuse(f"not the operator {type(op).__name__.lower()}")
 
     def apply(self, function: str, terms: list[_Term]) -> _Term:
@@ -180,12 +187,12 @@ class _Reader:
         if len(terms) == 1:
             (term,) = terms
             if function == "abs":
-                return _Term(casadi.fabs(term.graph), term.dimension)
+                return _Term(casadi.fabs(term.graph), term.dimension, weighted=term.weighted)
             if function == "sqrt":
                 powers = None if term.dimension is None else Dimension(*(a / 2 for a in term.dimension))
-                return _Term(casadi.sqrt(term.graph), powers)
+                return _Term(casadi.sqrt(term.graph), powers, weighted=term.weighted)
             if function in ("exp", "log"):
-                if term.dimension not in (None, Dimension()):
+                if term.dimension not in (None, Dimension()) and not term.weighted:
                     raise self.refuse(f"{function} takes a pure number")
                 return _Term(getattr(casadi, function)(term.graph), Dimension())
         raise self.refuse("functions are abs, sqrt, exp and log of one value, min and max of several")
@@ -218,11 +225,10 @@ def parse_expression(name: str, text: object) -> Expression:
     term = reader.read(tree.body)
     if not reader.names:
         raise reader.refuse("no figure occurs in it")
-    body = tree.body
-    if isinstance(body, ast.Name):
-        unit = FIGURES[body.id]
-    else:
-        unit = str(term.dimension or Dimension())
+    dimension = term.dimension or Dimension()
+    if any(exponent.denominator != 1 for exponent in dimension):
+        raise reader.refuse(f"the root of a unit is left, {dimension}")
+    unit = FIGURES[tree.body.id] if isinstance(tree.body, ast.Name) else str(dimension)
     return Expression(text.strip(), term.graph, frozenset(reader.names), unit)
 
 

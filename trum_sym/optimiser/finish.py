@@ -11,7 +11,7 @@ from trum_sym.optimiser.descent import Visit
 from trum_sym.optimiser.model import Functions, Model
 from trum_sym.validate import Array
 
-__all__ = ["ALLOWED", "TOLERANCE", "Bounds", "Finished", "checked", "finish"]
+__all__ = ["ALLOWED", "TOLERANCE", "Bounds", "Finished", "checked", "finish", "towards"]
 
 TOLERANCE = 1e-9  # of the orbits that decide
 ALLOWED = 1e-8  # violation of a constraint, over its bound
@@ -75,8 +75,12 @@ def finish(model: Model, functions: Functions, bounds: Bounds, found: Visit) -> 
 
     Parameters
     ----------
+    model : Model
+        Gives the figures.
     functions : Functions
         The objective, then the constraints.
+    bounds : Bounds
+        Of the constraints.
     found : Visit
         Where the descent ended, with these functions' slopes.
     """
@@ -84,14 +88,14 @@ def finish(model: Model, functions: Functions, bounds: Bounds, found: Visit) -> 
     slopes = found.slopes[1:] / bounds.unit[:, np.newaxis]
     guess = found.values[1:] + found.slopes[1:] @ (share - found.share)
     if np.all(np.isfinite(slopes)) and bounds.violation(guess) > _AIM:  # on rougher orbits, but a start
-        share = _towards(share, slopes, bounds.excess(guess))
+        share = towards(share, slopes, bounds.excess(guess))
     best = checked(model, functions, bounds, share)
     point = best
     for _ in range(_MOST_STEPS):
         if best.violation <= _AIM or not np.all(np.isfinite(slopes)) or not np.isfinite(point.violation):
             break
         before = point
-        point = checked(model, functions, bounds, _towards(before.share, slopes, bounds.excess(before.constraints)))
+        point = checked(model, functions, bounds, towards(before.share, slopes, bounds.excess(before.constraints)))
         moved = point.share - before.share
         if not moved @ moved > 0:
             break
@@ -103,7 +107,7 @@ def finish(model: Model, functions: Functions, bounds: Bounds, found: Visit) -> 
     return best
 
 
-def _towards(share: Array, slopes: Array, excess: Array) -> Array:
+def towards(share: Array, slopes: Array, excess: Array) -> Array:
     """The least step that takes the excess away to first order, without leaving the unit cube."""
     active = excess != 0
     free = np.ones(share.size, bool)

@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-import casadi
 import numpy as np
 
 from trum_sym.drive import Drive
@@ -17,6 +16,7 @@ from trum_sym.modal import cycle_sums
 from trum_sym.motor import Motor
 from trum_sym.operating_point import Case, evaluate, prepare
 from trum_sym.optimiser.expressions import Expression, symbol
+from trum_sym.optimiser.extra import casadi
 from trum_sym.pressure import peak_pressure
 from trum_sym.rotor import Orbit, solve_orbit
 from trum_sym.slopes import orbit_with_slopes
@@ -29,7 +29,8 @@ _TURN = 2 * np.pi
 _DETERMINANT = ("q_ratio", "q_square_ratio", "q_average", "q_volatility")
 _INPUTS = ("prepressure", "frequency_difference", "switching_phase", "load_torque", "periods", "on_periods")
 _PHASE = "switching_phase"
-_STEPS = {"prepressure": 0.2, "frequency_difference": 20.0, _PHASE: 0.02}  # of differences: N, Hz, rad
+_STEPS = {"prepressure": 0.02, "frequency_difference": 0.3, _PHASE: 1e-3}  # of closed forms' differences: N, Hz, rad
+_PHASE_STEP = 4e-3  # of orbits', rad
 _FINEST = 1e-9
 
 
@@ -171,7 +172,7 @@ class Model:
         weights = np.array([45.0, -45.0, -9.0, 9.0, 1.0, -1.0]) / 60
         columns: dict[str, list[Array]] = {}
         for k in axes:
-            step = _STEPS[self.box.names[k]]
+            step = _PHASE_STEP if orbits else _STEPS[self.box.names[k]]
             moved = np.repeat(points[np.newaxis], 6, axis=0)
             moved[:, :, k] += shifts[:, np.newaxis] * step
             if orbits:

@@ -6,13 +6,15 @@ import json
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING
 
 from trum_sym.outputs import OUTPUTS
 from trum_sym.units import parse_unit
 
-__all__ = ["Evidence", "Optimum", "as_json_text", "as_table"]
+if TYPE_CHECKING:
+    from trum_sym.optimiser.solve import Problem
 
-_ARCSEC = parse_unit("arcsec/s").to_si(1.0)
+__all__ = ["Evidence", "Optimum", "as_json_text", "as_table"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,6 +31,11 @@ class Evidence:
         How many places IPOPT started from.
     optima : tuple of float
         Objectives of the distinct local optima, the best first.
+    places : tuple of dict
+        Where these are, by the names of what varies.
+    stationarity : float or None
+        Slope of the objective across the box, over the objective, that the constraints and edges leave where IPOPT
+        ended; above 3e-3 a kink has stopped it, and a compass search has gone on from there.
     pulses : int
         Pairs of periods and on_periods in the ranges.
     pruned : int
@@ -41,6 +48,8 @@ class Evidence:
     basins: int
     starts: int
     optima: tuple[float, ...]
+    places: tuple[dict[str, float], ...]
+    stationarity: float | None
     pulses: int
     pruned: int
     reachable_speed: tuple[float, float] | None
@@ -71,6 +80,8 @@ class Optimum:
     evidence : Evidence
     figures : mapping
         Every figure of the point.
+    problem : Problem
+        What was solved, at the best pulse counts; for more questions of the same kind.
     """
 
     status: str
@@ -89,10 +100,12 @@ class Optimum:
     message: str
     evidence: Evidence
     figures: Mapping[str, float]
+    problem: Problem
 
     def as_dict(self) -> dict[str, object]:
-        """The answer by name, without ``figures``; None for what has no meaning or is infinite."""
-        found = {field.name: _known(getattr(self, field.name)) for field in fields(self) if field.name != "figures"}
+        """The answer by name, without ``figures`` and ``problem``; None for what has no meaning or is infinite."""
+        names = [field.name for field in fields(self) if field.name not in ("figures", "problem")]
+        found = {name: _known(getattr(self, name)) for name in names}
         evidence = {field.name: getattr(self.evidence, field.name) for field in fields(Evidence)}
         return {**found, "evidence": evidence}
 
@@ -133,11 +146,10 @@ def as_table(optimum: Optimum, title: str) -> str:
     evidence = optimum.evidence
     grid = " x ".join(map(str, evidence.map_shape))
     notes = [
-        f"map of {grid} places: {evidence.basins} basins that meet the constraints; IPOPT from {evidence.starts} starts",
+        f"map of {grid} places; basins meeting the constraints: {evidence.basins}, starts of IPOPT: {evidence.starts}",
         f"distinct local optima: {', '.join(f'{value:.6g}' for value in evidence.optima) or 'none'}",
     ]
     if evidence.pulses > 1:
         notes.append(f"pulse counts: {evidence.pulses} pairs, {evidence.pruned} ruled out by a coarse map")
-    notes.append(f"{optimum.evaluations} orbits computed")
     table = tabulate(rows, disable_numparse=True, colalign=("left", "right", "left"), tablefmt="plain")
     return "\n".join([heading, "", table, "", *notes])

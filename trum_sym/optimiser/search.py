@@ -64,7 +64,7 @@ def optimize(
     motor : Motor
         Of single values, no arrays.
     drive : Drive, optional
-        What does not vary: load torque, start, and whatever ``bounds`` does not name.  The paper's Table 3 if not given.
+        What does not vary: load torque, start, and whatever ``bounds`` does not name.  By default the paper's Table 3.
     objective : str
         ``"volatility"`` (speed_volatility, eq. 40), ``"q-volatility"`` (the magnitude of Q_vib, eq. 44),
         ``"speed-error"`` (distance of the mean speed from the target, and among points without, the volatility),
@@ -123,9 +123,10 @@ def _check_scalars(motor: Motor, drive: Drive) -> None:
 def _number(name: str, value: object, unit: str) -> float:
     """A finite number in its SI unit, from a number or text."""
     given = parse_quantity(name, value, unit) if isinstance(value, str) else value
-    if np.ndim(given):  # type: ignore[arg-type]
+    checked = number(name, given, Domain(), unit)
+    if np.ndim(checked):
         raise ParameterError(name, value, f"one number in {unit}")
-    return float(number(name, given, Domain(), unit))
+    return float(checked)
 
 
 def _box(drive: Drive, bounds: Mapping[str, Bound] | None) -> tuple[Box, list[tuple[int, int]], Drive]:
@@ -159,8 +160,9 @@ def _box(drive: Drive, bounds: Mapping[str, Bound] | None) -> tuple[Box, list[tu
     counts = [range(int(low), int(high) + 1) for low, high in axes]
     pulses = [(m, n) for m in counts[0] for n in counts[1] if m <= 2 * n <= 2 * m]
     if not pulses:
-        raise ParameterError("bounds of on_periods", f"{axes[1][0]:g} to {axes[1][1]:g}",
-                             f"a range with periods/2 to periods in it, with periods {axes[0][0]:g} to {axes[0][1]:g}")  # fmt: skip
+        of, m = axes[1], axes[0]
+        wanted = f"a range with periods/2 to periods in it, with periods {m[0]:g} to {m[1]:g}"
+        raise ParameterError("bounds of on_periods", f"{of[0]:g} to {of[1]:g}", wanted)
     names = tuple(name for name in _VARIABLES if name in ranges)
     if not names:
         raise ParameterError("bounds", "every variable held", "a range for prepressure or frequency_difference")
@@ -288,8 +290,11 @@ def _optimum(
     else:
         value = None if best is None else best.objective
         optima = tuple(entry for _, entry in answer.optima)
+    at = [problem.box.at(share).tolist() for share, _ in answer.optima[: len(optima)]]
+    places = tuple(dict(zip(problem.box.names, place, strict=True)) for place in at)
     evidence = Evidence(
-        map_shape=answer.map_shape, basins=answer.basins, starts=answer.starts, optima=optima,
+        map_shape=answer.map_shape, basins=answer.basins, starts=answer.starts, optima=optima, places=places,
+        stationarity=answer.stationarity,
         pulses=pulses, pruned=pruned, reachable_speed=reachable,
     )  # fmt: skip
     drive = problem.drive
@@ -316,6 +321,7 @@ def _optimum(
         message=_message(status, objective, target, answer, reachable),
         evidence=evidence,
         figures=MappingProxyType(dict(figures)),
+        problem=problem,
     )
 
 

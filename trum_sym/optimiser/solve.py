@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
-import casadi
 import numpy as np
 
 from trum_sym.drive import Drive
@@ -13,7 +12,9 @@ from trum_sym.motor import Motor
 from trum_sym.optimiser.chart import Chart, basins, chart
 from trum_sym.optimiser.descent import Task, Visit, descend
 from trum_sym.optimiser.expressions import Constraint, Expression
+from trum_sym.optimiser.extra import casadi
 from trum_sym.optimiser.finish import ALLOWED, Bounds, Finished, checked, finish
+from trum_sym.optimiser.kinks import compass, stationarity
 from trum_sym.optimiser.model import Box, Functions, Model, functions
 from trum_sym.stator import Levels
 from trum_sym.validate import Array
@@ -24,6 +25,7 @@ _MOST_STARTS = 8
 _DESCENT = 1e-6  # tolerance of IPOPT's orbits
 _CLOSE = 1e-3  # objectives closer than this share are finished too; optima closer than this in the box are one
 _STEPS = 60  # of a bisection
+_STATIONARY = 3e-3  # slope of the scaled objective across the box that is left to a minimum
 
 
 @dataclass(frozen=True)
@@ -58,13 +60,16 @@ class Answer:
         ``failed``: neither a point nor such evidence was found.
     best : Finished or None
         The optimum, or the nearest point that can be reached; None where no speed balances the load anywhere.
-    optima : list of Finished or (share, objective)
+    optima : list of (share, objective)
         Local optima that are distinct, best first, as IPOPT left them.
     map_shape : tuple of int
     basins : int
         Places of the map that no place around beats.
     starts : int
         Those that IPOPT started from.
+    stationarity : float or None
+        Slope of the objective across the box, over the objective, that the constraints and edges leave at the best of
+        IPOPT's places; above 3e-3 a kink has stopped it, and a compass search has gone on from there.
     ranges : dict
         Lowest and highest value of an equality's expression in the box, where they were looked for.
     evaluations : int
@@ -77,6 +82,7 @@ class Answer:
     map_shape: tuple[int, ...]
     basins: int
     starts: int
+    stationarity: float | None
     ranges: dict[int, tuple[float, float]]
     evaluations: int
 
@@ -94,13 +100,16 @@ class _Search:
     optima: list[tuple[Array, float]] = field(default_factory=list)
     basins: int = 0
     starts: int = 0
+    stationarity: float | None = None
     ranges: dict[int, tuple[float, float]] = field(default_factory=dict)
 
     def answer(self, status: str, best: Finished | None) -> Answer:
         """As it stands."""
         return Answer(
-            status, best, self.optima, self.map.shape, self.basins, self.starts, self.ranges, self.model.evaluations
-        )
+            status=status, best=best, optima=self.optima, map_shape=self.map.shape, basins=self.basins,
+            starts=self.starts, stationarity=self.stationarity, ranges=self.ranges,
+            evaluations=self.model.evaluations,
+        )  # fmt: skip
 
 
 def solve(problem: Problem, model: Model | None = None, known: Chart | None = None) -> Answer:
@@ -153,9 +162,7 @@ def _extent(values: Array) -> tuple[Array, Array]:
 def _descend_and_finish(search: _Search, starts: Array, objective: Array) -> Finished | None:
     """IPOPT from each start; the best of what comes out, onto its constraints and checked."""
     model, rows, bounds = search.model, search.functions, search.bounds
-    sizes = np.abs(objective[np.isfinite(objective)])
-    size = float(np.min(sizes[sizes > 0], initial=np.inf))
-    scale = np.concatenate([[size if np.isfinite(size) else 1.0], search.span])
+    scale = np.concatenate([[_size(search, objective)], search.span])
     tasks = [Task(rows, bounds.low, bounds.high, scale, start) for start in starts[:_MOST_STARTS]]
     found = descend(model, tasks, _DESCENT)
     search.starts += len(tasks)
@@ -176,11 +183,24 @@ def _descend_and_finish(search: _Search, starts: Array, objective: Array) -> Fin
             and (not distinct or value > best.objective + _CLOSE * abs(best.objective))
         ):
             continue
-        point = finish(model, rows, bounds, found[k])
+        point, left = finish(model, rows, bounds, found[k]), stationarity(found[k], bounds, scale)
+        if left > _STATIONARY and missed[k] <= 1e-4:
+            further = compass(model, rows, bounds, scale, found[k], _DESCENT)
+            if further.values[0] < value:
+                point = min(point, finish(model, rows, bounds, further), key=_order)
         if best is None or _order(point) < _order(best):
-            best = point
+            best, search.stationarity = point, left
     search.optima.sort(key=lambda optimum: optimum[1])
     return best
+
+
+def _size(search: _Search, objective: Array) -> float:
+    """What the objective is divided by: its least size at the basins, but not much less than its range in the box."""
+    of_map = search.functions.values(search.map.figures)[:, 0]
+    quarters = np.quantile(of_map[np.isfinite(of_map)], (0.25, 0.75)) if np.isfinite(of_map).any() else np.zeros(2)
+    least = float(np.min(np.abs(objective[np.isfinite(objective)]), initial=np.inf))
+    size = max(least if np.isfinite(least) else 0.0, 0.01 * float(quarters[1] - quarters[0]))
+    return size if 0 < size < np.inf else 1.0
 
 
 def _order(point: Finished) -> tuple[float, float]:
