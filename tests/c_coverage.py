@@ -41,7 +41,9 @@ NEVER = {
         "if (i > 0) put_mask(": ONE_LANE,
         "const int beyond = r->written == r->count": "rounding of a history's last time, which may fall to either side",
         "z = z < 0.0 ? 0.0 : z > 1.0": "rounding of a history's times, which may fall to either side",
-        "close = away * away <=": LAPS,
+        "close = !coarse && (away * away <=": LAPS,
+        "job->high - job->low <= 1e-15": LAPS,
+        "job->level *= 0.3": LAPS,
         "if (close && accurate && noise >": LAPS,
         "} else if (close && (accurate || last)) {": LAPS,
         "if (noise <= in->tolerance * top && !isnan(out->held))": LAPS,
@@ -53,6 +55,9 @@ NEVER = {
 STARTS, CONTACTS = ("periodic", "steady", "rest"), ("winkler", "hertz")
 RESONANCES = ("quartic", "eq6", "printed", "euler")
 FOUNDATIONS = ("harmonic", "smeared", "printed", "none")
+LINE_OF_CONTACT = (
+    "layer_young_modulus=1e15 amplitude=5e-6 resonance_frequency=39e3 on_periods=20 start=steady load_torque=0"
+)
 HOSTILE = ("nan", "inf", "-inf", "0", "-1", "1e308", "-1e308", "1e-308", "1e30")
 
 
@@ -83,6 +88,8 @@ def edges() -> list[str]:
         "on_periods=10 load_torque=0.05",
         "periods=1 on_periods=1",
         "periods=100 on_periods=60 load_torque=-0.1 switching_phase=1.3",
+        *(f"{LINE_OF_CONTACT} tolerance={x}" for x in (1e-2, 1e-4)),
+        "load_torque=0.05 tolerance=1e-2",
         "rotor_inertia=1e-9 load_torque=0.05",
         "rotor_inertia=1e-9 load_torque=0.05 tolerance=1e-6",
         "rotor_inertia=10 load_torque=0.05",

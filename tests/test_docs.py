@@ -85,3 +85,19 @@ def test_the_docs_show_what_the_studies_print(command, capsys):
     theirs, ours = skeleton(shown("docs/studies.md", f"trum-sym {command}")), skeleton(capsys.readouterr().out)
     assert ours[0].strip() == theirs[0].strip()
     assert ours[1] == pytest.approx(theirs[1], rel=2e-3)
+
+
+def test_the_page_on_tolerances_shows_what_its_command_prints(capsys, monkeypatch, tmp_path):
+    text = (ROOT / "docs/tolerance.md").read_text("utf-8")
+    command = re.search(r"^    (trum-sym tolerance (?:.*\\\n)*.*)$", text, re.MULTILINE)[1]
+    monkeypatch.chdir(tmp_path)
+    main(shlex.split(command.replace("\\\n", " "))[1:])
+    assert lines(shown("docs/tolerance.md", "trum-sym tolerance")) == lines(capsys.readouterr().out)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["points.csv", "study.png"]
+
+
+def test_the_page_on_tolerances_has_python_that_runs(capsys):
+    text = (ROOT / "docs/tolerance.md").read_text("utf-8")
+    for block in re.findall(r"```python\n(.*?)```", text, re.DOTALL):
+        exec(block, {})
+    assert capsys.readouterr().out.rstrip().endswith(")}"), "the indices of the last block"

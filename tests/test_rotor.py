@@ -170,6 +170,20 @@ def test_a_batch_gives_the_same_bits_as_its_points_one_by_one(trum60):
         )  # fmt: skip
 
 
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-6])
+def test_a_line_of_contact_is_as_fast_as_its_wave(trum60, tolerance):
+    """Bold steps chatter where the rotor has the speed of the wave, and are to be taken back."""
+    values = {"amplitude": 5e-6, "resonance_frequency": 39e3, "layer_young_modulus": 1e15}
+    drive = ts.Drive(on_periods=20, start="steady", load_torque=0.0)
+    point = ts.evaluate(trum60.with_values(values), drive, tolerance=tolerance)
+    # a plain wave's crest has the speed D k_c W omega_q, the edges of the contact less by theta^2/2 of it
+    crest = point.neutral_axis * point.wavenumber * 5e-6 * 2 * np.pi * 42e3 / trum60.contact_radius.value
+    assert point.converged
+    theta = np.pi * point.contact_fraction
+    assert theta < 0.01
+    assert crest * (1 - theta**2 / 2) < point.mean_speed < crest
+
+
 def test_a_load_beyond_friction_has_no_speed(trum60, capsys):
     point = ts.evaluate(trum60, ts.Drive(load_torque=np.array([1.0, 1.2, -1.2])))
     assert np.isfinite(point.mean_speed[0])

@@ -27,10 +27,13 @@ if TYPE_CHECKING:
     from trum_sym.studies.pareto import pareto
     from trum_sym.studies.robust import robust
     from trum_sym.studies.speed_table import speed_table
+    from trum_sym.uncertainty.distributions import Distribution
+    from trum_sym.uncertainty.study import tolerance
 
 __all__ = [
     "Calibration",
     "ConvergenceError",
+    "Distribution",
     "Drive",
     "MissingExtraError",
     "Motor",
@@ -48,11 +51,13 @@ __all__ = [
     "sensitivities",
     "simulate",
     "speed_table",
+    "tolerance",
 ]
 
 _HOME = {
     "Calibration": "calibration",
     "ConvergenceError": "errors",
+    "Distribution": "uncertainty.distributions",
     "Drive": "drive",
     "MissingExtraError": "errors",
     "Motor": "motor",
@@ -70,6 +75,7 @@ _HOME = {
     "sensitivities": "slopes",
     "simulate": "histories",
     "speed_table": "studies.speed_table",
+    "tolerance": "uncertainty.study",
 }
 
 

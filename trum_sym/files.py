@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,7 +14,7 @@ from trum_sym.errors import MissingExtraError, ParameterError
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["check_target", "write", "write_bytes"]
+__all__ = ["check_packages", "check_target", "replaced", "write", "write_bytes"]
 
 _SUFFIXES = (".nc", ".csv")
 
@@ -23,7 +25,7 @@ def check_target(name: str, target: Path, suffixes: tuple[str, ...] = _SUFFIXES)
     Raises
     ------
     ParameterError
-        For another suffix than those allowed, a folder that is not there or not ours to write in.
+        For another suffix than these, a folder that is not there or not ours to write in.
     """
     if target.suffix not in suffixes:
         raise ParameterError(name, str(target), f"a file name that ends in {' or '.join(suffixes)}")
@@ -33,39 +35,39 @@ def check_target(name: str, target: Path, suffixes: tuple[str, ...] = _SUFFIXES)
         raise ParameterError(name, str(target), "a file in a folder that exists and can be written to")
 
 
-def write(name: str, dataset: xr.Dataset, target: Path) -> None:
-    """Write beside the file and rename, so that no half-written one is ever seen.
+def check_packages(target: Path) -> None:
+    """Refuse a data set's file for which a package is missing.
 
-    CSV has one row per time and the units in its header; NetCDF keeps the attributes too.
+    Raises
+    ------
+    MissingExtraError
+        Without xarray or, for NetCDF, h5netcdf.
+    """
+    try:
+        import xarray  # noqa: F401
+
+        if target.suffix == ".nc":
+            import h5netcdf  # noqa: F401
+            import h5py  # noqa: F401
+    except ImportError as error:
+        raise MissingExtraError(f"a {target.suffix} file", str(error.name), "data") from None
+
+
+@contextmanager
+def replaced(name: str, target: Path) -> Iterator[Path]:
+    """A file beside the target to write to; it takes the target's place at the end, if nothing failed until then.
 
     Raises
     ------
     ParameterError
         If the file cannot be written.
-    MissingExtraError
-        For NetCDF without h5netcdf.
     """
-    check_target(name, target)
     beside = None
     try:
         handle, path = tempfile.mkstemp(prefix=f".{target.stem}-", suffix=target.suffix, dir=target.parent)
         os.close(handle)
         beside = Path(path)
-        if target.suffix == ".nc":
-            try:
-                import h5netcdf  # noqa: F401
-                import h5py  # noqa: F401
-            except ImportError as error:
-                raise MissingExtraError("a .nc file", str(error.name), "data") from None
-            dataset.to_netcdf(beside, engine="h5netcdf")
-        else:
-            units = {
-                name: f"{name} [{array.attrs['units']}]"
-                for name, array in dataset.variables.items()
-                if "units" in array.attrs
-            }
-            table = dataset.to_dataframe().reset_index().rename(columns=units)
-            table.to_csv(beside, index=False, float_format="%.17g")
+        yield beside
         mask = os.umask(0)
         os.umask(mask)
         beside.chmod(0o666 & ~mask)  # as any other new file; mkstemp's are private
@@ -78,6 +80,33 @@ def write(name: str, dataset: xr.Dataset, target: Path) -> None:
             beside.unlink(missing_ok=True)
 
 
+def write(name: str, dataset: xr.Dataset, target: Path) -> None:
+    """Write beside the file and rename, so that no half-written one is ever seen.
+
+    CSV has one row per point and the units in its header; NetCDF keeps the attributes too.
+
+    Raises
+    ------
+    ParameterError
+        If the file cannot be written.
+    MissingExtraError
+        For NetCDF without h5netcdf.
+    """
+    check_target(name, target)
+    check_packages(target)
+    with replaced(name, target) as beside:
+        if target.suffix == ".nc":
+            dataset.to_netcdf(beside, engine="h5netcdf")
+        else:
+            units = {
+                name: f"{name} [{array.attrs['units']}]"
+                for name, array in dataset.variables.items()
+                if "units" in array.attrs
+            }
+            table = dataset.to_dataframe().reset_index().rename(columns=units)
+            table.to_csv(beside, index=False, float_format="%.17g")
+
+
 def write_bytes(name: str, content: bytes, target: Path) -> None:
     """Write what is there already in the same way: beside the file, then rename.
 
@@ -86,17 +115,5 @@ def write_bytes(name: str, content: bytes, target: Path) -> None:
     ParameterError
         If the file cannot be written.
     """
-    try:
-        handle, path = tempfile.mkstemp(prefix=f".{target.stem}-", suffix=target.suffix, dir=target.parent)
-        beside = Path(path)
-        try:
-            with os.fdopen(handle, "wb") as stream:
-                stream.write(content)
-            mask = os.umask(0)
-            os.umask(mask)
-            beside.chmod(0o666 & ~mask)
-            beside.replace(target)
-        finally:
-            beside.unlink(missing_ok=True)
-    except OSError as error:
-        raise ParameterError(name, str(target), f"a file that can be written ({error.strerror or error})") from None
+    with replaced(name, target) as beside:
+        beside.write_bytes(content)

@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, fields, replace
 from types import MappingProxyType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from trum_sym.errors import ParameterError
 from trum_sym.units import parse_quantity
 from trum_sym.validate import ArrayLike, Domain, broadcast_shape, number
+
+if TYPE_CHECKING:
+    from trum_sym.uncertainty.distributions import Distribution
 
 __all__ = ["SPECS", "Motor", "Parameter", "Published", "Spec", "spec"]
 
@@ -46,6 +49,8 @@ class Parameter:
         For calibrated values: the confidence interval, in ``unit``.
     data : str
         For calibrated values: the name of the data.
+    distribution : Distribution or None
+        How the value spreads, where the motor file says more than a range.
     """
 
     value: ArrayLike
@@ -56,6 +61,7 @@ class Parameter:
     reason: str = ""
     interval: tuple[float, float] | None = None
     data: str = ""
+    distribution: Distribution | None = None
 
 
 @dataclass(frozen=True)

@@ -10,14 +10,18 @@ from typing import Any
 
 from trum_sym.drive import DRIVE_DOMAINS
 from trum_sym.errors import ParameterError
-from trum_sym.motor import SPECS, Motor, Parameter, Published, spec
+from trum_sym.motor import SPECS, Motor, Parameter, Published, Spec, spec
 from trum_sym.outputs import OUTPUTS
+from trum_sym.uncertainty.distributions import Distribution, checked
 from trum_sym.units import Unit, parse_unit
 from trum_sym.validate import ArrayLike, Domain, number
 
 __all__ = ["load_motor", "motor_text"]
 
-_KEYS = ("value", "unit", "symbol", "source", "range", "reason", "note", "interval", "data")
+_KEYS = (
+    "value", "unit", "symbol", "source", "range", "reason", "note", "interval", "data", "distribution", "mean",
+    "standard_deviation",
+)  # fmt: skip
 
 
 def _unit(name: str, given: str, wanted: str) -> Unit:
@@ -74,7 +78,13 @@ def _read_parameter(name: str, entry: object) -> Parameter:
         raise ParameterError(name, "source = 'assumed'", "a range and a reason beside it")
     if source.casefold() == "calibrated" and (interval is None or not data):
         raise ParameterError(name, "source = 'calibrated'", "an interval and data, the name of the data, beside it")
-    return Parameter(value, wanted.unit, wanted.symbol, source, limits, reason, interval, data)
+    moments = {
+        key: _in_si(f"{name}.{key}", entry[key], unit, entry["unit"])
+        for key in ("mean", "standard_deviation")
+        if key in entry
+    }
+    distribution = _read_distribution(name, entry.get("distribution"), float(value), limits, moments, wanted)
+    return Parameter(value, wanted.unit, wanted.symbol, source, limits, reason, interval, data, distribution)
 
 
 def _read_ends(name: str, raw: object, value: ArrayLike, unit: Unit, given: str) -> tuple[float, float] | None:
@@ -87,6 +97,41 @@ def _read_ends(name: str, raw: object, value: ArrayLike, unit: Unit, given: str)
     if not -float("inf") < low <= value <= high < float("inf"):
         raise ParameterError(name, raw, "finite numbers with low <= value <= high")
     return low, high
+
+
+def _read_distribution(
+    name: str,
+    kind: object,
+    value: float,
+    limits: tuple[float, float] | None,
+    moments: dict[str, float],
+    wanted: Spec,
+) -> Distribution | None:
+    """What is said beyond the range.
+
+    A triangular distribution has its peak at the value, a normal or lognormal one its mean unless another is given;
+    without a standard deviation, the range reaches two of them to either side of its middle.
+    """
+    if kind is None:
+        if moments:
+            raise ParameterError(
+                f"{name}.{next(iter(moments))}", "no distribution", "distribution = 'normal' beside it"
+            )
+        return None
+    if not isinstance(kind, str):
+        raise ParameterError(f"{name}.distribution", kind, "text")
+    if kind in ("uniform", "triangular") and moments:
+        raise ParameterError(f"{name}.{next(iter(moments))}", f"a {kind} distribution", "a range only")
+    if limits is None and "standard_deviation" not in moments:
+        raise ParameterError(f"{name}.distribution", kind, "a range or, if normal, a standard_deviation beside it")
+    low, high = limits or (-float("inf"), float("inf"))
+    if kind in ("uniform", "triangular"):
+        distribution = Distribution(kind, low, high, mode=value if kind == "triangular" else None)
+    else:
+        deviation = moments.get("standard_deviation", (high - low) / 4)
+        distribution = Distribution(kind, low, high, moments.get("mean", value), deviation)
+    checked(name, distribution, wanted)
+    return distribution
 
 
 def _read_published(entry: object) -> Published:

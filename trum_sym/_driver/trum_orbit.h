@@ -958,10 +958,7 @@ static void trum_load(trum_lanes* l, int i, trum_job* job, const trum_orbit_in* 
 }
 
 /* The rough level that makes one fine lap enough: Newton's step from there leaves its square. */
-static double trum_rough(double tolerance) {
-  const double rough = 0.1 * sqrt(tolerance);
-  return trum_level * (rough > tolerance ? rough : tolerance);
-}
+static double trum_rough(double tolerance) { return trum_level * 0.1 * sqrt(tolerance); }
 
 /* A lap is over: the next one, or 0 when the point is done.  Gain falls as the start rises: Newton in a bracket. */
 static int trum_judge(trum_lanes* l, int i, trum_job* job) {

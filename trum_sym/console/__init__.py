@@ -12,6 +12,7 @@ from trum_sym.console.pareto import pareto
 from trum_sym.console.robust import robust
 from trum_sym.console.simulate import simulate
 from trum_sym.console.speed_table import speed_table
+from trum_sym.console.tolerance import tolerance
 
 __all__ = ["main"]
 
@@ -25,7 +26,9 @@ def _cli() -> None:
     """
 
 
-for _command in (evaluate, simulate, optimize, pareto, robust, speed_table, calibrate, equations):
+for _command in (
+    evaluate, simulate, tolerance, optimize, pareto, robust, speed_table, calibrate, equations,
+):  # fmt: skip
     _cli.add_command(_command)
 
 

@@ -1,0 +1,303 @@
+"""Tolerance study of a motor: how uncertain parameters of motor and drive spread an operating point's figures."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from trum_sym.drive import DRIVE_DOMAINS, Drive
+from trum_sym.errors import ParameterError
+from trum_sym.motor import SPECS, Motor, Spec, spec
+from trum_sym.operating_point import OperatingPoint, evaluate
+from trum_sym.outputs import OUTPUTS
+from trum_sym.stator import Amplitude, Contact, Foundation, Resonance
+from trum_sym.uncertainty.distributions import Distribution, checked, default_distribution, from_text
+from trum_sym.uncertainty.propagation import Estimate, Propagation, check_design, propagate, share
+from trum_sym.units import parse_quantity
+from trum_sym.validate import Array, ArrayLike
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["BALANCED", "MISSED", "MOTOR_FILE", "Given", "Study", "Target", "tolerance"]
+
+MOTOR_FILE = "motor"  # stands for every parameter that the motor file gives a range or a distribution
+BALANCED, MISSED = "balanced", "missed"  # outputs of the study itself: 1 or 0
+
+Given = Distribution | str | None
+
+_TARGET = re.compile(r"\s*(\w+)\s*(>=|<=|>|<)\s*(.+)", re.DOTALL)
+_COMPARE = {">=": np.greater_equal, "<=": np.less_equal, ">": np.greater, "<": np.less}
+
+
+@dataclass(frozen=True)
+class Target:
+    """What an output has to keep to, such as ``mean_speed >= 600 arcsec/s``; ``bound`` in the output's SI unit."""
+
+    text: str
+    output: str
+    relation: str
+    bound: float
+
+    def missed(self, values: Array) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
+        """Where it is missed; a point without a value misses it."""
+        return ~np.asarray(_COMPARE[self.relation](values, self.bound), bool)
+
+
+@dataclass(frozen=True)
+class Study:
+    """A tolerance study; SI units, frequencies in Hz, speeds in rad/s.
+
+    Attributes
+    ----------
+    motor, drive, levels
+        The point that is studied.
+    distributions : mapping of str to Distribution
+        Of the uncertain parameters, as they were given.
+    samples, seed : int
+    outputs : tuple of str
+        The figures that were asked for.
+    targets : tuple of Target
+    nominal : OperatingPoint
+        With every parameter at its own value.
+    propagation : Propagation
+        All points, all figures there, and indices; besides the outputs, ``balanced`` is 1 where a speed balances the
+        load and ``missed`` 1 where a target is missed.
+    settled : (d + 2, n) array of bool
+        Whether the rotor's orbit met the tolerance, by point.
+    """
+
+    motor: Motor
+    drive: Drive
+    levels: Mapping[str, object]
+    distributions: Mapping[str, Distribution]
+    samples: int
+    seed: int
+    outputs: tuple[str, ...]
+    targets: tuple[Target, ...]
+    nominal: OperatingPoint
+    propagation: Propagation
+    settled: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
+
+    @property
+    def unbalanced(self) -> Estimate:
+        """The probability that no speed balances the load."""
+        return share(self.propagation.values[BALANCED][:2] == 0)
+
+    @property
+    def unbounded(self) -> tuple[str, ...]:
+        """Outputs without a variance: the volatility, if the mean speed passes zero among the points."""
+        speed = self.propagation.values["mean_speed"]
+        passes = bool((speed > 0).any() and (speed < 0).any())
+        return ("speed_volatility",) if passes and "speed_volatility" in self.outputs else ()
+
+    def points_where(self, chosen: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]) -> list[dict[str, float]]:
+        """The uncertain parameters at the chosen points of A and B."""
+        drawn = {name: values[:2][chosen[:2]] for name, values in self.propagation.points.items()}
+        return [dict(zip(drawn, map(float, row), strict=True)) for row in zip(*drawn.values(), strict=True)]
+
+    def missing(self, target: Target | None = None) -> Estimate:
+        """The probability of missing one target, or any of them; a point without a value misses."""
+        values = self.propagation.values
+        return share(values[MISSED][:2] == 1 if target is None else target.missed(values[target.output][:2]))
+
+    def dataset(self) -> xr.Dataset:
+        """Every point that was computed, with units and all settings."""
+        from trum_sym.uncertainty.tables import as_dataset
+
+        return as_dataset(self)
+
+
+def _spec_of(name: str) -> Spec:
+    if name in DRIVE_DOMAINS:
+        domain, unit = DRIVE_DOMAINS[name]
+        return Spec(unit, name, domain, required=True)
+    if name not in SPECS:
+        from difflib import get_close_matches
+
+        close = get_close_matches(name, [*SPECS, *DRIVE_DOMAINS], n=3, cutoff=0.5)
+        hint = f"; close names: {', '.join(close)}" if close else ""
+        raise ParameterError("parameters", name, f"a number of the motor file or the drive{hint}")
+    return spec(name)
+
+
+def _chosen(motor: Motor, parameters: Mapping[str, Given] | Sequence[str] | None) -> dict[str, Distribution]:
+    """The uncertain parameters, as given."""
+    own = {name: default_distribution(p) for name, p in motor.parameters()}
+    uncertain = {name: found for name, found in own.items() if found is not None}
+    if parameters is None:
+        parameters = [MOTOR_FILE]
+    if isinstance(parameters, str) or not isinstance(parameters, Mapping | Sequence):
+        raise ParameterError("parameters", parameters, "names, or distributions by name")
+    given: dict[str, Given] = dict(parameters) if isinstance(parameters, Mapping) else dict.fromkeys(parameters)
+    chosen: dict[str, Distribution] = {}
+    for name, wish in given.items():
+        if name == MOTOR_FILE and wish is None:
+            chosen = {**uncertain, **chosen}
+            continue
+        if not isinstance(name, str):
+            raise ParameterError("parameters", name, "names of uncertain parameters")
+        wanted = _spec_of(name)
+        if isinstance(wish, str):
+            wish = from_text(name, wish, wanted.unit)
+        elif wish is None:
+            wish = uncertain.get(name)
+            if wish is None:
+                raise ParameterError(
+                    name,
+                    "no distribution",
+                    "one, such as uniform:LOW:HIGH; the motor file gives neither range nor more",
+                )
+        elif not isinstance(wish, Distribution):
+            raise ParameterError(name, wish, "a Distribution or its text, such as normal:MEAN:STANDARD_DEVIATION")
+        chosen[name] = wish
+    if not chosen:
+        raise ParameterError("parameters", "none", "at least one; the motor file gives no range or distribution")
+    return chosen
+
+
+def _read_target(text: object) -> Target:
+    found = _TARGET.fullmatch(text) if isinstance(text, str) else None
+    if found is None:
+        raise ParameterError("target", text, "OUTPUT >= NUMBER or <=, >, <, such as mean_speed >= 600 arcsec/s")
+    output, relation, bound = found.groups()
+    _check_output("target", output)
+    value = parse_quantity(f"target, {output}", bound, OUTPUTS[output].unit)
+    if not np.isfinite(value):
+        raise ParameterError(f"target, {output}", bound, "a finite number")
+    return Target(" ".join(str(text).split()), output, relation, value)
+
+
+def _check_output(name: str, output: object) -> None:
+    if not isinstance(output, str) or output not in OUTPUTS:
+        raise ParameterError(name, output, f"one of {', '.join(OUTPUTS)}")
+
+
+def _texts(name: str, given: object) -> tuple[str, ...]:
+    """One text, or several, each once."""
+    if isinstance(given, str):
+        return (given,)
+    if not isinstance(given, Sequence) or not all(isinstance(text, str) for text in given):
+        raise ParameterError(name, given, "text, or a list of it")
+    return tuple(dict.fromkeys(given))
+
+
+def _check_one_point(motor: Motor, drive: Drive) -> None:
+    numbers = {**drive.numbers(), **{name: p.value for name, p in motor.parameters()}}
+    for name, value in numbers.items():
+        if np.ndim(value):
+            raise ParameterError(name, f"an array of shape {np.shape(value)}", "one number: a study is of one point")
+
+
+def tolerance(
+    motor: Motor,
+    drive: Drive | None = None,
+    *,
+    parameters: Mapping[str, Given] | Sequence[str] | None = None,
+    samples: int = 1024,
+    outputs: Sequence[str] = ("mean_speed", "speed_volatility"),
+    target: str | Sequence[str] = (),
+    seed: int = 0,
+    contact: Contact = "winkler",
+    resonance: Resonance = "quartic",
+    foundation: Foundation = "harmonic",
+    amplitude: Amplitude = "measured",
+    sampling_period: ArrayLike | None = None,
+    tolerance: float = 1e-6,
+    progress: bool = False,
+) -> Study:
+    """How uncertain parameters spread the figures of an operating point, and which of them does it.
+
+    Parameters
+    ----------
+    motor : Motor
+        Of plain numbers, no arrays; so is the drive.
+    drive : Drive, optional
+        The paper's Table 3 if not given.
+    parameters : mapping or sequence of names, optional
+        The uncertain ones, of motor and drive, taken as independent: distributions by name, as :class:`Distribution`,
+        as text (``"normal:180:5"``), or None for what the motor file says.  ``"motor"`` stands for all that the motor
+        file gives a range or a distribution, which is the default.
+    samples : int
+        Rows of the design, a power of two; samples (d + 2) points are computed for d parameters.
+    outputs : sequence of str
+        Figures of :class:`OperatingPoint`.
+    target : str or sequence of str, optional
+        What has to hold, such as ``"mean_speed >= 600 arcsec/s"``.
+    seed : int
+        Of points and bootstrap; the same seed gives the same bits.
+    contact, resonance, foundation, amplitude, sampling_period, tolerance, progress
+        As for :func:`trum_sym.evaluate`.
+
+    Returns
+    -------
+    Study
+
+    Raises
+    ------
+    ParameterError
+        For bad input, or an output that no parameter moves.
+    MissingExtraError
+        Without SciPy.
+    ConvergenceError
+        As :func:`trum_sym.evaluate` does.
+    """
+    samples, seed = check_design(samples, seed)
+    drive = Drive() if drive is None else drive
+    if not isinstance(motor, Motor):
+        raise ParameterError("motor", motor, "a Motor, as load_motor returns it")
+    if not isinstance(drive, Drive):
+        raise ParameterError("drive", drive, "a Drive")
+    _check_one_point(motor, drive)
+    outputs = _texts("outputs", outputs)
+    for output in outputs:
+        _check_output("outputs", output)
+    if not outputs:
+        raise ParameterError("outputs", "none", f"at least one of {', '.join(OUTPUTS)}")
+    targets = tuple(map(_read_target, _texts("target", target)))
+    distributions = _chosen(motor, parameters)
+    sampled = {name: checked(name, given, _spec_of(name)) for name, given in distributions.items()}
+    levels = {
+        "contact": contact,
+        "resonance": resonance,
+        "foundation": foundation,
+        "amplitude": amplitude,
+        "sampling_period": sampling_period,
+    }
+    nominal = evaluate(motor, drive, **levels, tolerance=tolerance)  # type: ignore[arg-type]
+    settled = []
+
+    def figures(point: Mapping[str, Array]) -> dict[str, ArrayLike]:
+        of_drive = {name: value for name, value in point.items() if name in DRIVE_DOMAINS}
+        of_motor = {name: value for name, value in point.items() if name not in DRIVE_DOMAINS}
+        found = evaluate(
+            motor.with_values(of_motor),
+            replace(drive, **of_drive),  # type: ignore[arg-type]
+            **levels,  # type: ignore[arg-type]
+            tolerance=tolerance,
+            progress=progress,
+        )
+        values: dict[str, ArrayLike] = {name: np.asarray(getattr(found, name)) for name in OUTPUTS}
+        settled.append(np.asarray(found.converged))
+        values[BALANCED] = np.isfinite(values["mean_speed"]).astype(float)
+        if targets:
+            missed = [target.missed(np.asarray(values[target.output])) for target in targets]
+            values[MISSED] = np.any(missed, axis=0).astype(float)
+        return values
+
+    found = propagate(
+        figures,
+        {name: distribution.quantile for name, distribution in sampled.items()},
+        samples=samples,
+        seed=seed,
+        outputs=outputs,
+        indicators=(BALANCED, MISSED) if targets else (BALANCED,),
+    )
+    shape = found.values[BALANCED].shape
+    return Study(
+        motor, drive, levels, distributions, samples, seed, outputs, targets, nominal, found, settled[0].reshape(shape)
+    )
