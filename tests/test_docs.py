@@ -101,3 +101,13 @@ def test_the_page_on_tolerances_has_python_that_runs(capsys):
     for block in re.findall(r"```python\n(.*?)```", text, re.DOTALL):
         exec(block, {})
     assert capsys.readouterr().out.rstrip().endswith(")}"), "the indices of the last block"
+
+
+@pytest.mark.parametrize("page", ["calibrate.md", "studies.md"])
+def test_the_pages_on_calibration_and_studies_have_python_that_runs(page, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    for block in re.findall(r"```python\n(.*?)```", (ROOT / "docs" / page).read_text("utf-8"), re.DOTALL):
+        exec(block, {})
+    assert [path.name for path in tmp_path.iterdir()] == [
+        {"calibrate.md": "my-motor.toml", "studies.md": "table.h"}[page]
+    ]
