@@ -13,6 +13,7 @@ import pytest
 import trum_sym as ts
 from trum_sym import console
 from trum_sym.optimiser.chart import Chart
+from trum_sym.studies.pareto import _Candidate, _front
 from trum_sym.studies.path import Candidates, choose
 from trum_sym.studies.table_builder import Builder
 
@@ -220,6 +221,14 @@ def test_a_front_rises_and_its_figures_are_evaluates(trum60, front):
         point = ts.evaluate(trum60, drive, tolerance=1e-9)
         assert p.objective == pytest.approx(point.speed_volatility, rel=1e-7)
         assert p.against == pytest.approx(point.stall_torque - 0.05, rel=1e-7)
+
+
+def test_what_another_point_beats_in_both_is_no_point_of_a_front():
+    found = [
+        _Candidate(f, g, None) for f, g in ((1.0, 5.0), (2.0, 4.0), (3.0, 6.0), (2.5, 5.5), (2.5, 5.7), (4.0, 6.0))
+    ]
+    assert [(c.objective, c.against) for c in _front(found, -1.0)] == [(1.0, 5.0), (2.5, 5.7), (3.0, 6.0)]  # large
+    assert [(c.objective, c.against) for c in _front(found, 1.0)] == [(1.0, 5.0), (2.0, 4.0)]  # small
 
 
 def test_ends_of_the_front_are_the_two_optima(trum60, front):
