@@ -1,4 +1,6 @@
-"""``python -m derivations``: ``generate [--check]`` writes generated/, ``verify`` re-proves the ledger."""
+"""``python -m derivations``: ``generate [--check]`` writes generated/, ``verify`` re-proves the ledger,
+``wasm [--check]`` compiles the C library for the report.
+"""
 
 from __future__ import annotations
 
@@ -44,7 +46,13 @@ def main(arguments: list[str] | None = None) -> int:
     proving.add_argument("--mutants", action="store_true", help="see whether the evidence notices every small slip")
     proving.add_argument("--write", action="store_true", help="write generated/ledger.json and ledger.html")
     proving.add_argument("--check", action="store_true", help="change nothing; exit 1 if those two are stale")
+    module = commands.add_parser("wasm", help="compile the C library for the report's interactive part")
+    module.add_argument("--check", action="store_true", help="change nothing, need no compiler; exit 1 if it is stale")
     options = parser.parse_args(arguments)
+    if options.command == "wasm":
+        from derivations.wasm import command
+
+        return command(options.check)
     if options.command == "generate":
         return _generate(options.check)
     from derivations.ledger.command import verify

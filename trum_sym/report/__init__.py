@@ -1,0 +1,1 @@
+"""The report: figures, claims and an interactive part as one page."""
