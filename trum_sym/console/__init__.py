@@ -9,6 +9,7 @@ from trum_sym.console.equations import equations
 from trum_sym.console.evaluate import evaluate
 from trum_sym.console.optimize import optimize
 from trum_sym.console.pareto import pareto
+from trum_sym.console.report import report
 from trum_sym.console.robust import robust
 from trum_sym.console.simulate import simulate
 from trum_sym.console.speed_table import speed_table
@@ -27,7 +28,7 @@ def _cli() -> None:
 
 
 for _command in (
-    evaluate, simulate, tolerance, optimize, pareto, robust, speed_table, calibrate, equations,
+    evaluate, simulate, tolerance, optimize, pareto, robust, speed_table, calibrate, equations, report,
 ):  # fmt: skip
     _cli.add_command(_command)
 
