@@ -12,7 +12,7 @@ from functools import cache
 
 import sympy as sp
 
-from derivations import amplitude, beam, contact, determinant, phases, rotor, section
+from derivations import amplitude, beam, contact, determinant, phases, rotor, section, surface
 from derivations.nomenclature import CONSTANTS, sym
 
 __all__ = ["Kernel", "kernels"]
@@ -317,7 +317,25 @@ def _rotor() -> list[Kernel]:
     ]
 
 
+def _surface() -> list[Kernel]:
+    return [
+        Kernel(
+            "trum_particle",
+            "A point of the surface within a region: displacements, tangential velocity, envelope, crest "
+            "(eqs. 11, 12, 16, 20)",
+            surface.point(),
+            {"zeta_z": "m", "zeta_x": "m", "v_x": "m/s", "A_Q": "m", "x_max": "m"},
+        ),
+        Kernel(
+            "trum_interface",
+            "Surface speed about the crest, line pressure, traction on the rotor (eqs. 16, 32, 36)",
+            surface.interface(),
+            {"v_x": "m/s", "v_x_slope": "1/s", "p": "N/m", "traction": "N/m"},
+        ),
+    ]
+
+
 @cache
 def kernels() -> tuple[Kernel, ...]:
     """All kernels, in the order of the manifest."""
-    return tuple(_section() + _resonance() + _amplitude() + _contact() + _cycle() + _rotor() + _slopes())
+    return tuple(_section() + _resonance() + _amplitude() + _contact() + _cycle() + _rotor() + _slopes() + _surface())

@@ -168,6 +168,16 @@ int trum_friction_slopes(const trum_real** arg, trum_real** res, long long int* 
 enum { trum_friction_slopes_in_R_v, trum_friction_slopes_in_cos_phi, trum_friction_slopes_in_engagement, trum_friction_slopes_in_phi, trum_friction_slopes_in_share, trum_friction_slopes_in_sin_phi, trum_friction_slopes_in_sin_theta, trum_friction_slopes_in_theta, trum_friction_slopes_in_v, trum_friction_slopes_n_arg };
 enum { trum_friction_slopes_out_f_phi, trum_friction_slopes_out_f_E, trum_friction_slopes_out_theta_E, trum_friction_slopes_out_E_height, trum_friction_slopes_n_res };
 
+/* A point of the surface within a region: displacements, tangential velocity, envelope, crest (eqs. 11, 12, 16, 20) */
+int trum_particle(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_particle_in_D, trum_particle_in_Delta_omega, trum_particle_in_W, trum_particle_in_a_A, trum_particle_in_a_B, trum_particle_in_b_A, trum_particle_in_b_B, trum_particle_in_g_A, trum_particle_in_g_B, trum_particle_in_k_c, trum_particle_in_omega_n, trum_particle_in_psi, trum_particle_in_s, trum_particle_in_tau, trum_particle_in_x, trum_particle_in_xi, trum_particle_n_arg };
+enum { trum_particle_out_zeta_z, trum_particle_out_zeta_x, trum_particle_out_v_x, trum_particle_out_A_Q, trum_particle_out_x_max, trum_particle_n_res };
+
+/* Surface speed about the crest, line pressure, traction on the rotor (eqs. 16, 32, 36) */
+int trum_interface(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_interface_in_F_c, trum_interface_in_R_v, trum_interface_in_cos_phi, trum_interface_in_engagement, trum_interface_in_k_c, trum_interface_in_mu, trum_interface_in_n_j, trum_interface_in_share, trum_interface_in_sin_phi, trum_interface_in_v, trum_interface_in_x, trum_interface_in_x_max, trum_interface_n_arg };
+enum { trum_interface_out_v_x, trum_interface_out_v_x_slope, trum_interface_out_p, trum_interface_out_traction, trum_interface_n_res };
+
 /* name, number of inputs and outputs, their names */
 #define TRUM_KERNELS(X) \
   X(trum_neutral_axis, 7, 1, "E_e E_p b_e b_p h_e h_p h_t", "D") \
@@ -200,7 +210,9 @@ enum { trum_friction_slopes_out_f_phi, trum_friction_slopes_out_f_E, trum_fricti
   X(trum_start_rest_slopes, 5, 8, "Delta_omega W omega_n psi s", "a_A_omega_n b_A_omega_n a_B_omega_n b_B_omega_n a_A_Delta_omega b_A_Delta_omega a_B_Delta_omega b_B_Delta_omega") \
   X(trum_regions_slopes, 20, 24, "Delta_omega W a_A a_A_Delta_omega a_A_omega_n a_B a_B_Delta_omega a_B_omega_n b_A b_A_Delta_omega b_A_omega_n b_B b_B_Delta_omega b_B_omega_n m n omega_n psi s xi", "re_A_redu_omega_n im_A_redu_omega_n re_A_addredu_omega_n im_A_addredu_omega_n re_A_add_omega_n im_A_add_omega_n re_B_redu_omega_n im_B_redu_omega_n re_B_addredu_omega_n im_B_addredu_omega_n re_B_add_omega_n im_B_add_omega_n re_A_redu_Delta_omega im_A_redu_Delta_omega re_A_addredu_Delta_omega im_A_addredu_Delta_omega re_A_add_Delta_omega im_A_add_Delta_omega re_B_redu_Delta_omega im_B_redu_Delta_omega re_B_addredu_Delta_omega im_B_addredu_Delta_omega re_B_add_Delta_omega im_B_add_Delta_omega") \
   X(trum_wave_slopes, 24, 6, "D Delta_omega W f_A_im f_A_im_Delta_omega f_A_im_omega_n f_A_re f_A_re_Delta_omega f_A_re_omega_n f_B_im f_B_im_Delta_omega f_B_im_omega_n f_B_re f_B_re_Delta_omega f_B_re_omega_n g_A g_B k_c omega_n p_im p_re s tau xi", "W_c_omega_n R_v_omega_n phi_omega_n W_c_Delta_omega R_v_Delta_omega phi_Delta_omega") \
-  X(trum_friction_slopes, 9, 4, "R_v cos_phi engagement phi share sin_phi sin_theta theta v", "f_phi f_E theta_E E_height")
+  X(trum_friction_slopes, 9, 4, "R_v cos_phi engagement phi share sin_phi sin_theta theta v", "f_phi f_E theta_E E_height") \
+  X(trum_particle, 16, 5, "D Delta_omega W a_A a_B b_A b_B g_A g_B k_c omega_n psi s tau x xi", "zeta_z zeta_x v_x A_Q x_max") \
+  X(trum_interface, 12, 4, "F_c R_v cos_phi engagement k_c mu n_j share sin_phi v x x_max", "v_x v_x_slope p traction")
 
 /* gates of the phases in the regions of a cycle */
 #define TRUM_REGIONS 3

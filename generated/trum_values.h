@@ -6,6 +6,7 @@
 /* the position of every symbol in a table of values */
 enum {
   trum_at_A,
+  trum_at_A_Q,
   trum_at_C_f,
   trum_at_D,
   trum_at_Delta_f,
@@ -143,6 +144,7 @@ enum {
   trum_at_n_s,
   trum_at_omega_n,
   trum_at_omega_q,
+  trum_at_p,
   trum_at_p_1,
   trum_at_p_2,
   trum_at_p_im,
@@ -198,13 +200,20 @@ enum {
   trum_at_time_addredu,
   trum_at_time_redu,
   trum_at_torque,
+  trum_at_traction,
   trum_at_v,
   trum_at_v_A,
   trum_at_v_B,
+  trum_at_v_x,
+  trum_at_v_x_slope,
   trum_at_varsigma,
   trum_at_w_A,
   trum_at_w_B,
+  trum_at_x,
+  trum_at_x_max,
   trum_at_xi,
+  trum_at_zeta_x,
+  trum_at_zeta_z,
   TRUM_VALUES
 };
 
@@ -393,6 +402,18 @@ static inline void trum_call_friction_slopes(trum_real* v) {
   const trum_real* arg[trum_friction_slopes_n_arg] = {v + trum_at_R_v, v + trum_at_cos_phi, v + trum_at_engagement, v + trum_at_phi, v + trum_at_share, v + trum_at_sin_phi, v + trum_at_sin_theta, v + trum_at_theta, v + trum_at_v};
   trum_real* res[trum_friction_slopes_n_res] = {v + trum_at_f_phi, v + trum_at_f_E, v + trum_at_theta_E, v + trum_at_E_height};
   trum_friction_slopes(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_particle(trum_real* v) {
+  const trum_real* arg[trum_particle_n_arg] = {v + trum_at_D, v + trum_at_Delta_omega, v + trum_at_W, v + trum_at_a_A, v + trum_at_a_B, v + trum_at_b_A, v + trum_at_b_B, v + trum_at_g_A, v + trum_at_g_B, v + trum_at_k_c, v + trum_at_omega_n, v + trum_at_psi, v + trum_at_s, v + trum_at_tau, v + trum_at_x, v + trum_at_xi};
+  trum_real* res[trum_particle_n_res] = {v + trum_at_zeta_z, v + trum_at_zeta_x, v + trum_at_v_x, v + trum_at_A_Q, v + trum_at_x_max};
+  trum_particle(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_interface(trum_real* v) {
+  const trum_real* arg[trum_interface_n_arg] = {v + trum_at_F_c, v + trum_at_R_v, v + trum_at_cos_phi, v + trum_at_engagement, v + trum_at_k_c, v + trum_at_mu, v + trum_at_n_j, v + trum_at_share, v + trum_at_sin_phi, v + trum_at_v, v + trum_at_x, v + trum_at_x_max};
+  trum_real* res[trum_interface_n_res] = {v + trum_at_v_x, v + trum_at_v_x_slope, v + trum_at_p, v + trum_at_traction};
+  trum_interface(arg, res, 0, 0, 0);
 }
 
 #endif

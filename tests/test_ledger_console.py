@@ -48,6 +48,6 @@ def test_an_unknown_equation_is_refused(console_refuses):
 
 
 def test_an_incomplete_installation_says_so(monkeypatch, tmp_path):
-    monkeypatch.setattr(ledger, "_PLACES", (tmp_path / "ledger.json",))
+    monkeypatch.setattr(ledger, "_PLACES", (tmp_path,))
     with pytest.raises(FileNotFoundError, match=r"ledger\.json"):
         ledger.load_ledger()

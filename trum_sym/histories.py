@@ -22,7 +22,7 @@ from trum_sym.validate import Array, ArrayLike, Domain, number
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["REGIONS", "VARIABLES", "simulate"]
+__all__ = ["REGIONS", "VARIABLES", "simulate", "surface_and_contact"]
 
 REGIONS = ("A off", "B off", "both on")
 """What ``region`` 0, 1, 2 mean: the paper's T_redu, T_addredu, T_add."""
@@ -157,7 +157,7 @@ def _cycle(
     found = response(point.cycle_time * samples / count, values, stator.D, stator.k_c)
     symbols = {**motor.symbols(), **stator.values, "F_c": drive.prepressure, "T_load": drive.load_torque}
     arguments = orbit_values(values, symbols, levels.contact, tolerance)
-    touching = _contact(arguments, found)
+    touching = surface_and_contact(arguments, found)
     columns = {
         "w_A": found["w_A"],
         "w_B": found["w_B"],
@@ -180,7 +180,7 @@ def _cycle(
     return {name: np.array(column, np.float64) for name, column in columns.items()}, region.astype(np.int8)
 
 
-def _contact(values: Mapping[str, ArrayLike], found: Mapping[str, ArrayLike]) -> dict[str, ArrayLike]:
+def surface_and_contact(values: Mapping[str, ArrayLike], found: Mapping[str, ArrayLike]) -> dict[str, ArrayLike]:
     """Wave, surface speed and contact at instants of known displacement and velocity."""
     now: dict[str, ArrayLike] = {**values, "g_A": 0.0, "g_B": 0.0}
     for phase in "AB":  # the wave's kernel takes the phases as free motions that turn: here by nothing

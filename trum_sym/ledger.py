@@ -8,22 +8,31 @@ from typing import Any
 
 from trum_sym.errors import ParameterError
 
-__all__ = ["load_ledger", "select", "table", "written_out"]
+__all__ = ["ledger_page", "load_ledger", "select", "table", "written_out"]
 
 Record = dict[str, Any]
 _PLACES = (
-    Path(__file__).parent / "data" / "ledger.json",  # in an installed package
-    Path(__file__).parent.parent / "generated" / "ledger.json",  # in a source tree
+    Path(__file__).parent / "data",  # in an installed package
+    Path(__file__).parent.parent / "generated",  # in a source tree
 )
+
+
+def _read(name: str) -> str:
+    for folder in _PLACES:
+        if (folder / name).is_file():
+            return (folder / name).read_text("utf-8")
+    raise FileNotFoundError(f"no {name} in {' or '.join(str(folder) for folder in _PLACES)}")
+
+
+def ledger_page() -> str:
+    """The ledger as one HTML page, as ``python -m derivations verify --write`` made it."""
+    return _read("ledger.html")
 
 
 def load_ledger() -> list[Record]:
     """All records, in the order of the paper; keys as ``python -m derivations verify --json`` writes them."""
-    for path in _PLACES:
-        if path.is_file():
-            records: list[Record] = json.loads(path.read_text("utf-8"))
-            return records
-    raise FileNotFoundError(f"no ledger at {' or '.join(str(path) for path in _PLACES)}")
+    records: list[Record] = json.loads(_read("ledger.json"))
+    return records
 
 
 def select(records: list[Record], equation: str) -> Record:

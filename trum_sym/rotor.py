@@ -11,7 +11,15 @@ from trum_sym.batch import call_in_blocks
 from trum_sym.kernels import call
 from trum_sym.validate import Array, ArrayLike
 
-__all__ = ["Orbit", "as_orbit", "encoder_deviation", "history", "orbit_values", "solve_orbit"]
+__all__ = [
+    "Orbit",
+    "as_orbit",
+    "encoder_deviation",
+    "encoder_readings",
+    "history",
+    "orbit_values",
+    "solve_orbit",
+]
 
 _CONVERGED, _FULL_CONTACT, _RUNAWAY = 1, 2, 4
 
@@ -119,12 +127,24 @@ def encoder_deviation(distance: Array, cycle_time: float, period: float) -> floa
     period : float, s
         Of the encoder.
     """
-    n = distance.size
+    starts = np.arange(distance.size) / distance.size
+    return float(np.std(encoder_readings(distance, cycle_time, period, starts)))
+
+
+def encoder_readings(distance: Array, cycle_time: float, period: float, starts: Array) -> Array:
+    """What an encoder reads that averages over ``period``, m/s at the rim.
+
+    Parameters
+    ----------
+    distance, cycle_time, period
+        As for :func:`encoder_deviation`.
+    starts : array, 1
+        Where in the cycle each window begins, from 0 to 1.
+    """
     cycles, rest = divmod(period / cycle_time, 1.0)
-    grid = np.arange(n + 1) / n
+    grid = np.arange(distance.size + 1) / distance.size
     path = np.concatenate([[0.0], distance])
-    advance = path[-1]
-    ends = grid[:-1] + rest
-    end_path = np.interp(ends % 1.0, grid, path) + np.floor(ends) * advance
-    windows = (end_path - path[:-1] + cycles * advance) / period
-    return float(np.std(windows))
+    ends = starts + rest
+    end_path = np.interp(ends % 1.0, grid, path) + np.floor(ends) * path[-1]
+    readings: Array = (end_path - np.interp(starts, grid, path) + cycles * path[-1]) / period
+    return readings
