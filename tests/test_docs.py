@@ -8,6 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from trum_sym.console import main
@@ -73,6 +74,47 @@ def test_the_python_of_the_page_on_the_optimiser_runs(capsys):
     assert capsys.readouterr().out.startswith("solved ")
 
 
+COMMANDS = re.findall(r"^<!-- trum-sym (calibrate .*) -->$", (ROOT / "docs/calibrate.md").read_text("utf-8"), re.M)
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_the_docs_show_what_calibrate_prints(command, capsys, monkeypatch):
+    monkeypatch.chdir(ROOT)
+    main(command.split())
+    assert lines(shown("docs/calibrate.md", f"trum-sym {command}")) == lines(capsys.readouterr().out)
+
+
+def test_the_synthetic_data_are_what_their_script_makes(tmp_path):
+    subprocess.run([sys.executable, ROOT / "examples" / "synthetic_data.py", tmp_path], check=True)
+    made = sorted(tmp_path.iterdir())
+    assert [path.name for path in made] == sorted(
+        path.name for path in (ROOT / "examples/data").glob("*_synthetic.csv")
+    )
+    for path in made:
+        kept = ROOT / "examples" / "data" / path.name
+        assert path.read_text("utf-8").splitlines()[:2] == kept.read_text("utf-8").splitlines()[:2]
+        ours, theirs = (np.loadtxt(p, delimiter=",", skiprows=2) for p in (path, kept))
+        assert ours == pytest.approx(theirs, rel=1e-5)  # other instruction sets round otherwise
+
+
+STUDIES = re.findall(r"^<!-- trum-sym (.*) -->$", (ROOT / "docs/studies.md").read_text("utf-8"), re.M)
+NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+
+
+def skeleton(text):
+    """Text without numbers, blanks and rules, and the numbers; how many orbits a search takes is the processor's."""
+    text = re.sub(r"\d+ orbits computed|[-\d.]+e[-+]\d+|  +|-{3,}", " ", text)
+    return re.sub(r"\s+", " ", NUMBER.sub("#", text)), [float(x) for x in NUMBER.findall(text)]
+
+
+@pytest.mark.parametrize("command", STUDIES)
+def test_the_docs_show_what_the_studies_print(command, capsys):
+    main(shlex.split(command))
+    theirs, ours = skeleton(shown("docs/studies.md", f"trum-sym {command}")), skeleton(capsys.readouterr().out)
+    assert ours[0].strip() == theirs[0].strip()
+    assert ours[1] == pytest.approx(theirs[1], rel=2e-3)
+
+
 def test_the_page_on_tolerances_shows_what_its_command_prints(capsys, monkeypatch, tmp_path):
     text = (ROOT / "docs/tolerance.md").read_text("utf-8")
     command = re.search(r"^    (trum-sym tolerance (?:.*\\\n)*.*)$", text, re.MULTILINE)[1]
@@ -87,3 +129,13 @@ def test_the_page_on_tolerances_has_python_that_runs(capsys):
     for block in re.findall(r"```python\n(.*?)```", text, re.DOTALL):
         exec(block, {})
     assert capsys.readouterr().out.rstrip().endswith(")}"), "the indices of the last block"
+
+
+@pytest.mark.parametrize("page", ["calibrate.md", "studies.md"])
+def test_the_pages_on_calibration_and_studies_have_python_that_runs(page, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    for block in re.findall(r"```python\n(.*?)```", (ROOT / "docs" / page).read_text("utf-8"), re.DOTALL):
+        exec(block, {})
+    assert [path.name for path in tmp_path.iterdir()] == [
+        {"calibrate.md": "my-motor.toml", "studies.md": "table.h"}[page]
+    ]

@@ -14,6 +14,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from trum_sym.calibration import Calibration, calibrate
     from trum_sym.drive import Drive
     from trum_sym.errors import ConvergenceError, MissingExtraError, ParameterError, UnfinishedError, ValidityWarning
     from trum_sym.histories import simulate
@@ -23,11 +24,15 @@ if TYPE_CHECKING:
     from trum_sym.optimiser.result import Optimum
     from trum_sym.optimiser.search import optimize
     from trum_sym.slopes import sensitivities
+    from trum_sym.studies.pareto import pareto
+    from trum_sym.studies.robust import robust
+    from trum_sym.studies.speed_table import speed_table
     from trum_sym.sweeps.run import sweep
     from trum_sym.uncertainty.distributions import Distribution
     from trum_sym.uncertainty.study import tolerance
 
 __all__ = [
+    "Calibration",
     "ConvergenceError",
     "Distribution",
     "Drive",
@@ -39,16 +44,21 @@ __all__ = [
     "ParameterError",
     "UnfinishedError",
     "ValidityWarning",
+    "calibrate",
     "evaluate",
     "load_motor",
     "optimize",
+    "pareto",
+    "robust",
     "sensitivities",
     "simulate",
+    "speed_table",
     "sweep",
     "tolerance",
 ]
 
 _HOME = {
+    "Calibration": "calibration",
     "ConvergenceError": "errors",
     "Distribution": "uncertainty.distributions",
     "Drive": "drive",
@@ -60,11 +70,15 @@ _HOME = {
     "ParameterError": "errors",
     "UnfinishedError": "errors",
     "ValidityWarning": "errors",
+    "calibrate": "calibration",
     "evaluate": "operating_point",
     "load_motor": "motor_file",
     "optimize": "optimiser.search",
+    "pareto": "studies.pareto",
+    "robust": "studies.robust",
     "sensitivities": "slopes",
     "simulate": "histories",
+    "speed_table": "studies.speed_table",
     "sweep": "sweeps.run",
     "tolerance": "uncertainty.study",
 }

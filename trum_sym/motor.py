@@ -45,6 +45,10 @@ class Parameter:
         For assumed values: what is plausible, in ``unit``.
     reason : str
         For assumed values: why this value and range.
+    interval : (float, float) or None
+        For calibrated values: the confidence interval, in ``unit``.
+    data : str
+        For calibrated values: the name of the data.
     distribution : Distribution or None
         How the value spreads, where the motor file says more than a range.
     """
@@ -55,6 +59,8 @@ class Parameter:
     source: str
     range: tuple[float, float] | None = None
     reason: str = ""
+    interval: tuple[float, float] | None = None
+    data: str = ""
     distribution: Distribution | None = None
 
 

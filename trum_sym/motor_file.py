@@ -14,11 +14,14 @@ from trum_sym.motor import SPECS, Motor, Parameter, Published, Spec, spec
 from trum_sym.outputs import OUTPUTS
 from trum_sym.uncertainty.distributions import Distribution, checked
 from trum_sym.units import Unit, parse_unit
-from trum_sym.validate import Domain, number
+from trum_sym.validate import ArrayLike, Domain, number
 
-__all__ = ["load_motor"]
+__all__ = ["load_motor", "motor_text"]
 
-_KEYS = ("value", "unit", "symbol", "source", "range", "reason", "note", "distribution", "mean", "standard_deviation")
+_KEYS = (
+    "value", "unit", "symbol", "source", "range", "reason", "note", "interval", "data", "distribution", "mean",
+    "standard_deviation",
+)  # fmt: skip
 
 
 def _unit(name: str, given: str, wanted: str) -> Unit:
@@ -53,7 +56,7 @@ def _read_parameter(name: str, entry: object) -> Parameter:
     for key in ("value", "unit", "source"):
         if key not in entry:
             raise ParameterError(f"{name}.{key}", "nothing", f"{key} in the motor file")
-    for key in ("unit", "symbol", "source", "reason", "note"):
+    for key in ("unit", "symbol", "source", "reason", "data", "note"):
         if not isinstance(entry.get(key, ""), str):
             raise ParameterError(f"{name}.{key}", entry[key], "text")
     symbol, source, reason = (
@@ -68,24 +71,32 @@ def _read_parameter(name: str, entry: object) -> Parameter:
     unit = _unit(f"{name}.unit", entry["unit"], wanted.unit)
     si = _in_si(f"{name}.value", entry["value"], unit, entry["unit"])
     value = number(name, si, wanted.domain, wanted.unit)
-    limits = None
-    if "range" in entry:
-        raw = entry["range"]
-        if not isinstance(raw, list) or len(raw) != 2:
-            raise ParameterError(f"{name}.range", raw, "two numbers, low and high")
-        low, high = (_in_si(f"{name}.range", end, unit, entry["unit"]) for end in raw)
-        if not -float("inf") < low <= value <= high < float("inf"):
-            raise ParameterError(f"{name}.range", raw, "finite numbers with low <= value <= high")
-        limits = (low, high)
+    limits = _read_ends(f"{name}.range", entry.get("range"), value, unit, entry["unit"])
+    interval = _read_ends(f"{name}.interval", entry.get("interval"), value, unit, entry["unit"])
+    data = entry.get("data", "").strip()
     if source.casefold() == "assumed" and (limits is None or not reason):
         raise ParameterError(name, "source = 'assumed'", "a range and a reason beside it")
+    if source.casefold() == "calibrated" and (interval is None or not data):
+        raise ParameterError(name, "source = 'calibrated'", "an interval and data, the name of the data, beside it")
     moments = {
         key: _in_si(f"{name}.{key}", entry[key], unit, entry["unit"])
         for key in ("mean", "standard_deviation")
         if key in entry
     }
     distribution = _read_distribution(name, entry.get("distribution"), float(value), limits, moments, wanted)
-    return Parameter(value, wanted.unit, wanted.symbol, source, limits, reason, distribution)
+    return Parameter(value, wanted.unit, wanted.symbol, source, limits, reason, interval, data, distribution)
+
+
+def _read_ends(name: str, raw: object, value: ArrayLike, unit: Unit, given: str) -> tuple[float, float] | None:
+    """Two numbers around a value, in SI."""
+    if raw is None:
+        return None
+    if not isinstance(raw, list) or len(raw) != 2:
+        raise ParameterError(name, raw, "two numbers, low and high")
+    low, high = (_in_si(name, end, unit, given) for end in raw)
+    if not -float("inf") < low <= value <= high < float("inf"):
+        raise ParameterError(name, raw, "finite numbers with low <= value <= high")
+    return low, high
 
 
 def _read_distribution(
@@ -143,7 +154,8 @@ def _read_published(entry: object) -> Published:
     return Published(**{**entry, "drive": MappingProxyType(entry["drive"])})
 
 
-def _read_text(source: str | PathLike[str]) -> str:
+def motor_text(source: str | PathLike[str]) -> str:
+    """The text of a motor file, by name or path."""
     path = Path(__file__).parent / "data" / "trum60.toml" if str(source) == "trum60" else Path(source)
     try:
         return path.read_text("utf-8")
@@ -178,6 +190,7 @@ def load_motor(source: str | PathLike[str] = "trum60") -> Motor:
     if not isinstance(source, str | PathLike) or not str(source):
         raise ParameterError("motor", source, "trum60 or the path of a TOML file")
     text = _read_text(source)
+    text = motor_text(source)
     data = _read_toml(source, text)
     unknown = sorted(set(data) - {"name", "parameters", "published"})
     if unknown:

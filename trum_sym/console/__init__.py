@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import click
 
+from trum_sym.console.calibrate import calibrate
 from trum_sym.console.equations import equations
 from trum_sym.console.evaluate import evaluate
 from trum_sym.console.optimize import optimize
+from trum_sym.console.pareto import pareto
 from trum_sym.console.report import report
+from trum_sym.console.robust import robust
 from trum_sym.console.simulate import simulate
+from trum_sym.console.speed_table import speed_table
 from trum_sym.console.sweep import sweep
 from trum_sym.console.tolerance import tolerance
 
@@ -24,7 +28,9 @@ def _cli() -> None:
     """
 
 
-for _command in (evaluate, simulate, sweep, tolerance, optimize, equations, report):
+for _command in (
+    evaluate, simulate, sweep, tolerance, optimize, pareto, robust, speed_table, calibrate, equations, report,
+):  # fmt: skip
     _cli.add_command(_command)
 
 

@@ -1,0 +1,58 @@
+"""``trum-sym pareto``."""
+
+from __future__ import annotations
+
+import sys
+from typing import Any
+
+import click
+
+from trum_sym.console.options import chosen_drive, chosen_motor, number_option, point_options
+
+__all__ = ["pareto"]
+
+_LEVELS = ("contact", "resonance", "foundation", "amplitude")
+
+
+@click.command()
+@click.option("--objective", default="volatility", show_default=True, metavar="NAME|EXPRESSION",
+              help="What is to be small, as for optimize.")  # fmt: skip
+@click.option("--against", default="torque-margin", show_default=True, metavar="NAME|EXPRESSION",
+              help="torque-margin (large), speed-error (small), or arithmetic on figures (small).")  # fmt: skip
+@click.option("--target-speed", metavar="SPEED", help='Mean speed to hold, or to be near: "633 arcsec/s".')
+@number_option("--points", "1", 11, "Limits along the front.", "K")
+@click.option("--bounds", "bounds", multiple=True, metavar="NAME=LOW:HIGH", help="As for optimize.")
+@click.option("--constraint", "constraints", multiple=True, metavar="TEXT", help="As for optimize.")
+@click.option("--json", "as_json", is_flag=True, help="One JSON object instead of a table; SI units, speeds in rad/s.")
+@point_options
+def pareto(
+    objective: str,
+    against: str,
+    target_speed: str | None,
+    points: Any,  # noqa: ANN401  # a number, which has to be an integer
+    bounds: tuple[str, ...],
+    constraints: tuple[str, ...],
+    as_json: bool,
+    motor: str,
+    overrides: tuple[str, ...],
+    **options: Any,  # noqa: ANN401
+) -> int:
+    """Operating points that cannot be bettered in one figure without losing in another.
+
+    Exit code 1 where no point of the box meets the constraints.
+    """
+    from trum_sym.console.optimize import _ranges
+    from trum_sym.errors import ParameterError
+    from trum_sym.studies.pareto import pareto as find
+
+    if options["sampling_period"] is not None:
+        raise ParameterError("sampling_period", options["sampling_period"], "none: what is optimised is continuous")
+    machine, drive = chosen_motor(motor, overrides), chosen_drive(options)
+    front = find(
+        machine, drive, objective=objective, against=against, target_speed=target_speed, points=points,
+        bounds=_ranges(bounds), constraints=constraints, progress=sys.stderr.isatty(),
+        **{name: options[name] for name in _LEVELS},
+    )  # fmt: skip
+    title = f"{machine.name}: {objective} against {against}" + (f" at {target_speed}" if target_speed else "")
+    click.echo(front.as_json_text() if as_json else front.as_table(f"{title}, load {drive.load_torque:g} N m"))
+    return 0 if front.status == "solved" else 1

@@ -1,0 +1,74 @@
+"""``trum-sym speed-table``."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Any
+
+import click
+
+from trum_sym.console.options import chosen_drive, chosen_motor, number_option, point_options
+
+__all__ = ["speed_table"]
+
+_LEVELS = ("contact", "resonance", "foundation", "amplitude")
+
+
+@click.command("speed-table")
+@click.option("--from", "slowest", required=True, metavar="SPEED", help='Slowest speed: "1 arcsec/s".')
+@click.option("--to", "fastest", required=True, metavar="SPEED", help='Fastest speed: "1000 arcsec/s".')
+@click.option("--direction", type=click.Choice(("both", "positive", "negative")), default="both", show_default=True,
+              help="Sign of the mean speed.")  # fmt: skip
+@number_option("--points", "1", 31, "Speeds in each direction, in equal ratios; more are added as needed.", "K")
+@number_option("--error", "1", 0.01, "Allowed error of interpolated speeds, over the speed.", "E")
+@click.option("--bounds", "bounds", multiple=True, metavar="NAME=LOW:HIGH",
+              help="As for optimize; --bounds prepressure=180 holds the prepressure.  "
+                   "[default: prepressure=160:210, frequency_difference=2800:3300]")  # fmt: skip
+@click.option("--constraint", "constraints", multiple=True, metavar="TEXT",
+              help='"stall_torque >= 0.1 N*m", as for optimize.')  # fmt: skip
+@click.option("--out", type=click.Path(path_type=Path), metavar="FILE",
+              help="Write the table: .csv, or .h for a C header that interpolates.")  # fmt: skip
+@click.option("--json", "as_json", is_flag=True, help="One JSON object instead of a summary; SI units.")
+@point_options
+def speed_table(
+    slowest: str,
+    fastest: str,
+    direction: str,
+    points: Any,  # noqa: ANN401  # a number, which has to be an integer
+    error: float,
+    bounds: tuple[str, ...],
+    constraints: tuple[str, ...],
+    out: Path | None,
+    as_json: bool,
+    motor: str,
+    overrides: tuple[str, ...],
+    **options: Any,  # noqa: ANN401
+) -> int:
+    """The drive for every mean speed of a range, for a controller to interpolate.
+
+    Exit code 1 where the box has none of the speeds; gaps are named.
+    """
+    from trum_sym.console.optimize import _ranges
+    from trum_sym.errors import ParameterError
+    from trum_sym.studies.speed_table import speed_table as make
+    from trum_sym.studies.table_files import as_json_text, as_text
+    from trum_sym.text_files import check_text_target
+
+    if options["sampling_period"] is not None:
+        raise ParameterError("sampling_period", options["sampling_period"], "none: mean speeds are continuous")
+    if out is not None:
+        check_text_target("--out", out, (".csv", ".h"))
+    table = make(
+        chosen_motor(motor, overrides), chosen_drive(options), slowest=slowest, fastest=fastest, direction=direction,
+        points=points, error=error, bounds=_ranges(bounds), constraints=constraints, progress=sys.stderr.isatty(),
+        **{name: options[name] for name in _LEVELS},
+    )  # fmt: skip
+    click.echo(as_json_text(table) if as_json else as_text(table))
+    if not table.segments:
+        return 1
+    if out is not None:
+        table.save(out, "--out")
+        if not as_json:
+            click.echo(f"\n{out}: {len(table)} entries")
+    return 0

@@ -1,0 +1,1 @@
+"""Studies built on the optimiser: Pareto fronts, robust points, speed tables."""

@@ -1,0 +1,300 @@
+"""Pareto fronts: what less volatility costs in speed error or in torque margin."""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+
+from trum_sym.drive import Drive
+from trum_sym.errors import ParameterError
+from trum_sym.motor import Motor
+from trum_sym.optimiser.chart import chart
+from trum_sym.optimiser.expressions import Constraint, Expression, parse_expression
+from trum_sym.optimiser.finish import Finished
+from trum_sym.optimiser.model import Model, functions
+from trum_sym.optimiser.solve import Answer, Problem, solve
+from trum_sym.stator import Amplitude, Contact, Foundation, Levels, Resonance
+from trum_sym.studies.posed import Bound, number_of, posed
+from trum_sym.validate import Domain, number
+
+__all__ = ["AGAINST", "ParetoFront", "ParetoPoint", "pareto"]
+
+AGAINST = ("torque-margin", "speed-error")
+_COUNT = Domain(low=3, low_open=False, high=201, high_open=False, integer=True)
+_SAME = 1e-6  # points whose two figures agree to this share of the front are one
+
+
+@dataclass(frozen=True, kw_only=True)
+class ParetoPoint:
+    """A point of a front that no other point of it beats in both figures; SI units.
+
+    ``objective`` and ``against`` are the two figures; ``figures`` has all of the point.
+    """
+
+    objective: float
+    against: float
+    prepressure: float
+    frequency_difference: float
+    mean_speed: float
+    speed_volatility: float
+    stall_torque: float
+    constraint_violation: float
+    figures: Mapping[str, float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ParetoFront:
+    """A front, from the least ``objective`` to the best ``against``.
+
+    Attributes
+    ----------
+    status : {"solved", "infeasible", "failed"}
+        As of :func:`trum_sym.optimize`.
+    objective, against : str
+        The two figures.
+    larger_is_better : bool
+        Of ``against``.
+    points : tuple of ParetoPoint
+    gaps : tuple of (float, float)
+        Ranges of ``against`` without a point of the front: a limit inside was not used up.
+    asked, evaluations : int
+        Problems solved, orbits computed.
+    message : str
+    """
+
+    status: str
+    objective: str
+    against: str
+    larger_is_better: bool
+    points: tuple[ParetoPoint, ...]
+    gaps: tuple[tuple[float, float], ...]
+    asked: int
+    evaluations: int
+    message: str
+
+    def as_json_text(self) -> str:
+        """One JSON object; SI units."""
+        keys = [name for name in ParetoPoint.__dataclass_fields__ if name != "figures"]
+        points = [{key: _finite(getattr(point, key)) for key in keys} for point in self.points]
+        record = {name: getattr(self, name) for name in self.__dataclass_fields__ if name != "points"}
+        return json.dumps({**record, "points": points}, indent=1, allow_nan=False)
+
+    def as_table(self, title: str) -> str:
+        """For people."""
+        from tabulate import tabulate
+
+        arcsec = math.pi / 648000
+        rows = [
+            (f"{p.objective:.6g}", f"{p.against:.6g}", f"{p.prepressure:.6g}", f"{p.frequency_difference:.7g}",
+             f"{p.mean_speed / arcsec:.6g}", f"{100 * p.speed_volatility:.5g}", f"{p.stall_torque:.5g}")
+            for p in self.points
+        ]  # fmt: skip
+        headers = (self.objective, self.against, "prepressure N", "difference Hz", "mean arcsec/s", "volatility %",
+                   "stall N m")  # fmt: skip
+        lines = [title, "", f"{self.status}: {self.message}"]
+        if rows:
+            lines += ["", tabulate(rows, headers, disable_numparse=True, colalign=("right",) * 7)]
+        lines += [f"gap: nothing between {self.against} {low:.6g} and {high:.6g}" for low, high in self.gaps]
+        return "\n".join([*lines, "", f"{self.asked} problems, {self.evaluations} orbits computed"])
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
+def pareto(
+    motor: Motor,
+    drive: Drive | None = None,
+    *,
+    objective: str = "volatility",
+    against: str = "torque-margin",
+    target_speed: float | str | None = None,
+    points: int = 11,
+    bounds: Mapping[str, Bound] | None = None,
+    constraints: Sequence[str] = (),
+    contact: Contact = "winkler",
+    resonance: Resonance = "quartic",
+    foundation: Foundation = "harmonic",
+    amplitude: Amplitude = "measured",
+    progress: bool = False,
+) -> ParetoFront:
+    """The points of a box that cannot be bettered in one figure without losing in another.
+
+    The least ``objective`` is sought under limits on ``against`` that run from its value at the least objective to its
+    best value (the epsilon-constraint method), each from the whole map of the box, so that fronts that bend either way
+    are found; what another point beats in both is left out.
+
+    Parameters
+    ----------
+    motor, drive, target_speed, bounds, constraints, contact, resonance, foundation, amplitude
+        As for :func:`trum_sym.optimize`; pulse counts have one value each.
+    objective : str
+        What is to be small, as there.
+    against : str
+        ``"torque-margin"``: stall torque less load in the direction of the target (of the clockwise direction if there
+        is none), which is to be large; ``"speed-error"``: distance of the mean speed from the target, small, and the
+        speed is then not held; or arithmetic on figures, small.
+    points : int
+        Problems solved along the front, 3 to 201.
+    progress : bool
+        Whether to show a bar on the standard error.
+
+    Raises
+    ------
+    ParameterError
+        For bad input; names the parameter, what it got, what is allowed.
+    MissingExtraError
+        Without CasADi.
+    """
+    count = int(number("points", points, _COUNT, "1"))
+    target = None if target_speed is None else number_of("target_speed", target_speed, "rad/s")
+    if against == "speed-error" and target is None:
+        raise ParameterError("target_speed", "none", "a speed in rad/s for speed-error")
+    levels = Levels(contact, resonance, foundation, amplitude)
+    held = None if against == "speed-error" else target
+    problem = posed(motor, drive, levels, objective, held, bounds, constraints)
+    expression, sign = _against(against, target)
+    walk = _walk(problem, expression, sign, target if against == "speed-error" else None, count, progress)
+    best, answers = walk.answers[0], walk.answers
+    status, message, found = best.status, "no point of the box meets the constraints", list[_Candidate]()
+    if best.status == "solved":
+        found = _front(walk.candidates(problem.objective), sign)
+        message = f"{len(found)} points of the front of {objective} against {against}"
+    return ParetoFront(
+        status=status, objective=objective, against=against, larger_is_better=sign < 0,
+        points=tuple(_point(problem, candidate) for candidate in found), gaps=_gaps(found, walk.limits),
+        asked=len(answers), evaluations=walk.model.evaluations, message=message,
+    )  # fmt: skip
+
+
+def _against(against: object, target: float | None) -> tuple[Expression, float]:
+    """The second figure, and -1 if it is to be large."""
+    if against == "torque-margin":
+        backward = target is not None and target < 0
+        return parse_expression(
+            "against", "load_torque - stall_torque" if backward else "stall_torque - load_torque"
+        ), -1.0
+    if against == "speed-error":
+        return parse_expression("against", "mean_speed"), 1.0
+    if not isinstance(against, str):
+        raise ParameterError("against", against, f"one of {', '.join(AGAINST)}, or arithmetic on figures")
+    return parse_expression("against", against), 1.0
+
+
+@dataclass(frozen=True)
+class _Candidate:
+    objective: float
+    against: float
+    point: Finished
+
+
+@dataclass
+class _Walk:
+    """The problems solved along a front, on one map: the first for the least objective, the second the other end."""
+
+    model: Model
+    against: Expression
+    target: float | None
+    answers: list[Answer]
+    limits: list[float]
+
+    def value(self, point: Finished) -> float:
+        """The second figure of a point."""
+        value = _figure(self.against, point)
+        return value if self.target is None else abs(value - self.target)
+
+    def candidates(self, objective: Expression) -> list[_Candidate]:
+        """What was solved."""
+        points = [a.best for a in self.answers if a.status == "solved" and a.best is not None]
+        return [_Candidate(_figure(objective, point), self.value(point), point) for point in points]
+
+
+def _figure(expression: Expression, point: Finished) -> float:
+    rows = functions([expression])
+    return float(rows.values({name: np.array([point.figures[name]]) for name in rows.names})[0, 0])
+
+
+def _walk(
+    problem: Problem, expression: Expression, sign: float, target: float | None, count: int, progress: bool
+) -> _Walk:
+    model = Model(problem.motor, problem.drive, problem.levels, problem.box, problem.names | expression.names)
+    known = chart(model)
+
+    def ask(objective: Expression, *extra: Constraint) -> Answer:
+        limited = replace(problem, objective=objective, constraints=(*problem.constraints, *extra))
+        return solve(limited, model, known)
+
+    walk = _Walk(model, expression, target, [ask(problem.objective)], [])
+    if walk.answers[0].status != "solved":
+        return walk
+    if target is None:
+        turned = Expression(expression.text, sign * expression.graph, expression.names, expression.unit)
+        walk.answers.append(ask(turned))
+    else:
+        walk.answers.append(ask(problem.objective, Constraint(expression, target, target)))
+    first, last = (walk.value(answer.best) for answer in walk.answers if answer.best is not None)
+    walk.limits += [*np.linspace(first, last, count)[1:-1]] if target is None else _towards_zero(first, last, count)
+    for limit in _shown(walk.limits, progress):
+        if target is None:
+            ends = (-math.inf, limit) if sign > 0 else (limit, math.inf)
+            walk.answers.append(ask(problem.objective, Constraint(expression, *ends)))
+            continue
+        low, high = Constraint(expression, target - limit, math.inf), Constraint(expression, -math.inf, target + limit)
+        far = target + math.copysign(limit, target)  # a narrow band is best met at its fast end
+        walk.answers.append(ask(problem.objective, low, high))
+        walk.answers.append(ask(problem.objective, Constraint(expression, far, far)))
+    return walk
+
+
+def _towards_zero(first: float, last: float, count: int) -> list[float]:
+    """Limits on an error, half of them in equal steps and half in equal ratios, largest first."""
+    least = max(last, 1e-4 * first)
+    even, ratio = np.linspace(first, least, count // 2 + 1)[1:], np.geomspace(first, least, count - count // 2)[1:-1]
+    return sorted((float(limit) for limit in {*even, *ratio}), reverse=True)
+
+
+def _shown(limits: list[float], progress: bool) -> Iterator[float]:
+    if not progress:
+        yield from limits
+        return
+    import click
+
+    with click.progressbar(limits, label="front", file=sys.stderr) as bar:
+        yield from bar
+
+
+def _front(found: list[_Candidate], sign: float) -> list[_Candidate]:
+    """Those that no other beats in both figures, by rising objective."""
+    kept: list[_Candidate] = []
+    spread = max(c.against for c in found) - min(c.against for c in found)
+    for candidate in sorted(found, key=lambda c: (c.objective, sign * c.against)):
+        if not kept or sign * candidate.against < sign * kept[-1].against - _SAME * spread:
+            kept.append(candidate)
+    return kept
+
+
+def _gaps(front: list[_Candidate], limits: Sequence[float]) -> tuple[tuple[float, float], ...]:
+    """Neighbours with a limit between them that neither used up: whatever lies there is beaten."""
+    found = []
+    for one, other in pairwise(front):
+        low, high = sorted((one.against, other.against))
+        margin = 1e-3 * (high - low)
+        if any(low + margin < limit < high - margin for limit in limits):
+            found.append((low, high))
+    return tuple(found)
+
+
+def _point(problem: Problem, found: _Candidate) -> ParetoPoint:
+    drive = {**problem.drive.numbers(), **dict(zip(problem.box.names, found.point.point.tolist(), strict=True))}
+    figures = found.point.figures
+    return ParetoPoint(
+        objective=found.objective, against=found.against, prepressure=float(drive["prepressure"]),
+        frequency_difference=float(drive["frequency_difference"]), constraint_violation=found.point.violation,
+        figures=figures, **{name: figures[name] for name in ("mean_speed", "speed_volatility", "stall_torque")},
+    )  # fmt: skip

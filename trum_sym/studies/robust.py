@@ -1,0 +1,314 @@
+"""Robust points: the best worst case over tolerances or samples of what is not known exactly."""
+
+from __future__ import annotations
+
+import itertools
+import json
+import math
+import sys
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, TypeVar
+
+import numpy as np
+
+from trum_sym.drive import DRIVE_DOMAINS, Drive
+from trum_sym.errors import ParameterError
+from trum_sym.motor import Motor, spec
+from trum_sym.optimiser.model import Model
+from trum_sym.optimiser.solve import Problem, solve
+from trum_sym.stator import Amplitude, Contact, Foundation, Levels, Resonance
+from trum_sym.studies.minimax import Minimax, Outcome
+from trum_sym.studies.posed import Bound, number_of, posed
+from trum_sym.units import parse_quantity
+from trum_sym.validate import Domain, number
+
+__all__ = ["RobustCase", "RobustPoint", "robust"]
+
+_MOST_TOLERANCES, _MOST_SAMPLES = 6, 200
+_INSIDE = 64  # random cases inside the tolerances by which corners are checked
+_SEED = 1
+Tolerance = float | str | tuple[float | str, float | str]
+_T = TypeVar("_T")
+
+
+@dataclass(frozen=True, kw_only=True)
+class RobustCase:
+    """One case at the robust point: what differs from the nominal case, and its figures, SI units."""
+
+    changed: Mapping[str, float]
+    objective: float
+    mean_speed: float
+    speed_volatility: float
+    stall_torque: float
+    violation: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class RobustPoint:
+    """The point of a box whose worst case is the best.
+
+    Attributes
+    ----------
+    status : {"solved", "infeasible"}
+    worst : float
+        The objective in the worst of the cases; NaN unless solved.
+    nominal : float
+        The objective where nothing differs.
+    worst_of_nominal_optimum : float
+        What the point that :func:`trum_sym.optimize` finds for the nominal case has as its worst; NaN if it finds none.
+    worst_inside : float
+        The worst of 64 random cases inside the tolerances: more than ``worst`` if a corner is not the worst; NaN for
+        samples.
+    prepressure, frequency_difference, switching_phase : float
+    cases : tuple of RobustCase
+        The nominal one first.
+    constraint_violation : float
+        The largest in any case, over the constraint's bound.
+    evaluations : int
+    message : str
+    """
+
+    status: str
+    objective: str
+    worst: float
+    nominal: float
+    worst_of_nominal_optimum: float
+    worst_inside: float
+    prepressure: float
+    frequency_difference: float
+    switching_phase: float
+    constraint_violation: float
+    cases: tuple[RobustCase, ...]
+    evaluations: int
+    message: str
+
+    def as_json_text(self) -> str:
+        """One JSON object; SI units."""
+        record = {name: _known(getattr(self, name)) for name in self.__dataclass_fields__ if name != "cases"}
+        keys = RobustCase.__dataclass_fields__
+        cases = [{key: _known(getattr(case, key)) for key in keys} for case in self.cases]
+        return json.dumps({**record, "cases": cases}, indent=1, allow_nan=False)
+
+    def as_table(self, title: str) -> str:
+        """For people: the point, then every case."""
+        from tabulate import tabulate
+
+        arcsec = math.pi / 648000
+        lines = [title, "", f"{self.status}: {self.message}"]
+        if math.isfinite(self.prepressure):
+            at = f"prepressure {self.prepressure:.7g} N, frequency difference {self.frequency_difference:.8g} Hz"
+            lines += ["", f"{at}, switching phase {self.switching_phase:.6g} rad"]
+            rows = [
+                (_words(case.changed),
+                 f"{case.objective:.6g}", f"{case.mean_speed / arcsec:.6g}", f"{100 * case.speed_volatility:.5g}",
+                 f"{case.stall_torque:.5g}", f"{case.violation:.1e}")
+                for case in self.cases
+            ]  # fmt: skip
+            headers = ("case", self.objective, "mean arcsec/s", "volatility %", "stall N m", "violation")
+            lines += ["", tabulate(rows, headers, disable_numparse=True, colalign=("left", *["right"] * 5)), ""]
+            if math.isfinite(self.worst_inside):
+                lines.append(f"worst of {_INSIDE} random cases inside the tolerances: {self.worst_inside:.6g}")
+            if math.isfinite(self.worst_of_nominal_optimum):
+                lines.append(f"worst case of the nominal optimum: {self.worst_of_nominal_optimum:.6g}")
+        return "\n".join([*lines, f"{self.evaluations} orbits computed"])
+
+
+def _words(changed: Mapping[str, float]) -> str:
+    return ", ".join(f"{name} {value:.6g}" for name, value in changed.items()) or "nominal"
+
+
+def _known(value: object) -> object:
+    if isinstance(value, Mapping):
+        return dict(value)
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def robust(
+    motor: Motor,
+    drive: Drive | None = None,
+    *,
+    objective: str = "volatility",
+    tolerances: Mapping[str, Tolerance] | None = None,
+    samples: Sequence[Mapping[str, float | str]] | None = None,
+    target_speed: float | str | None = None,
+    bounds: Mapping[str, Bound] | None = None,
+    constraints: Sequence[str] = (),
+    contact: Contact = "winkler",
+    resonance: Resonance = "quartic",
+    foundation: Foundation = "harmonic",
+    amplitude: Amplitude = "measured",
+    progress: bool = False,
+) -> RobustPoint:
+    """The point of a box whose worst case over what is not known exactly is the best.
+
+    The target speed is held in the nominal case only, since no fixed drive holds it in all; with the objective
+    ``"speed-error"`` it is held in none, and the largest error is what is small.  Constraints hold in every case.
+
+    Parameters
+    ----------
+    motor, drive, objective, target_speed, bounds, constraints, contact, resonance, foundation, amplitude
+        As for :func:`trum_sym.optimize`; pulse counts have one value each.  With a target, volatility is the speed's
+        standard deviation over the target's magnitude in every case.
+    tolerances : mapping
+        By name of the motor file, or ``load_torque``: a share of the value, ``0.1`` or ``"10 %"``, or the two ends,
+        ``("0.2", "0.3")``.  The cases are the nominal one and all corners; at most six.
+    samples : sequence of mappings
+        Instead: the cases themselves, each by the same names, ``[{"friction_coefficient": 0.22}, ...]``.
+    progress : bool
+        Whether to show a bar on the standard error.
+
+    Raises
+    ------
+    ParameterError
+        For bad input; names the parameter, what it got, what is allowed.
+    MissingExtraError
+        Without CasADi or SciPy.
+    """
+    target = None if target_speed is None else number_of("target_speed", target_speed, "rad/s")
+    levels = Levels(contact, resonance, foundation, amplitude)
+    error = objective == "speed-error"
+    if error and target is None:
+        raise ParameterError("target_speed", "none", "a speed in rad/s for the objective speed-error")
+    problem = posed(motor, drive, levels, "mean_speed" if error else objective, None if error else target, bounds,
+                    constraints)  # fmt: skip
+    ranges = _ranges(problem, tolerances, samples)
+    cases = _cases(problem, ranges, samples)
+    models = [_model(problem, case) for case in cases]
+    task = Minimax(problem, models, target if error else None, held=target is not None and not error)
+    task.map(_bar(progress))
+    found = task.solve()
+    nominal_optimum = math.nan
+    if found is not None and not error:
+        nominal = solve(problem)
+        task.evaluations += nominal.evaluations
+        if nominal.status == "solved" and nominal.best is not None:
+            nominal_optimum = max(task.check(nominal.best.share).objectives)
+    inside = math.nan
+    if found is not None and ranges:
+        rng = np.random.default_rng(_SEED)
+        drawn = [{n: float(rng.uniform(low, high)) for n, (low, high) in ranges.items()} for _ in range(_INSIDE)]
+        inside = max(task.check(found.share, [_model(problem, case) for case in drawn]).objectives)
+    return _result(problem, objective, cases, found, nominal_optimum, inside, task.total())
+
+
+def _ranges(
+    problem: Problem, tolerances: Mapping[str, Tolerance] | None, samples: object
+) -> dict[str, tuple[float, float]]:
+    """Both ends of every tolerance, in SI."""
+    if (tolerances is None) == (samples is None):
+        both = "both tolerances and samples" if samples is not None else "neither tolerances nor samples"
+        raise ParameterError("tolerances", both, "one of the two")
+    if tolerances is None:
+        return {}
+    if not isinstance(tolerances, Mapping) or not 1 <= len(tolerances) <= _MOST_TOLERANCES:
+        raise ParameterError("tolerances", tolerances, f"1 to {_MOST_TOLERANCES} names with a share, or two ends")
+    found = {}
+    for name, given in tolerances.items():
+        value = _nominal(problem, name)
+        if isinstance(given, tuple | list):
+            if len(given) != 2:
+                raise ParameterError(f"tolerance of {name}", given, "two numbers, low and high, or one share")
+            low, high = (_value(name, end) for end in given)
+        else:
+            share = parse_quantity(f"tolerance of {name}", given, "1") if isinstance(given, str) else given
+            share = float(number(f"tolerance of {name}", share, Domain(low=0.0, high=1.0), "1"))
+            low, high = sorted((_value(name, value * (1 - share)), _value(name, value * (1 + share))))
+        if not low <= value <= high or low == high:
+            raise ParameterError(f"tolerance of {name}", f"{low:g} to {high:g}", f"low < high around {value:g}")
+        found[name] = (low, high)
+    return found
+
+
+def _nominal(problem: Problem, name: str) -> float:
+    if name == "load_torque":
+        return float(problem.drive.load_torque)
+    if name in DRIVE_DOMAINS:
+        raise ParameterError("tolerances", name, "names of the motor file, or load_torque")
+    if spec(name).domain.integer:
+        raise ParameterError("tolerances", name, "parameters that vary continuously")
+    parameter = getattr(problem.motor, name)
+    if parameter is None:
+        raise ParameterError("tolerances", name, "a parameter that the motor has; set it first")
+    return float(parameter.value)
+
+
+def _value(name: str, given: float | str) -> float:
+    domain, unit = DRIVE_DOMAINS[name] if name in DRIVE_DOMAINS else (spec(name).domain, spec(name).unit)
+    value = parse_quantity(name, given, unit) if isinstance(given, str) else given
+    return float(number(name, value, domain, unit))
+
+
+def _cases(
+    problem: Problem, ranges: Mapping[str, tuple[float, float]], samples: Sequence[Mapping[str, float | str]] | None
+) -> list[dict[str, float]]:
+    """What differs in each case; nothing in the first."""
+    if samples is None:
+        corners = itertools.product(*ranges.values())
+        return [{}, *(dict(zip(ranges, corner, strict=True)) for corner in corners)]
+    if isinstance(samples, str | Mapping) or not 1 <= len(samples) <= _MOST_SAMPLES:
+        raise ParameterError("samples", samples, f"1 to {_MOST_SAMPLES} mappings of names to values")
+    found: list[dict[str, float]] = [{}]
+    for sample in samples:
+        if not isinstance(sample, Mapping) or not sample:
+            raise ParameterError("samples", sample, "mappings of names to values")
+        for name in sample:
+            _nominal(problem, name)
+        found.append({name: _value(name, value) for name, value in sample.items()})
+    return found
+
+
+def _model(problem: Problem, case: Mapping[str, float]) -> Model:
+    values: dict[str, Any] = dict(case)
+    drive = replace(problem.drive, load_torque=values.pop("load_torque", problem.drive.load_torque))
+    return Model(problem.motor.with_values(values), drive, problem.levels, problem.box, problem.names)
+
+
+def _bar(progress: bool) -> Callable[[Sequence[_T]], Iterable[_T]]:
+    def shown(items: Sequence[_T]) -> Iterable[_T]:
+        if not progress:
+            yield from items
+            return
+        import click
+
+        with click.progressbar(items, label="cases", file=sys.stderr) as bar:
+            yield from bar
+
+    return shown
+
+
+def _result(
+    problem: Problem,
+    objective: str,
+    cases: list[dict[str, float]],
+    found: Outcome | None,
+    nominal_optimum: float,
+    inside: float,
+    evaluations: int,
+) -> RobustPoint:
+    if found is None:
+        return RobustPoint(
+            status="infeasible", objective=objective, worst=math.nan, nominal=math.nan,
+            worst_of_nominal_optimum=math.nan, worst_inside=math.nan, prepressure=math.nan,
+            frequency_difference=math.nan, switching_phase=math.nan, constraint_violation=math.nan, cases=(),
+            evaluations=evaluations,
+            message="no point found that meets the constraints in every case, by map and searches from its best places",
+        )  # fmt: skip
+    drive = {**problem.drive.numbers(), **dict(zip(problem.box.names, found.point.tolist(), strict=True))}
+    worst = max(found.objectives)
+    alike = [case for case, value in zip(cases, found.objectives, strict=True) if value >= worst - 1e-4 * abs(worst)]
+    named = " and at ".join(_words(case) for case in alike[:4]) + (" and others" if len(alike) > 4 else "")
+    return RobustPoint(
+        status="solved", objective=objective, worst=worst, nominal=found.objectives[0],
+        worst_of_nominal_optimum=nominal_optimum, worst_inside=inside,
+        **{name: float(drive[name]) for name in ("prepressure", "frequency_difference", "switching_phase")},
+        constraint_violation=max(found.violations), evaluations=evaluations,
+        cases=tuple(
+            RobustCase(changed=case, objective=value, violation=violation,
+                       **{name: figures[name] for name in ("mean_speed", "speed_volatility", "stall_torque")})
+            for case, value, violation, figures in zip(
+                cases, found.objectives, found.violations, found.figures, strict=True
+            )
+        ),
+        message=f"least worst {objective} of {len(cases)} cases, {worst:.6g} at {named}",
+    )  # fmt: skip
