@@ -189,7 +189,6 @@ def load_motor(source: str | PathLike[str] = "trum60") -> Motor:
     """
     if not isinstance(source, str | PathLike) or not str(source):
         raise ParameterError("motor", source, "trum60 or the path of a TOML file")
-    text = _read_text(source)
     text = motor_text(source)
     data = _read_toml(source, text)
     unknown = sorted(set(data) - {"name", "parameters", "published"})
