@@ -66,7 +66,7 @@ BAD_LINES = [
     (("--constraint", "stal_torque >= 0.3"), ("constraint: got stal_torque", "close names: stall_torque")),
     (("--constraint", "stall_torque >= prepressure"), ("constraint", "do not add")),
     (("--sampling-period", "2 ms"), ("sampling_period: got 0.002", "continuous")),
-    (("--plot", "box.txt"), ("--plot: got box.txt", ".png or .svg or .pdf")),
+    (("--plot", "box.txt"), ("--plot: got box.txt", ".png, .svg or .pdf")),
     (("--plot", "/nowhere/box.png"), ("--plot: got /nowhere/box.png", "a folder that exists")),
     (("--prepressure", "nan"), ("prepressure: got nan",)),
 ]  # fmt: skip

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import threading
 import time
 
@@ -43,7 +44,10 @@ def test_parameters_of_several_shapes_meet_their_points(trum60):
         assert grid[i, j] == ts.evaluate(trum60, one).mean_speed
 
 
-def test_progress_is_shown_on_request(trum60, drive, capsys):
+def test_progress_is_shown_on_request_at_a_terminal(trum60, drive, capsys, monkeypatch):
+    ts.evaluate(trum60, drive, progress=True)
+    assert capsys.readouterr().err == ""
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
     ts.evaluate(trum60, drive)
     assert capsys.readouterr().err == ""
     ts.evaluate(trum60, drive, progress=True)

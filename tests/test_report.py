@@ -137,7 +137,7 @@ def test_a_file_in_place_of_the_folder_is_refused(console_refuses, tmp_path):
     file = tmp_path / "file"
     file.write_text("mine")
     console_refuses("report", str(file), naming=("DIR", "file", "a folder"))
-    console_refuses("report", str(file / "below"), naming=("DIR", "below", "a folder to write in"))
+    console_refuses("report", str(file / "below"), naming=("DIR", "a folder to write in"))
     assert file.read_text() == "mine"
 
 

@@ -205,9 +205,9 @@ REFUSALS = [
     (("--vary", "friction_coefficient", "--output", "cycle_time"), ("outputs: got cycle_time", "the same value")),
     (("--target", "600 arcsec/s"), ("target: got 600 arcsec/s", "OUTPUT >= NUMBER")),
     (("--target", "mean_speed >= 600 arcsec"), ("target, mean_speed: got 600 arcsec", "rad/s")),
-    (("--plot", "study.bmp"), ("--plot: got study.bmp", ".png or .svg or .pdf")),
+    (("--plot", "study.bmp"), ("--plot: got study.bmp", ".png, .svg or .pdf")),
     (("--plot", "/nowhere/study.png"), ("--plot: got /nowhere/study.png", "a folder that exists")),
-    (("--out", "points.xlsx"), ("--out: got points.xlsx", ".nc or .csv")),
+    (("--out", "points.xlsx"), ("--out: got points.xlsx", ".nc, .parquet or .csv")),
     (("--out", "/nowhere/points.nc"), ("--out: got /nowhere/points.nc", "a folder that exists")),
     (("--set", "friction_coefficient=2 N"), ("friction_coefficient: got 2 N",)),
 ]  # fmt: skip

@@ -95,7 +95,9 @@ def _in_threads(run: Callable[[int], None], starts: range, workers: int, label: 
             if label:
                 import click
 
-                with click.progressbar(length=len(tasks), label=label, file=sys.stderr, update_min_steps=1) as bar:
+                with click.progressbar(
+                    length=len(tasks), label=label, file=sys.stderr, update_min_steps=1, hidden=not sys.stderr.isatty()
+                ) as bar:
                     for task in as_completed(tasks):
                         task.result()
                         bar.update(1)

@@ -265,7 +265,7 @@ def _shown(limits: list[float], progress: bool) -> Iterator[float]:
         return
     import click
 
-    with click.progressbar(limits, label="front", file=sys.stderr) as bar:
+    with click.progressbar(limits, label="front", file=sys.stderr, hidden=not sys.stderr.isatty()) as bar:
         yield from bar
 
 

@@ -271,7 +271,7 @@ def _bar(progress: bool) -> Callable[[Sequence[_T]], Iterable[_T]]:
             return
         import click
 
-        with click.progressbar(items, label="cases", file=sys.stderr) as bar:
+        with click.progressbar(items, label="cases", file=sys.stderr, hidden=not sys.stderr.isatty()) as bar:
             yield from bar
 
     return shown

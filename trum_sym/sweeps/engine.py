@@ -111,7 +111,10 @@ class Cluster:
 
     def submit(self, task: Task) -> Any:  # noqa: ANN401
         """A future of :func:`compute`."""
-        future = self._client.submit(compute, task, pure=False)
+        try:
+            future = self._client.submit(compute, task, pure=False)
+        except (OSError, CancelledError):
+            raise self._lost() from None
         self._tasks[future.key] = task
         return future
 
@@ -127,7 +130,7 @@ class Cluster:
             if self._deaths[task.index] > _DEATHS:
                 raise UnfinishedError(f"workers die of chunk {task.index}: see their logs") from None
             return None
-        except CancelledError:
+        except (OSError, CancelledError):  # the connection breaks, or was seen to have broken
             raise self._lost() from None
         except ImportError as error:
             raise ParameterError("scheduler", self._address, f"workers with this trum-sym ({error})") from None
