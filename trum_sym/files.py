@@ -28,9 +28,9 @@ def check_target(name: str, target: Path, suffixes: tuple[str, ...] = SUFFIXES) 
         For another suffix than these, a folder that is not there or not ours to write in.
     """
     if target.suffix not in suffixes:
-        raise ParameterError(
-            name, str(target), f"a file name that ends in {', '.join(suffixes[:-1])} or {suffixes[-1]}"
-        )
+        *others, last = suffixes
+        words = f"{', '.join(others)} or {last}" if others else last
+        raise ParameterError(name, str(target), f"a file name that ends in {words}")
     if target.is_dir():
         raise ParameterError(name, str(target), "a file; this is a folder")
     if not target.parent.is_dir() or not os.access(target.parent, os.W_OK):

@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from trum_sym.errors import ParameterError
+from trum_sym.files import check_target, write_bytes
 from trum_sym.motor import Motor, Parameter
 from trum_sym.motor_file import load_motor, motor_text
-from trum_sym.text_files import check_text_target, write_text
 from trum_sym.units import Unit, parse_unit
 
 __all__ = ["write_motor"]
@@ -43,7 +43,7 @@ def write_motor(motor: Motor, base: str | PathLike[str], target: str | PathLike[
         If the base cannot be read, its layout not be edited, or the target not be written.
     """
     path = Path(target)
-    check_text_target(name, path, (".toml",))
+    check_target(name, path, (".toml",))
     before = load_motor(base)
     text = motor_text(base)
     wanted = tomllib.loads(text)
@@ -59,7 +59,7 @@ def write_motor(motor: Motor, base: str | PathLike[str], target: str | PathLike[
         kept = False
     if not kept:
         raise ParameterError("motor", str(base), "entries of the form NAME = { value = ..., ... } under [parameters]")
-    write_text(name, text, path)
+    write_bytes(name, text.encode(), path)
 
 
 def _entry(parameter: Parameter, old: dict[str, Any] | None) -> dict[str, Any]:

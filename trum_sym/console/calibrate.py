@@ -58,10 +58,10 @@ def calibrate(
     """  # fmt: skip
     from trum_sym.calibration import calibrate as fit_motor
     from trum_sym.calibration_tables import calibration_json, calibration_table
-    from trum_sym.text_files import check_text_target
+    from trum_sym.files import check_target
 
     if out is not None:
-        check_text_target("--out", out, (".toml",))
+        check_target("--out", out, (".toml",))
     machine = chosen_motor(motor, overrides)
     found = fit_motor(
         data, machine, parameters=parameters or None, drive=chosen_drive(options), errors=errors, confidence=confidence,

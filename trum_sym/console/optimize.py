@@ -9,7 +9,7 @@ import click
 
 from trum_sym.console.options import chosen_drive, chosen_motor, point_options
 
-__all__ = ["optimize"]
+__all__ = ["optimize", "ranges_of"]
 
 _LEVELS = ("contact", "resonance", "foundation", "amplitude")
 
@@ -60,8 +60,8 @@ def optimize(
     machine, drive = chosen_motor(motor, overrides), chosen_drive(options)
     levels = {name: options[name] for name in _LEVELS}
     found = find(
-        machine, drive, objective=objective, target_speed=target_speed, bounds=_ranges(bounds), constraints=constraints,
-        **levels,
+        machine, drive, objective=objective, target_speed=target_speed, bounds=ranges_of(bounds),
+        constraints=constraints, **levels,
     )  # fmt: skip
     title = f"{machine.name}: least {objective}" + (f" at {target_speed}" if target_speed else "")
     click.echo(as_json_text(found) if as_json else as_table(found, f"{title}, load {drive.load_torque:g} N m"))
@@ -70,7 +70,7 @@ def optimize(
     return 0 if found.status == "solved" else 1
 
 
-def _ranges(texts: tuple[str, ...]) -> dict[str, Any]:
+def ranges_of(texts: tuple[str, ...]) -> dict[str, Any]:
     """Bounds by name, as ``optimize`` takes them."""
     from trum_sym.errors import ParameterError
 

@@ -41,7 +41,7 @@ def pareto(
 
     Exit code 1 where no point of the box meets the constraints.
     """
-    from trum_sym.console.optimize import _ranges
+    from trum_sym.console.optimize import ranges_of
     from trum_sym.errors import ParameterError
     from trum_sym.studies.pareto import pareto as find
 
@@ -50,7 +50,7 @@ def pareto(
     machine, drive = chosen_motor(motor, overrides), chosen_drive(options)
     front = find(
         machine, drive, objective=objective, against=against, target_speed=target_speed, points=points,
-        bounds=_ranges(bounds), constraints=constraints, progress=sys.stderr.isatty(),
+        bounds=ranges_of(bounds), constraints=constraints, progress=sys.stderr.isatty(),
         **{name: options[name] for name in _LEVELS},
     )  # fmt: skip
     title = f"{machine.name}: {objective} against {against}" + (f" at {target_speed}" if target_speed else "")

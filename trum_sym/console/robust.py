@@ -57,7 +57,7 @@ def robust(
 
     Exit code 1 where no point meets the constraints in every case.
     """  # fmt: skip
-    from trum_sym.console.optimize import _ranges
+    from trum_sym.console.optimize import ranges_of
     from trum_sym.errors import ParameterError
     from trum_sym.studies.robust import robust as find
     from trum_sym.studies.samples import read_samples
@@ -78,7 +78,7 @@ def robust(
     machine, drive = chosen_motor(motor, overrides), chosen_drive(options)
     found = find(
         machine, drive, objective=objective, tolerances=given or None,
-        samples=None if samples is None else read_samples(samples), target_speed=target_speed, bounds=_ranges(bounds),
+        samples=None if samples is None else read_samples(samples), target_speed=target_speed, bounds=ranges_of(bounds),
         constraints=constraints, progress=sys.stderr.isatty(), **{name: options[name] for name in _LEVELS},
     )  # fmt: skip
     title = f"{machine.name}: least worst {objective}" + (f" at {target_speed}" if target_speed else "")

@@ -49,19 +49,19 @@ def speed_table(
 
     Exit code 1 where the box has none of the speeds; gaps are named.
     """
-    from trum_sym.console.optimize import _ranges
+    from trum_sym.console.optimize import ranges_of
     from trum_sym.errors import ParameterError
+    from trum_sym.files import check_target
     from trum_sym.studies.speed_table import speed_table as make
     from trum_sym.studies.table_files import as_json_text, as_text
-    from trum_sym.text_files import check_text_target
 
     if options["sampling_period"] is not None:
         raise ParameterError("sampling_period", options["sampling_period"], "none: mean speeds are continuous")
     if out is not None:
-        check_text_target("--out", out, (".csv", ".h"))
+        check_target("--out", out, (".csv", ".h"))
     table = make(
         chosen_motor(motor, overrides), chosen_drive(options), slowest=slowest, fastest=fastest, direction=direction,
-        points=points, error=error, bounds=_ranges(bounds), constraints=constraints, progress=sys.stderr.isatty(),
+        points=points, error=error, bounds=ranges_of(bounds), constraints=constraints, progress=sys.stderr.isatty(),
         **{name: options[name] for name in _LEVELS},
     )  # fmt: skip
     click.echo(as_json_text(table) if as_json else as_text(table))

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from trum_sym.optimiser.model import Functions, Model
 from trum_sym.validate import Array
 
-__all__ = ["Chart", "basins", "chart"]
+__all__ = ["Chart", "basins", "chart", "crossings"]
 
 Index: TypeAlias = npt.NDArray[np.intp]
 
@@ -46,7 +46,7 @@ def chart(model: Model, divisions: int | None = None) -> Chart:
     return Chart(share, (side.size,) * d, model.figures(model.box.at(share), _TOLERANCE))
 
 
-def _crossings(found: Chart, residual: Array) -> tuple[Index, Index, Array]:
+def crossings(found: Chart, residual: Array) -> tuple[Index, Index, Array]:
     """Edges of the grid along which a residual changes sign: their ends, and where along them."""
     grid = np.arange(residual.size).reshape(found.shape)
     first, second = [], []
@@ -87,7 +87,7 @@ def basins(found: Chart, functions: Functions, low: Array, high: Array, scale: A
     rows = [values]
     for k, (least, most) in enumerate(zip(low, high, strict=True)):
         for bound in {least, most} - {-np.inf, np.inf}:
-            a, b, along = _crossings(found, values[:, 1 + k] - bound)
+            a, b, along = crossings(found, values[:, 1 + k] - bound)
             if a.size == 0:
                 continue
             along = along[:, np.newaxis]

@@ -23,7 +23,9 @@ from trum_sym.stator import Amplitude, Contact, Foundation, Levels, Resonance
 from trum_sym.units import parse_quantity
 from trum_sym.validate import Domain, number
 
-__all__ = ["OBJECTIVES", "optimize"]
+__all__ = [
+    "OBJECTIVES", "Bound", "aim_of", "box_of", "check_scalars", "one_number", "optimize", "warn_outside_fit",
+]  # fmt: skip
 
 OBJECTIVES: Mapping[str, str] = MappingProxyType(
     {
@@ -97,18 +99,19 @@ def optimize(
     for one pair of pulse counts, and takes a map and a model from a problem that differs in bounds of constraints only.
     """
     drive = Drive() if drive is None else drive
-    _check_scalars(motor, drive)
-    target = None if target_speed is None else _number("target_speed", target_speed, "rad/s")
-    box, pulses, drive = _box(drive, bounds)
-    aim, limits = _aim(objective, target, constraints)
+    check_scalars(motor, drive)
+    target = None if target_speed is None else one_number("target_speed", target_speed, "rad/s")
+    box, pulses, drive = box_of(drive, bounds)
+    aim, limits = aim_of(objective, target, constraints)
     levels = Levels(contact, resonance, foundation, amplitude)
     problem = Problem(motor, drive, levels, box, aim, limits)
-    _warn_outside_fit(problem)
+    warn_outside_fit(problem)
     best, chosen, pruned, evaluations = _over_pulses(problem, pulses)
     return _optimum(objective, target, chosen, best, len(pulses), pruned, evaluations)
 
 
-def _check_scalars(motor: Motor, drive: Drive) -> None:
+def check_scalars(motor: Motor, drive: Drive) -> None:
+    """Refuse what is no motor or drive, and arrays in them: one problem has one answer."""
     if not isinstance(motor, Motor):
         raise ParameterError("motor", motor, "a Motor, as load_motor returns it")
     if not isinstance(drive, Drive):
@@ -120,7 +123,7 @@ def _check_scalars(motor: Motor, drive: Drive) -> None:
             )
 
 
-def _number(name: str, value: object, unit: str) -> float:
+def one_number(name: str, value: object, unit: str) -> float:
     """A finite number in its SI unit, from a number or text."""
     given = parse_quantity(name, value, unit) if isinstance(value, str) else value
     checked = number(name, given, Domain(), unit)
@@ -129,7 +132,7 @@ def _number(name: str, value: object, unit: str) -> float:
     return float(checked)
 
 
-def _box(drive: Drive, bounds: Mapping[str, Bound] | None) -> tuple[Box, list[tuple[int, int]], Drive]:
+def box_of(drive: Drive, bounds: Mapping[str, Bound] | None) -> tuple[Box, list[tuple[int, int]], Drive]:
     """The box of what varies, the pairs of periods and on_periods, and the drive with what is held."""
     if bounds is not None and not isinstance(bounds, Mapping):
         raise ParameterError("bounds", bounds, "a mapping of names to (low, high)")
@@ -141,11 +144,11 @@ def _box(drive: Drive, bounds: Mapping[str, Bound] | None) -> tuple[Box, list[tu
             raise ParameterError("bounds", name, f"one of {', '.join((*_VARIABLES, *_PULSES))}")
         domain, unit = DRIVE_DOMAINS[name]
         if not isinstance(value, tuple | list):
-            held[name] = float(number(name, _number(name, value, unit), domain, unit))
+            held[name] = float(number(name, one_number(name, value, unit), domain, unit))
             continue
         if len(value) != 2:
             raise ParameterError(f"bounds of {name}", value, "two numbers, low and high")
-        low, high = (float(number(f"bounds of {name}", _number(f"bounds of {name}", end, unit), domain, unit))
+        low, high = (float(number(f"bounds of {name}", one_number(f"bounds of {name}", end, unit), domain, unit))
                      for end in value)  # fmt: skip
         if low > high or (low == high and name in _VARIABLES):
             empty = "one number holds it there" if low == high else "these are reversed"
@@ -170,7 +173,7 @@ def _box(drive: Drive, bounds: Mapping[str, Bound] | None) -> tuple[Box, list[tu
     return Box(names, ends[:, 0], ends[:, 1]), pulses, drive
 
 
-def _aim(
+def aim_of(
     objective: object, target: float | None, constraints: Sequence[str]
 ) -> tuple[Expression, tuple[Constraint, ...]]:
     """Objective and constraints as expressions."""
@@ -199,7 +202,8 @@ def _aim(
     return aim, tuple(limits)
 
 
-def _warn_outside_fit(problem: Problem) -> None:
+def warn_outside_fit(problem: Problem) -> None:
+    """Warn of a box that reaches beyond the prepressures on which eq. 8 was fitted."""
     motor, box = problem.motor, problem.box
     if motor.amplitude is not None:
         return

@@ -18,9 +18,10 @@ from trum_sym.optimiser.chart import chart
 from trum_sym.optimiser.expressions import Constraint, Expression, parse_expression
 from trum_sym.optimiser.finish import Finished
 from trum_sym.optimiser.model import Model, functions
+from trum_sym.optimiser.search import one_number
 from trum_sym.optimiser.solve import Answer, Problem, solve
 from trum_sym.stator import Amplitude, Contact, Foundation, Levels, Resonance
-from trum_sym.studies.posed import Bound, number_of, posed
+from trum_sym.studies.posed import Bound, posed
 from trum_sym.validate import Domain, number
 
 __all__ = ["AGAINST", "ParetoFront", "ParetoPoint", "pareto"]
@@ -153,7 +154,7 @@ def pareto(
         Without CasADi.
     """
     count = int(number("points", points, _COUNT, "1"))
-    target = None if target_speed is None else number_of("target_speed", target_speed, "rad/s")
+    target = None if target_speed is None else one_number("target_speed", target_speed, "rad/s")
     if against == "speed-error" and target is None:
         raise ParameterError("target_speed", "none", "a speed in rad/s for speed-error")
     levels = Levels(contact, resonance, foundation, amplitude)

@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from trum_sym.optimiser.chart import Chart, _crossings
+from trum_sym.optimiser.chart import Chart, crossings
 from trum_sym.validate import Array
 
 __all__ = ["Candidates", "candidates", "choose"]
@@ -36,7 +36,7 @@ def candidates(known: Chart, figure: Array, value: float, cost: Array, excess: A
     excess : (n,) array
         Of the constraints; places above 0 do not count.
     """
-    a, b, along = _crossings(known, figure - value)
+    a, b, along = crossings(known, figure - value)
     share = known.share[a] + along[:, np.newaxis] * (known.share[b] - known.share[a])
     there = cost[a] + along * (cost[b] - cost[a])
     good = np.isfinite(there) & (excess[a] + along * (excess[b] - excess[a]) <= 0)

@@ -7,13 +7,11 @@ from collections.abc import Mapping, Sequence
 from trum_sym.drive import Drive
 from trum_sym.errors import ParameterError
 from trum_sym.motor import Motor
-from trum_sym.optimiser.search import Bound, _aim, _box, _check_scalars, _number, _warn_outside_fit
+from trum_sym.optimiser.search import Bound, aim_of, box_of, check_scalars, warn_outside_fit
 from trum_sym.optimiser.solve import Problem
 from trum_sym.stator import Levels
 
-__all__ = ["Bound", "number_of", "posed"]
-
-number_of = _number
+__all__ = ["Bound", "posed"]
 
 
 def posed(
@@ -33,12 +31,12 @@ def posed(
         For bad input, and for a range of pulse counts.
     """
     drive = Drive() if drive is None else drive
-    _check_scalars(motor, drive)
-    box, pulses, drive = _box(drive, bounds)
+    check_scalars(motor, drive)
+    box, pulses, drive = box_of(drive, bounds)
     if len(pulses) != 1:
         raise ParameterError("bounds", f"{len(pulses)} pairs of periods and on_periods", "one value of each in a study")
     drive = Drive(**{**drive.numbers(), "start": drive.start, "periods": pulses[0][0], "on_periods": pulses[0][1]})  # type: ignore[arg-type]
-    aim, limits = _aim(objective, target, constraints)
+    aim, limits = aim_of(objective, target, constraints)
     problem = Problem(motor, drive, levels, box, aim, limits)
-    _warn_outside_fit(problem)
+    warn_outside_fit(problem)
     return problem

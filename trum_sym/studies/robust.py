@@ -16,10 +16,11 @@ from trum_sym.drive import DRIVE_DOMAINS, Drive
 from trum_sym.errors import ParameterError
 from trum_sym.motor import Motor, spec
 from trum_sym.optimiser.model import Model
+from trum_sym.optimiser.search import one_number
 from trum_sym.optimiser.solve import Problem, solve
 from trum_sym.stator import Amplitude, Contact, Foundation, Levels, Resonance
 from trum_sym.studies.minimax import Minimax, Outcome
-from trum_sym.studies.posed import Bound, number_of, posed
+from trum_sym.studies.posed import Bound, posed
 from trum_sym.units import parse_quantity
 from trum_sym.validate import Domain, number
 
@@ -165,7 +166,7 @@ def robust(
     MissingExtraError
         Without CasADi or SciPy.
     """
-    target = None if target_speed is None else number_of("target_speed", target_speed, "rad/s")
+    target = None if target_speed is None else one_number("target_speed", target_speed, "rad/s")
     levels = Levels(contact, resonance, foundation, amplitude)
     error = objective == "speed-error"
     if error and target is None:

@@ -15,8 +15,9 @@ from trum_sym.errors import ParameterError
 from trum_sym.motor import Motor
 from trum_sym.optimiser.chart import chart
 from trum_sym.optimiser.model import Model
+from trum_sym.optimiser.search import one_number
 from trum_sym.stator import Amplitude, Contact, Foundation, Levels, Resonance
-from trum_sym.studies.posed import Bound, number_of, posed
+from trum_sym.studies.posed import Bound, posed
 from trum_sym.studies.table_builder import Builder, Entry
 from trum_sym.validate import Array, Domain, number
 
@@ -119,14 +120,15 @@ class SpeedTable:
         ParameterError
             For another suffix, a table without entries, or a file that cannot be written.
         """
+        from trum_sym.files import check_target, write_bytes
         from trum_sym.studies.table_files import as_c, as_csv
-        from trum_sym.text_files import check_text_target, write_text
 
         path = Path(target)
-        check_text_target(name, path, (".csv", ".h"))
+        check_target(name, path, (".csv", ".h"))
         if not self.segments:
             raise ParameterError(name, "a table without entries", "a range of speeds that the box has")
-        write_text(name, as_csv(self) if path.suffix == ".csv" else as_c(self, path.stem), path)
+        text = as_csv(self) if path.suffix == ".csv" else as_c(self, path.stem)
+        write_bytes(name, text.encode(), path)
 
 
 def speed_table(
@@ -175,7 +177,7 @@ def speed_table(
     MissingExtraError
         Without CasADi.
     """
-    low, high = (float(number(name, number_of(name, value, "rad/s"), Domain(low=0.0), "rad/s"))
+    low, high = (float(number(name, one_number(name, value, "rad/s"), Domain(low=0.0), "rad/s"))
                  for name, value in (("slowest", slowest), ("fastest", fastest)))  # fmt: skip
     if low >= high:
         raise ParameterError("slowest", f"{low:g} rad/s", f"less than fastest, {high:g} rad/s")
