@@ -19,7 +19,18 @@ from trum_sym.report.findings import Context, Finding, Truth
 from trum_sym.report.readings import AXES, LEADS, LEVELS, Readings
 from trum_sym.report.readings import readings as compute_readings
 
-__all__ = ["VERDICTS", "Claim", "Statement", "best", "claims", "judged", "reading_rows", "readings", "statements"]
+__all__ = [
+    "PARTLY",
+    "VERDICTS",
+    "Claim",
+    "Statement",
+    "best",
+    "claims",
+    "judged",
+    "reading_rows",
+    "readings",
+    "statements",
+]
 
 REPRODUCED, PARTLY, CONTRADICTED = "reproduced", "reproduced only under", "contradicted"
 UNDECIDABLE = "not decidable from the paper"

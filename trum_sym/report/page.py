@@ -17,6 +17,7 @@ from trum_sym.figures.style import COLOURS, GRID, INK
 from trum_sym.ledger import Record, load_ledger
 from trum_sym.motor import Motor
 from trum_sym.operating_point import evaluate
+from trum_sym.report.claims import PARTLY
 from trum_sym.report.interactive import fragment
 from trum_sym.report.judged import Judged, judge
 from trum_sym.report.paper_tables import tables
@@ -71,6 +72,11 @@ def page(motor: Motor, *, progress: bool = False) -> str:
     )
 
 
+def _said(verdict: str) -> str:
+    """A verdict in a sentence, where no readings follow it."""
+    return f"{verdict} some readings" if verdict == PARTLY else verdict
+
+
 def _facts(motor: Motor, records: list[Record], judged: Judged | None) -> list[dict[str, str]]:
     """What a reader takes away within a minute."""
     point = evaluate(motor)
@@ -80,7 +86,7 @@ def _facts(motor: Motor, records: list[Record], judged: Judged | None) -> list[d
     if judged is not None:
         facts += [{
             "value": f"{len(judged.claims)} claims judged:",
-            "text": ", ".join(f"{count} {verdict}" for verdict, count in judged.verdicts) + ".",
+            "text": ", ".join(f"{count} {_said(verdict)}" for verdict, count in judged.verdicts) + ".",
             "link": "#claims", "label": "The claims",
         }, {
             "value": f"{judged.distance:.2f} %",
