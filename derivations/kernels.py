@@ -327,6 +327,12 @@ def _surface() -> list[Kernel]:
             {"zeta_z": "m", "zeta_x": "m", "v_x": "m/s", "A_Q": "m", "x_max": "m"},
         ),
         Kernel(
+            "trum_displacement",
+            "A point of the surface, from both phases' displacements (eq. 11)",
+            surface.displacements(*sp.symbols("w_A w_B", real=True)),
+            {"zeta_z": "m", "zeta_x": "m"},
+        ),
+        Kernel(
             "trum_interface",
             "Surface speed about the crest, line pressure, traction on the rotor (eqs. 16, 32, 36)",
             surface.interface(),

@@ -14,7 +14,7 @@ from derivations.nomenclature import sym
 from derivations.phases import PHASES, response
 from derivations.rotor import less, phasor, rotation
 
-__all__ = ["interface", "point", "vector"]
+__all__ = ["displacements", "interface", "point", "vector"]
 
 a, b, W, psi, s, D, k_c, x, x_max = sym("a b W psi s D k_c x x_max")
 R_v, cos_phi, sin_phi, v = sym("R_v cos_phi sin_phi v")
@@ -44,13 +44,18 @@ def vector(phase: str) -> tuple[sp.Expr, sp.Expr]:
     return real, z_re * e_im + z_im * e_re + gate * on_im
 
 
+def displacements(w_A: sp.Expr, w_B: sp.Expr) -> dict[str, sp.Expr]:
+    """The point at x, of both phases' displacements; along the circumference by the section's turning (eq. 11)."""
+    zeta_z = w_A * sp.sin(k_c * x) + w_B * sp.cos(k_c * x)
+    return {"zeta_z": zeta_z, "zeta_x": D * zeta_z.diff(x)}
+
+
 @cache
 def point() -> dict[str, sp.Expr]:
     """Displacements and velocity of the point at x, its vertical envelope, the crest (eqs. 11, 12, 16, 20)."""
     t = sp.Symbol("t", real=True)
     moving = {phase: sp.Function(f"w_{phase}")(t) for phase in PHASES}
-    zeta_z = moving["A"] * sp.sin(k_c * x) + moving["B"] * sp.cos(k_c * x)
-    zeta_x = D * zeta_z.diff(x)
+    zeta_z, zeta_x = displacements(*moving.values()).values()
     found = {phase: response(phase) for phase in PHASES}
     at = [(w.diff(t), found[phase][1]) for phase, w in moving.items()]
     at += [(w, found[phase][0]) for phase, w in moving.items()]

@@ -173,6 +173,11 @@ int trum_particle(const trum_real** arg, trum_real** res, long long int* iw, tru
 enum { trum_particle_in_D, trum_particle_in_Delta_omega, trum_particle_in_W, trum_particle_in_a_A, trum_particle_in_a_B, trum_particle_in_b_A, trum_particle_in_b_B, trum_particle_in_g_A, trum_particle_in_g_B, trum_particle_in_k_c, trum_particle_in_omega_n, trum_particle_in_psi, trum_particle_in_s, trum_particle_in_tau, trum_particle_in_x, trum_particle_in_xi, trum_particle_n_arg };
 enum { trum_particle_out_zeta_z, trum_particle_out_zeta_x, trum_particle_out_v_x, trum_particle_out_A_Q, trum_particle_out_x_max, trum_particle_n_res };
 
+/* A point of the surface, from both phases' displacements (eq. 11) */
+int trum_displacement(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_displacement_in_D, trum_displacement_in_k_c, trum_displacement_in_w_A, trum_displacement_in_w_B, trum_displacement_in_x, trum_displacement_n_arg };
+enum { trum_displacement_out_zeta_z, trum_displacement_out_zeta_x, trum_displacement_n_res };
+
 /* Surface speed about the crest, line pressure, traction on the rotor (eqs. 16, 32, 36) */
 int trum_interface(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_interface_in_F_c, trum_interface_in_R_v, trum_interface_in_cos_phi, trum_interface_in_engagement, trum_interface_in_k_c, trum_interface_in_mu, trum_interface_in_n_j, trum_interface_in_share, trum_interface_in_sin_phi, trum_interface_in_v, trum_interface_in_x, trum_interface_in_x_max, trum_interface_n_arg };
@@ -212,6 +217,7 @@ enum { trum_interface_out_v_x, trum_interface_out_v_x_slope, trum_interface_out_
   X(trum_wave_slopes, 24, 6, "D Delta_omega W f_A_im f_A_im_Delta_omega f_A_im_omega_n f_A_re f_A_re_Delta_omega f_A_re_omega_n f_B_im f_B_im_Delta_omega f_B_im_omega_n f_B_re f_B_re_Delta_omega f_B_re_omega_n g_A g_B k_c omega_n p_im p_re s tau xi", "W_c_omega_n R_v_omega_n phi_omega_n W_c_Delta_omega R_v_Delta_omega phi_Delta_omega") \
   X(trum_friction_slopes, 9, 4, "R_v cos_phi engagement phi share sin_phi sin_theta theta v", "f_phi f_E theta_E E_height") \
   X(trum_particle, 16, 5, "D Delta_omega W a_A a_B b_A b_B g_A g_B k_c omega_n psi s tau x xi", "zeta_z zeta_x v_x A_Q x_max") \
+  X(trum_displacement, 5, 2, "D k_c w_A w_B x", "zeta_z zeta_x") \
   X(trum_interface, 12, 4, "F_c R_v cos_phi engagement k_c mu n_j share sin_phi v x x_max", "v_x v_x_slope p traction")
 
 /* gates of the phases in the regions of a cycle */

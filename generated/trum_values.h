@@ -410,6 +410,12 @@ static inline void trum_call_particle(trum_real* v) {
   trum_particle(arg, res, 0, 0, 0);
 }
 
+static inline void trum_call_displacement(trum_real* v) {
+  const trum_real* arg[trum_displacement_n_arg] = {v + trum_at_D, v + trum_at_k_c, v + trum_at_w_A, v + trum_at_w_B, v + trum_at_x};
+  trum_real* res[trum_displacement_n_res] = {v + trum_at_zeta_z, v + trum_at_zeta_x};
+  trum_displacement(arg, res, 0, 0, 0);
+}
+
 static inline void trum_call_interface(trum_real* v) {
   const trum_real* arg[trum_interface_n_arg] = {v + trum_at_F_c, v + trum_at_R_v, v + trum_at_cos_phi, v + trum_at_engagement, v + trum_at_k_c, v + trum_at_mu, v + trum_at_n_j, v + trum_at_share, v + trum_at_sin_phi, v + trum_at_v, v + trum_at_x, v + trum_at_x_max};
   trum_real* res[trum_interface_n_res] = {v + trum_at_v_x, v + trum_at_v_x_slope, v + trum_at_p, v + trum_at_traction};

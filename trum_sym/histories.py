@@ -161,8 +161,7 @@ def _cycle(
     columns = {
         "w_A": found["w_A"],
         "w_B": found["w_B"],
-        "zeta_z": found["w_B"],  # eq. 11 at x = 0, where the sine is 0 and the cosine 1
-        "zeta_x": np.multiply(stator.D, stator.k_c) * found["w_A"],
+        **call("trum_displacement", {**found, "D": stator.D, "k_c": stator.k_c, "x": 0.0}),
         "Q": found["Q"],
         "crest_speed": touching["R_v"] * np.asarray(touching["cos_phi"]),
         "theta": touching["theta"],

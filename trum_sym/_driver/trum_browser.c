@@ -124,8 +124,10 @@ static void browser_vibrate(const trum_orbit_in* in, int count) {
       since += c.duration[region];
     trum_cycle_at(&c, time - since);
     browser_touch(in, &c, v);
+    v[trum_at_w_A] = c.w_A, v[trum_at_w_B] = c.w_B, v[trum_at_x] = 0;
+    trum_call_displacement(v);
     histories[browser_history_w_A][i] = c.w_A, histories[browser_history_w_B][i] = c.w_B, histories[browser_history_Q][i] = c.Q;
-    histories[browser_history_zeta_x][i] = in->D * in->k_c * c.w_A; /* eq. 11 at x = 0, where zeta_z is w_B */
+    histories[browser_history_zeta_x][i] = v[trum_at_zeta_x];
     histories[browser_history_W_c][i] = v[trum_at_W_c], histories[browser_history_theta][i] = v[trum_at_theta];
   }
 }
