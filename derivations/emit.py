@@ -19,7 +19,7 @@ from derivations import collocation
 from derivations.dimensions import DimensionError, dimension
 from derivations.kernels import Kernel, kernels
 from derivations.library import headers
-from derivations.nomenclature import CONSTANTS, NOMENCLATURE
+from derivations.nomenclature import CONSTANTS, NOMENCLATURE, sym
 from derivations.phases import GATES, PHASES, REGIONS
 from derivations.to_casadi import to_casadi
 from trum_sym.units import parse_unit
@@ -57,9 +57,8 @@ def check_dimensions(kernel: Kernel) -> dict[str, str]:
         found[name] = "consistent"
     for direction, rates in kernel.along.items():
         for symbol, rate in rates.items():
-            unit = f"s*{NOMENCLATURE[symbol.name].unit}/rad"
-            if dimension(rate) != parse_unit(unit).dimension:
-                raise DimensionError(f"{kernel.name}: the rate of {symbol} along {direction} is not in {unit}")
+            if dimension(rate) != dimension(symbol / sym(direction)[0]):
+                raise DimensionError(f"{kernel.name}: the rate of {symbol} along {direction} is not of their quotient")
     return dict.fromkeys(kernel.results, "consistent") if kernel.along else found
 
 

@@ -13,9 +13,15 @@ from functools import cache
 import sympy as sp
 
 from derivations import amplitude, beam, contact, determinant, phases, rotor, section, surface
-from derivations.nomenclature import CONSTANTS, sym
+from derivations.nomenclature import CONSTANTS, NOMENCLATURE, sym
 
 __all__ = ["Kernel", "kernels"]
+
+
+def _quotient(unit: str, by: str) -> str:
+    """Of units; the second has one name, or is a quotient of two."""
+    above, _, below = by.partition("/")
+    return f"{below}*{unit}/{above}" if below else f"{unit}/{above}"
 
 
 @dataclass(frozen=True)
@@ -52,7 +58,7 @@ class Kernel:
         if not self.along:
             return {name: self.units[name] for name in self.outputs}
         return {
-            f"{name}_{direction}": f"s*{self.units[name]}/rad"  # directions are angular frequencies
+            f"{name}_{direction}": _quotient(self.units[name], NOMENCLATURE[direction].unit)
             for direction in self.along
             for name in self.outputs
         }
@@ -223,6 +229,7 @@ def _slopes() -> list[Kernel]:
     in_time = _frequencies("f_A_re", "f_A_im", "f_B_re", "f_B_im")
     for rates in in_time.values():
         rates[tau] = -tau / (omega_n + Delta_omega)
+    in_time["tau"] = {tau: sp.Integer(1)}
     return [
         *(
             Kernel(
@@ -243,7 +250,7 @@ def _slopes() -> list[Kernel]:
         ),
         Kernel(
             "trum_wave_slopes",
-            "How the wave follows the frequencies, at a fixed share of a drive period",
+            "How the wave follows the frequencies, at a fixed share of a drive period, and time",
             rotor.wave_in_time(),
             {"W_c": "m", "R_v": "m/s", "phi": "rad"},
             along=in_time,

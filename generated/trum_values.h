@@ -31,6 +31,7 @@ enum {
   trum_at_R_v,
   trum_at_R_v_Delta_omega,
   trum_at_R_v_omega_n,
+  trum_at_R_v_tau,
   trum_at_T,
   trum_at_T_load,
   trum_at_U_s,
@@ -38,6 +39,7 @@ enum {
   trum_at_W_c,
   trum_at_W_c_Delta_omega,
   trum_at_W_c_omega_n,
+  trum_at_W_c_tau,
   trum_at_W_full,
   trum_at_W_full_hertz,
   trum_at_W_full_winkler,
@@ -154,6 +156,7 @@ enum {
   trum_at_phi,
   trum_at_phi_Delta_omega,
   trum_at_phi_omega_n,
+  trum_at_phi_tau,
   trum_at_pressure,
   trum_at_printed,
   trum_at_psi,
@@ -394,7 +397,7 @@ static inline void trum_call_regions_slopes(trum_real* v) {
 
 static inline void trum_call_wave_slopes(trum_real* v) {
   const trum_real* arg[trum_wave_slopes_n_arg] = {v + trum_at_D, v + trum_at_Delta_omega, v + trum_at_W, v + trum_at_f_A_im, v + trum_at_f_A_im_Delta_omega, v + trum_at_f_A_im_omega_n, v + trum_at_f_A_re, v + trum_at_f_A_re_Delta_omega, v + trum_at_f_A_re_omega_n, v + trum_at_f_B_im, v + trum_at_f_B_im_Delta_omega, v + trum_at_f_B_im_omega_n, v + trum_at_f_B_re, v + trum_at_f_B_re_Delta_omega, v + trum_at_f_B_re_omega_n, v + trum_at_g_A, v + trum_at_g_B, v + trum_at_k_c, v + trum_at_omega_n, v + trum_at_p_im, v + trum_at_p_re, v + trum_at_s, v + trum_at_tau, v + trum_at_xi};
-  trum_real* res[trum_wave_slopes_n_res] = {v + trum_at_W_c_omega_n, v + trum_at_R_v_omega_n, v + trum_at_phi_omega_n, v + trum_at_W_c_Delta_omega, v + trum_at_R_v_Delta_omega, v + trum_at_phi_Delta_omega};
+  trum_real* res[trum_wave_slopes_n_res] = {v + trum_at_W_c_omega_n, v + trum_at_R_v_omega_n, v + trum_at_phi_omega_n, v + trum_at_W_c_Delta_omega, v + trum_at_R_v_Delta_omega, v + trum_at_phi_Delta_omega, v + trum_at_W_c_tau, v + trum_at_R_v_tau, v + trum_at_phi_tau};
   trum_wave_slopes(arg, res, 0, 0, 0);
 }
 

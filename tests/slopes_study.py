@@ -1,11 +1,11 @@
-"""The figures' slopes beside differences of sixth order, on orbits at the finest tolerance.
+"""The figures' slopes beside differences of sixth order, on orbits finer than ``evaluate`` offers.
 
     python tests/slopes_study.py FILE.jsonl [COUNT] [--first N]      takes up where FILE ends
     python tests/slopes_study.py FILE.jsonl 0                        prints the figures
 
-At every random point the differences are taken with two steps, one four times the other.  Where these two agree to
-1e-8, the point is smooth for that parameter, and the slope is compared with the smaller step's.  Errors are over the
-slope or the figure per parameter, whichever is larger.
+At every random point the differences are taken with three steps, each four times the one before, on orbits at 1e-12.
+Where two neighbours among these agree to 1e-8, the point is smooth for that parameter, and the slope is compared with
+theirs.  Errors are over the slope or the figure per parameter, whichever is larger.
 """
 
 from __future__ import annotations
@@ -14,17 +14,22 @@ import argparse
 import json
 import warnings
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 
 import trum_sym as ts
+from trum_sym.operating_point import figures, prepare
 from trum_sym.slopes import FIGURES, PARAMETERS
+from trum_sym.stator import Levels
 
 TOLERANCES = (1e-3, 1e-6, 1e-9)
+LEVELS = Levels("winkler", "quartic", "harmonic", "measured")
 SHIFTS = np.array([1.0, -1.0, 2.0, -2.0, 3.0, -3.0])
 WEIGHTS = np.array([45.0, -45.0, -9.0, 9.0, 1.0, -1.0]) / 60
-STEPS = (2e-4, 8e-4)  # over the parameter
+STEPS = (5e-5, 2e-4, 8e-4)  # over the parameter
+FINEST = 1e-12
 AGREE = 1e-8
 
 
@@ -63,7 +68,13 @@ def moved(motor, drive, point, name, values):
         motor = motor.with_values(
             {"amplitude": point.amplitude, "resonance_frequency": point.resonance_frequency} | {name: values}
         )
-    return ts.evaluate(motor, drive, tolerance=1e-9)
+    return finest(motor, drive)
+
+
+def finest(motor, drive):
+    """The figures, from an orbit a thousand times finer than is offered."""
+    case = prepare(motor, drive, LEVELS, 1e-9)
+    return figures(replace(case, arguments={**case.arguments, "tolerance": FINEST}), FIGURES)
 
 
 def record(seed):
@@ -75,10 +86,11 @@ def record(seed):
         value = base(motor, drive, point, name)
         differences = []
         for step in STEPS:
-            figures = moved(motor, drive, point, name, value * (1 + step * SHIFTS))
-            differences.append({f: WEIGHTS @ getattr(figures, f) / (step * value) for f in FIGURES})
+            there = moved(motor, drive, point, name, value * (1 + step * SHIFTS))
+            differences.append({f: WEIGHTS @ there[f] / (step * value) for f in FIGURES})
         for figure in FIGURES:
-            near, far = differences[0][figure], differences[1][figure]
+            values = [difference[figure] for difference in differences]
+            near, far = min(pairwise(values), key=lambda pair: abs(pair[0] - pair[1]))
             scale = max(abs(near), abs(getattr(point, figure) / value))
             errors[f"{figure} by {name}"] = [
                 abs(near - far) / scale,

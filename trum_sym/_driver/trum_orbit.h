@@ -81,6 +81,7 @@ typedef struct {
   real low, high, S_low, S_high;  /* extremes of x, and S there */
   real friction, angle;           /* integrals of f and theta/pi */
   real full, fastest, error;      /* any full contact; largest surface speed; sum of the steps' errors of integral f */
+  real size_f[WAYS], size_angle[WAYS]; /* sums of the sizes of the steps' shares of d_friction and d_angle */
   real d_x[WAYS], d_xx[WAYS], d_low[WAYS], d_high[WAYS], d_friction[WAYS], d_angle[WAYS]; /* the same, as slopes */
 } trum_lap;
 
@@ -91,6 +92,13 @@ enum { SPEED, LARGER, SMALLER, FULL, EVENTS };
 typedef struct {
   real R_v, phi, cos_phi, sin_phi, engagement, theta, sin_theta, share, W_c;
 } trum_surface;
+
+/* How an instant's friction fraction and the logarithms of engagement and surface speed change by what the slopes are
+ * by.  The surface speed's share in f is left out of f, and theta's change is apart: both are infinite where there are
+ * square roots.  Rates are in time. */
+typedef struct {
+  real f[WAYS], ln_E[WAYS], ln_R_v[WAYS], theta_E, R_v_rate, W_c_rate;
+} trum_changes;
 
 /* Speed and distance of lane 0 at equal times of a lap. */
 typedef struct {
@@ -103,12 +111,15 @@ typedef struct {
 typedef struct {
   real omega_n, Delta_omega, xi, s, W, D, k_c, engagement_per_height, W_full, push, drag, period, whole;
   real free_[4], drive_re, drive_im, g_A, g_B; /* the region's phasors at its start, its gates */
-  real v0, per_allowed, event_error, kink_error;   /* of the lap: start speed; 1/error of a step's integral f, 1/s; of events */
+  real v0, per_allowed, event_error, kink_error; /* of the lap: start speed; 1/error of a step's integral f, 1/s; events */
+  real per_growth, per_f[WAYS], per_angle[WAYS]; /* 1/error of what slopes integrate: growth, and what drives them */
+  real begins, ends;                             /* how near to events steps with slopes begin and end */
   real newton_error;                           /* last change of a step's speeds, whose square is the error left */
   real tau, left, h, natural, bend;            /* place in the region; the step, its size without events, its map */
   real target, tries, patience;                /* the event that the step is to end at, or -1 */
   real x, S, f, f_v, theta, cos_phi, sin_phi, event[EVENTS];    /* where the step begins */
-  real d[WAYS], d_f[WAYS], d_theta[WAYS];      /* slopes there, of x, f and theta */
+  real d[WAYS];                                /* slopes there, of x */
+  trum_changes changes;                        /* and of what x follows */
   real slopes_[2][4];                          /* of the phasors at the region's start, by resonance and difference */
   mask fresh[EVENTS];                          /* it begins at this event */
   mask active, cold, lost;
@@ -121,6 +132,10 @@ typedef struct {
  * see the wave turn by less than this cosine from node to node. */
 static const double trum_longest = 1.0 / 24.0, trum_first = 1.0 / 24.0, trum_shortest = 1e-9;
 static const double trum_sees = 2e-4, trum_cosine = 0.4;
+/* Where slopes are wanted, which have no bounds at a square root: the shortest step, in drive periods, whose slopes'
+ * error counts (below, rounding is most of it), how near to an event a step may begin and end, and how much closer
+ * Newton comes. */
+static const double trum_feels = 1e-6, trum_begins = 1e-10, trum_ends = 1e-15, trum_closes = 1e-5;
 /* A step's length follows the fourth root of its error, with a margin, and grows by no more than this. */
 static const double trum_margin = 0.8, trum_grows = 1.5;
 /* Shares that make the figures meet the tolerance: error of a step per drive period, of the quadrature's estimate, of
@@ -207,9 +222,11 @@ static void trum_rub(const trum_surface* at, real v, real* f, real* f_v, real* l
   *larger = most(p_1, p_2), *smaller = least(p_1, p_2);
 }
 
-/* Slopes of friction fraction and contact half-angle at a speed, by everything that bears on them. */
-static void trum_slopes(const trum_lanes* l, real tau, const trum_surface* at, real v, real f_v, real* d_f,
-                        real* d_theta) {
+/* At a standstill of the surface nothing is defined, nor does it weigh. */
+static real trum_defined(real a) { return sel(less_than(size_of(a), N_(1e100)), a, N_(0)); }
+
+/* How friction, contact and surface change at a speed of the rim. */
+static void trum_change(const trum_lanes* l, real tau, const trum_surface* at, real v, trum_changes* by) {
   real f_phi, f_E, theta_E, of_height, wave[trum_wave_slopes_n_res];
   int k, way;
   {
@@ -251,16 +268,16 @@ static void trum_slopes(const trum_lanes* l, real tau, const trum_surface* at, r
     if (way == BY_PREPRESSURE) height = N_(-1);
     if (way == BY_AMPLITUDE) height = speed = N_(1);
     if (way == BY_RESONANCE || way == BY_DIFFERENCE) {
-      const int by = way == BY_RESONANCE ? trum_wave_slopes_out_W_c_omega_n : trum_wave_slopes_out_W_c_Delta_omega;
-      height = wave[by] / at->W_c, speed = wave[by + 1] / at->R_v, phase = wave[by + 2];
+      const int first = way == BY_RESONANCE ? trum_wave_slopes_out_W_c_omega_n : trum_wave_slopes_out_W_c_Delta_omega;
+      height = wave[first] / at->W_c, speed = wave[first + 1] / at->R_v, phase = wave[first + 2];
     }
     height = height * of_height;
-    d_f[way] = f_E * height + f_phi * phase - v * f_v * speed;
-    d_theta[way] = theta_E * height;
-    /* at a standstill of the surface nothing is defined, nor does it weigh */
-    d_f[way] = sel(less_than(size_of(d_f[way]), N_(1e100)), d_f[way], N_(0));
-    d_theta[way] = sel(less_than(size_of(d_theta[way]), N_(1e100)), d_theta[way], N_(0));
+    by->f[way] = trum_defined(f_E * height + f_phi * phase);
+    by->ln_E[way] = trum_defined(height);
+    by->ln_R_v[way] = trum_defined(speed);
   }
+  by->theta_E = trum_defined(theta_E);
+  by->R_v_rate = wave[trum_wave_slopes_out_R_v_tau], by->W_c_rate = wave[trum_wave_slopes_out_W_c_tau];
 }
 
 /* Solves y_i = right_i + sum_j A_ij K_j y_j for the nodes after the first. */
@@ -371,12 +388,12 @@ static void trum_first_event(const trum_lanes* l, const real* z, real (*e)[EVENT
 }
 
 /* Lowest and highest x in a step: at its end, or where its rate, a cubic in the step's parameter, is zero. */
-static void trum_extremes(const real* G, const real* x, real S0, real S1, real (*d)[NODES], int slopes, mask accepted,
+static void trum_extremes(const real* G, const real* x, const real* S, real (*d)[NODES], int slopes, mask accepted,
                           trum_lap* lap) {
   static const double P[NODES][NODES] = TRUM_COLLOCATION_POWERS;
   real p[NODES], top = most(x[0], x[1]), bottom = least(x[0], x[1]), steepest = size_of(G[0]);
   mask turns = is(0), needed;
-  int k, j;
+  int k, j, way;
   for (j = 1; j < NODES; ++j) {
     top = most(top, x[j]), bottom = least(bottom, x[j]), steepest = most(steepest, size_of(G[j]));
     turns = turns | (at_most(G[j] * G[j - 1], N_(0)));
@@ -390,7 +407,7 @@ static void trum_extremes(const real* G, const real* x, real S0, real S1, real (
       for (j = 1; j < NODES; ++j) p[k] = p[k] + N_(P[k][j]) * G[j];
     }
     for (k = 0; k < 3; ++k) { /* the rate's zeros by Newton from the middles of the thirds */
-      real at = N_((2.0 * k + 1.0) / 6.0), value, S;
+      real at = N_((2.0 * k + 1.0) / 6.0), value, S_there, weight[NODES];
       mask lower, higher;
       for (j = 0; j < 4; ++j) {
         const real slope = p[1] + at * (N_(2) * p[2] + at * N_(3) * p[3]);
@@ -399,31 +416,38 @@ static void trum_extremes(const real* G, const real* x, real S0, real S1, real (
         at = most(N_(0), least(N_(1), sel(steep, at - rate * inverse_of(sel(steep, slope, N_(1))), at)));
       }
       value = x[0] + at * (p[0] + at * (N_(1.0 / 2) * p[1] + at * (N_(1.0 / 3) * p[2] + at * N_(1.0 / 4) * p[3])));
-      S = S0 + at * (S1 - S0);
+      for (j = 0; j < NODES; ++j) weight[j] = N_(P[0][j]) + at * (N_(P[1][j]) + at * (N_(P[2][j]) + at * N_(P[3][j])));
+      for (S_there = weight[0] * S[0], j = 1; j < NODES; ++j) S_there = S_there + weight[j] * S[j];
       lower = needed & less_than(value, lap->low), higher = needed & less_than(lap->high, value);
-      lap->low = sel(lower, value, lap->low), lap->S_low = sel(lower, S, lap->S_low);
-      lap->high = sel(higher, value, lap->high), lap->S_high = sel(higher, S, lap->S_high);
-      if (slopes) {
-        real weight[NODES];
-        int way;
-        for (j = 0; j < NODES; ++j) weight[j] = N_(P[0][j]) + at * (N_(P[1][j]) + at * (N_(P[2][j]) + at * N_(P[3][j])));
-        for (way = 0; way < WAYS; ++way) {
-          real there = weight[0] * d[way][0];
-          for (j = 1; j < NODES; ++j) there = there + weight[j] * d[way][j];
-          lap->d_low[way] = sel(lower, there, lap->d_low[way]);
-          lap->d_high[way] = sel(higher, there, lap->d_high[way]);
-        }
+      lap->low = sel(lower, value, lap->low), lap->S_low = sel(lower, S_there, lap->S_low);
+      lap->high = sel(higher, value, lap->high), lap->S_high = sel(higher, S_there, lap->S_high);
+      for (way = 0; slopes && way < WAYS; ++way) {
+        real there = weight[0] * d[way][0];
+        for (j = 1; j < NODES; ++j) there = there + weight[j] * d[way][j];
+        lap->d_low[way] = sel(lower, there, lap->d_low[way]);
+        lap->d_high[way] = sel(higher, there, lap->d_high[way]);
       }
     }
   }
   {
     const mask lower = accepted & less_than(x[EDGE], lap->low), higher = accepted & less_than(lap->high, x[EDGE]);
-    lap->low = sel(lower, x[EDGE], lap->low), lap->S_low = sel(lower, S1, lap->S_low);
-    lap->high = sel(higher, x[EDGE], lap->high), lap->S_high = sel(higher, S1, lap->S_high);
+    lap->low = sel(lower, x[EDGE], lap->low), lap->S_low = sel(lower, S[EDGE], lap->S_low);
+    lap->high = sel(higher, x[EDGE], lap->high), lap->S_high = sel(higher, S[EDGE], lap->S_high);
     for (k = 0; slopes && k < WAYS; ++k) {
       lap->d_low[k] = sel(lower, d[k][EDGE], lap->d_low[k]), lap->d_high[k] = sel(higher, d[k][EDGE], lap->d_high[k]);
     }
   }
+}
+
+static void trum_keep(trum_changes* kept, const trum_changes* by, mask here) {
+  int way;
+  for (way = 0; way < WAYS; ++way) {
+    kept->f[way] = sel(here, by->f[way], kept->f[way]);
+    kept->ln_E[way] = sel(here, by->ln_E[way], kept->ln_E[way]);
+    kept->ln_R_v[way] = sel(here, by->ln_R_v[way], kept->ln_R_v[way]);
+  }
+  kept->theta_E = sel(here, by->theta_E, kept->theta_E);
+  kept->R_v_rate = sel(here, by->R_v_rate, kept->R_v_rate), kept->W_c_rate = sel(here, by->W_c_rate, kept->W_c_rate);
 }
 
 /* What the first step of a lap needs to know of its start. */
@@ -439,11 +463,9 @@ static void trum_begin(trum_lanes* l) {
   l->theta = sel(l->cold, at.theta, l->theta);
   l->cos_phi = sel(l->cold, at.cos_phi, l->cos_phi), l->sin_phi = sel(l->cold, at.sin_phi, l->sin_phi);
   if (l->slopes) {
-    real d_f[WAYS], d_theta[WAYS];
-    trum_slopes(l, l->tau, &at, l->v0 + l->x, f_v, d_f, d_theta);
-    for (k = 0; k < WAYS; ++k) {
-      l->d_f[k] = sel(l->cold, d_f[k], l->d_f[k]), l->d_theta[k] = sel(l->cold, d_theta[k], l->d_theta[k]);
-    }
+    trum_changes by;
+    trum_change(l, l->tau, &at, l->v0 + l->x, &by);
+    trum_keep(&l->changes, &by, l->cold);
   }
   for (k = 0; k < EVENTS; ++k) {
     l->event[k] = sel(l->cold, e[k], l->event[k]);
@@ -506,6 +528,7 @@ static real trum_quadrature_error(const real* G) {
 typedef struct {
   trum_surface at[NODES]; /* not at the first node */
   real z[NODES], T[NODES], x[NODES], f[NODES], f_v[NODES], e[NODES][EVENTS];
+  trum_changes by[NODES]; /* if slopes are wanted */
   mask open;              /* Newton has not closed */
 } trum_attempt;
 
@@ -560,7 +583,9 @@ static void trum_try(const trum_lanes* l, trum_attempt* t) {
     const real v = l->v0 + t->x[j];
     t->e[j][SPEED] = t->at[j].R_v * t->at[j].R_v - v * v;
     t->e[j][FULL] = t->at[j].W_c * t->at[j].W_c - l->W_full * l->W_full;
+    if (l->slopes) trum_change(l, l->tau + l->h * t->z[j], &t->at[j], v, &t->by[j]);
   }
+  if (l->slopes) t->by[0] = l->changes;
 }
 
 /* What comes next for every lane: its step, and how that bends towards an event or away from one. */
@@ -568,6 +593,14 @@ typedef struct {
   real h, bend, target;
   mask redo, hit; /* the step is to be tried anew; it ends at the event that it was aimed at */
 } trum_plan;
+
+/* How near to an event is at it; nearer where slopes are wanted.  A rotor that is held is as fast as the surface where
+ * that stands still, which it touches and does not cross: no step gets as near as slopes want. */
+static real trum_nearness(const trum_lanes* l, real which, real of_slopes) {
+  const mask speed = trum_same(which, N_(SPEED)), full = trum_same(which, N_(FULL));
+  const real nearness = sel(speed | full, l->event_error, l->kink_error);
+  return sel(speed & at_most(l->push, N_(0)), nearness, least(nearness, of_slopes));
+}
 
 /* Steps end at events.  One that meets an event is aimed at it; one that was aimed there is corrected until it hits. */
 static trum_plan trum_aim(trum_lanes* l, trum_attempt* t, mask tiny) {
@@ -599,7 +632,7 @@ static trum_plan trum_aim(trum_lanes* l, trum_attempt* t, mask tiny) {
     root = sel(trum_same(which, l->target), place, root);
     singular = trum_same(l->target, N_(SPEED)) | trum_same(l->target, N_(FULL));
     missed = size_of(root - N_(1)) * l->h * sel(singular, N_(1), missed);
-    tolerance = sel(singular, l->event_error, l->kink_error);
+    tolerance = trum_nearness(l, l->target, l->ends);
     p.hit = aimed & less_than(root, N_(1.24)); /* else it turned out to be none */
     off_target = p.hit & patient & less_than(tolerance, missed);
     p.hit = p.hit & no(off_target);
@@ -608,7 +641,7 @@ static trum_plan trum_aim(trum_lanes* l, trum_attempt* t, mask tiny) {
     p.h = sel(off_target, l->h * root, p.h);
   }
   singular = trum_same(which, N_(SPEED)) | trum_same(which, N_(FULL));
-  tolerance = sel(singular, l->event_error, l->kink_error);
+  tolerance = trum_nearness(l, which, l->begins);
   { /* what a kink weighs is its distance times the pressure there */
     const real weight = sel(trum_same(which, N_(LARGER)), size_of(t->e[0][LARGER]), size_of(t->e[0][SMALLER]));
     distant = meets & less_than(tolerance, place * l->h * sel(singular, N_(1), weight));
@@ -631,6 +664,63 @@ static trum_plan trum_aim(trum_lanes* l, trum_attempt* t, mask tiny) {
   return p;
 }
 
+/* At a square root T f_v and the like are 0 times infinity: their limit, from the other nodes. */
+static void trum_limits(real bend, real* K) {
+  static const double outward[NODES] = TRUM_COLLOCATION_OUTWARD;
+  const real first = N_(outward[1]) * K[1] + N_(outward[2]) * K[2] + N_(outward[3]) * K[3];
+  const real last = N_(outward[1]) * K[2] + N_(outward[2]) * K[1] + N_(outward[3]) * K[0];
+  K[0] = sel(less_than(bend, N_(0)), first, K[0]), K[EDGE] = sel(less_than(N_(0), bend), last, K[EDGE]);
+}
+
+/* The limit of T f_v where the rotor is as fast as all of the surface: f_v is -2 p / sqrt(R_v^2 - v^2), p the relative
+ * pressure at that one point, and the root is that of its rate times h sigma^2. */
+static real trum_at_root(const trum_lanes* l, const real* e, real R_v, real R_v_rate, real v, real f) {
+  const real pressed = N_(0.5) * (most(N_(0), e[LARGER]) + most(N_(0), e[SMALLER]));
+  const real rate = size_of(N_(2) * (R_v * R_v_rate - v * (l->push * f - l->drag)));
+  return N_(-4) * pressed * root_of(l->h * inverse_of(most(rate, N_(1e-300))));
+}
+
+/* T f_v at the nodes; the limits where T is 0 are exact if slopes are wanted. */
+static void trum_stiffness(const trum_lanes* l, const trum_attempt* t, real* K) {
+  const mask from = less_than(l->bend, N_(0)), to = less_than(N_(0), l->bend);
+  const real v0 = l->v0 + t->x[0], v1 = l->v0 + t->x[EDGE];
+  mask sliding, there;
+  real first, last;
+  int j;
+  for (j = 0; j < NODES; ++j) K[j] = t->T[j] * t->f_v[j];
+  trum_limits(l->bend, K);
+  K[0] = least(K[0], N_(0)), K[EDGE] = least(K[EDGE], N_(0));
+  if (!l->slopes) return;
+  first = trum_at_root(l, t->e[0], size_of(v0), t->by[0].R_v_rate, v0, t->f[0]);
+  last = trum_at_root(l, t->e[EDGE], size_of(v1), t->by[EDGE].R_v_rate, v1, t->f[EDGE]);
+  sliding = less_than(N_(0), t->e[1][SPEED]); /* some of the surface is faster than the rotor */
+  there = less_than(size_of(t->e[EDGE][SPEED]), N_(1e-6) * size_of(t->e[1][SPEED]));
+  K[0] = sel(from & l->fresh[SPEED], sel(sliding, first, N_(0)), K[0]);
+  K[EDGE] = sel(to & there & trum_same(l->target, N_(SPEED)), sel(sliding, last, N_(0)), K[EDGE]);
+}
+
+/* What drives the slopes of f by one thing, times T. */
+static void trum_source(const trum_lanes* l, const trum_attempt* t, const real* T_f_v, int way, real* source) {
+  int j;
+  for (j = 0; j < NODES; ++j)
+    source[j] = t->T[j] * t->by[j].f[way] - T_f_v[j] * ((l->v0 + t->x[j]) * t->by[j].ln_R_v[way]);
+}
+
+/* T theta_E at the nodes.  Where all of the wave begins to touch the layer, theta is pi - sqrt(W_c^2 - W_full^2) / W_full
+ * and E is 1/pi. */
+static void trum_widening(const trum_lanes* l, const trum_attempt* t, real* T_theta_E) {
+  const mask from = less_than(l->bend, N_(0)) & l->fresh[FULL];
+  const mask to = less_than(N_(0), l->bend) & trum_same(l->target, N_(FULL));
+  const mask partly = less_than(N_(0), t->e[1][FULL]) & is(!l->hertz);
+  int j;
+  for (j = 0; j < NODES; ++j) T_theta_E[j] = t->T[j] * t->by[j].theta_E;
+  for (j = 0; j < NODES; j += EDGE) {
+    const real rate = N_(2) * l->W_full * size_of(t->by[j].W_c_rate);
+    const real limit = N_(-2) * l->W_full * root_of(l->h * inverse_of(most(rate, N_(1e-300))));
+    T_theta_E[j] = sel(j == 0 ? from : to, sel(partly, limit, N_(0)), T_theta_E[j]);
+  }
+}
+
 /* A step's error over what it may be, and in integral f. */
 static real trum_ratio(trum_lanes* l, const trum_attempt* t, mask tiny, real* error) {
   const mask held = at_most(l->push, N_(0));
@@ -645,6 +735,21 @@ static real trum_ratio(trum_lanes* l, const trum_attempt* t, mask tiny, real* er
     *error = sel(held, most(*error, N_(0.31830988618379067154) * trum_quadrature_error(G)), *error);
   }
   ratio = *error * l->per_allowed;
+  if (l->slopes) {
+    const mask felt = less_than(N_(trum_feels) * l->period, l->h);
+    real T_f_v[NODES], T_theta_E[NODES], of;
+    int way;
+    trum_stiffness(l, t, T_f_v), trum_widening(l, t, T_theta_E);
+    of = l->push * l->per_growth * trum_quadrature_error(T_f_v);
+    for (way = 0; way < WAYS; ++way) {
+      if (way == BY_DRAG || way == BY_FRICTION) continue;
+      trum_source(l, t, T_f_v, way, G);
+      of = most(of, l->per_f[way] * trum_quadrature_error(G));
+      for (j = 0; j < NODES; ++j) G[j] = T_theta_E[j] * t->by[j].ln_E[way];
+      of = most(of, l->per_angle[way] * trum_quadrature_error(G));
+    }
+    ratio = sel(felt & less_than(of, N_(1e30)), most(ratio, of), ratio);
+  }
   number = less_than(ratio, N_(1e30));
   ratio = sel(number & no(t->open), least(ratio, N_(1e6)), N_(1e6));
   l->lost = l->lost | (l->active & no(number) & tiny);
@@ -658,32 +763,21 @@ static real trum_ratio(trum_lanes* l, const trum_attempt* t, mask tiny, real* er
   return sel(blind, most(ratio, N_(40)), ratio);
 }
 
-/* At a square root T f_v and the like are 0 times infinity: their limit, from the other nodes. */
-static void trum_limits(real bend, real* K) {
-  static const double outward[NODES] = TRUM_COLLOCATION_OUTWARD;
-  const real first = N_(outward[1]) * K[1] + N_(outward[2]) * K[2] + N_(outward[3]) * K[3];
-  const real last = N_(outward[1]) * K[2] + N_(outward[2]) * K[1] + N_(outward[3]) * K[0];
-  K[0] = sel(less_than(bend, N_(0)), first, K[0]), K[EDGE] = sel(less_than(N_(0), bend), last, K[EDGE]);
-}
-
 /* The step's slopes: the derivative of the collocation, with its Jacobian K, driven by how friction changes. */
-static void trum_take_slopes(trum_lanes* l, const trum_attempt* t, const real* K, mask accepted, real (*d)[NODES]) {
+static void trum_take_slopes(trum_lanes* l, const trum_attempt* t, const real* T_f_v, const real* K, mask accepted,
+                             real (*d)[NODES]) {
   static const double A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS;
   const real per_frequency = N_(-1) / (l->omega_n + l->Delta_omega); /* d ln (drive period) */
   trum_lap* r = &l->lap;
-  real d_f[NODES][WAYS], d_theta[NODES][WAYS], source[NODES], change[NODES], right[NODES];
+  real source[NODES], T_theta_E[NODES], right[NODES];
   int i, j, way;
-  for (j = 1; j < NODES; ++j) {
-    trum_slopes(l, l->tau + l->h * t->z[j], &t->at[j], l->v0 + t->x[j], t->f_v[j], d_f[j], d_theta[j]);
-  }
+  trum_widening(l, t, T_theta_E);
   for (way = 0; way < WAYS; ++way) {
     real sum_x = N_(0), sum_xx = N_(0), sum_f = N_(0), sum_theta = N_(0);
-    d_f[0][way] = l->d_f[way], d_theta[0][way] = l->d_theta[way];
-    for (j = 0; j < NODES; ++j) source[j] = t->T[j] * d_f[j][way], change[j] = t->T[j] * d_theta[j][way];
-    trum_limits(l->bend, source), trum_limits(l->bend, change);
+    trum_source(l, t, T_f_v, way, source);
     for (j = 0; j < NODES; ++j) {
       const real b = N_(A[EDGE][j]);
-      sum_f = sum_f + b * source[j], sum_theta = sum_theta + b * change[j];
+      sum_f = sum_f + b * source[j], sum_theta = sum_theta + b * (T_theta_E[j] * t->by[j].ln_E[way]);
       source[j] = l->push * source[j];
       if (way == BY_PREPRESSURE || way == BY_FRICTION) source[j] = source[j] + t->T[j] * (l->push * t->f[j]);
       if (way == BY_DRAG) source[j] = source[j] - t->T[j];
@@ -703,11 +797,12 @@ static void trum_take_slopes(trum_lanes* l, const trum_attempt* t, const real* K
     r->d_x[way] = sel(accepted, r->d_x[way] + sum_x, r->d_x[way]);
     r->d_xx[way] = sel(accepted, r->d_xx[way] + sum_xx, r->d_xx[way]);
     r->d_friction[way] = sel(accepted, r->d_friction[way] + sum_f, r->d_friction[way]);
+    r->size_f[way] = sel(accepted, r->size_f[way] + size_of(sum_f), r->size_f[way]);
+    r->size_angle[way] = sel(accepted, r->size_angle[way] + size_of(sum_theta), r->size_angle[way]);
     r->d_angle[way] = sel(accepted, r->d_angle[way] + sum_theta, r->d_angle[way]);
     l->d[way] = sel(accepted, d[way][EDGE], l->d[way]);
-    l->d_f[way] = sel(accepted, d_f[EDGE][way], l->d_f[way]);
-    l->d_theta[way] = sel(accepted, d_theta[EDGE][way], l->d_theta[way]);
   }
+  trum_keep(&l->changes, &t->by[EDGE], accepted);
 }
 
 /* Accepted lanes take their step. */
@@ -715,15 +810,12 @@ static void trum_take(trum_lanes* l, const trum_attempt* t, mask accepted, real 
   static const double A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS;
   const mask held = at_most(l->push, N_(0));
   trum_lap* r = &l->lap;
-  real S[NODES], K[NODES], rate[NODES], right[NODES], d[WAYS][NODES];
+  real S[NODES], T_f_v[NODES], K[NODES], rate[NODES], right[NODES], d[WAYS][NODES];
   real sum_f = N_(0), sum_theta = N_(0), sum_x = N_(0), sum_xx = N_(0), sum_S = N_(0), sum_xS = N_(0);
   int i, j, k;
-  for (j = 0; j < NODES; ++j) {
-    K[j] = t->T[j] * (l->push * t->f_v[j]);
-    rate[j] = t->T[j] * (l->push * t->f[j] - l->drag);
-  }
-  trum_limits(l->bend, K);
-  K[0] = least(K[0], N_(0)), K[EDGE] = least(K[EDGE], N_(0));
+  for (j = 0; j < NODES; ++j) rate[j] = t->T[j] * (l->push * t->f[j] - l->drag);
+  trum_stiffness(l, t, T_f_v);
+  for (j = 0; j < NODES; ++j) K[j] = l->push * T_f_v[j];
   S[0] = l->S;
   for (i = 1; i < NODES; ++i) right[i] = l->S * (N_(1) + N_(A[i][0]) * K[0]);
   trum_solve(K, right, S);
@@ -734,8 +826,8 @@ static void trum_take(trum_lanes* l, const trum_attempt* t, mask accepted, real 
     sum_x = sum_x + b * t->x[j], sum_xx = sum_xx + b * (t->x[j] * t->x[j]);
     sum_S = sum_S + b * S[j], sum_xS = sum_xS + b * (t->x[j] * S[j]);
   }
-  if (l->slopes) trum_take_slopes(l, t, K, accepted, d);
-  trum_extremes(rate, t->x, S[0], S[EDGE], d, l->slopes, accepted & no(held), r);
+  if (l->slopes) trum_take_slopes(l, t, T_f_v, K, accepted, d);
+  trum_extremes(rate, t->x, S, d, l->slopes, accepted & no(held), r);
   for (j = 1; j < NODES; ++j) {
     r->fastest = sel(accepted, most(r->fastest, t->at[j].R_v), r->fastest);
     r->full = sel(accepted & at_most(t->at[j].W_c, l->W_full), N_(1), r->full);
@@ -752,6 +844,36 @@ static void trum_take(trum_lanes* l, const trum_attempt* t, mask accepted, real 
   l->cos_phi = sel(accepted, t->at[EDGE].cos_phi, l->cos_phi);
   l->sin_phi = sel(accepted, t->at[EDGE].sin_phi, l->sin_phi);
   for (k = 0; k < EVENTS; ++k) l->event[k] = sel(accepted, t->e[EDGE][k], l->event[k]);
+}
+
+/* Where the square root of an event is that a plain step ends short of, in step lengths, or 2 if far. */
+static real trum_near_root(const trum_lanes* l, const trum_attempt* t, int event) {
+  const trum_places spaces = trum_space(t->z);
+  const trum_cubic c = trum_through(&spaces, t->e[0][event], t->e[1][event], t->e[2][event], t->e[EDGE][event]);
+  const mask plain = at_most(size_of(l->bend), N_(0)) & less_than(l->target, N_(0)) & less_than(N_(0), c.e0);
+  real root = N_(1);
+  int j;
+  for (j = 0; j < 3; ++j) {
+    const real slope = trum_cubic_slope(&c, root);
+    const mask falling = less_than(slope, N_(-1e-200));
+    root = sel(falling, root - trum_cubic_at(&c, root) * inverse_of(sel(falling, slope, N_(1))), N_(2));
+    root = most(N_(0), least(N_(2), root));
+  }
+  return sel(plain & less_than(N_(1), root) & less_than(root, N_(1.5)) & less_than(l->h * root, l->left), root, N_(2));
+}
+
+/* A step with slopes that ends short of a square root is better aimed at it than made shorter or taken: slopes feel it
+ * from afar. */
+static mask trum_feel(const trum_lanes* l, const trum_attempt* t, mask accepted, mask shrink, trum_plan* p) {
+  const mask unseen = accepted & no(less_than(N_(trum_feels) * l->period, l->h));
+  const mask held = at_most(l->push, N_(0)), missed = shrink & less_than(N_(0), l->bend);
+  const real speed = sel(held, N_(2), trum_near_root(l, t, SPEED)), full = trum_near_root(l, t, FULL);
+  const real root = least(speed, full);
+  const mask near_root = (shrink | unseen) & less_than(root, N_(2));
+  p->h = sel(near_root, l->h * root, sel(missed, least(p->h, N_(0.5) * l->h), p->h));
+  p->target = sel(near_root, sel(less_than(full, speed), N_(FULL), N_(SPEED)), p->target);
+  p->bend = sel(near_root, N_(1), p->bend);
+  return near_root;
 }
 
 /* Tries a step on all lanes; returns those which took it. */
@@ -772,6 +894,7 @@ static mask trum_step(trum_lanes* l) {
   p.h = sel(shrink, l->h * factor, p.h), l->natural = sel(shrink, p.h, l->natural);
   p.target = sel(shrink, N_(-1), p.target);
   p.bend = sel(shrink & less_than(N_(0), p.bend), N_(0), p.bend);
+  if (l->slopes) accepted = accepted & no(trum_feel(l, &t, accepted, shrink, &p));
   l->tries = sel(p.redo, l->tries + N_(1), sel(accepted, N_(0), l->tries));
   if (any(accepted)) {
     const real longest = N_(trum_longest) * l->period, grown = least(longest, l->h * factor);
@@ -803,8 +926,11 @@ typedef struct {
   trum_slopes_out* slopes_out;
   double start[TRUM_REGIONS][4], pulses[TRUM_REGIONS]; /* phasors at the start of the regions; their drive periods */
   double slopes[2][TRUM_REGIONS][4];                   /* of the phasors, by resonance and difference */
-  double low, high, v0, scale, level;                  /* bracket of the start speed, guess, speed that errors are measured by, error of a step */
-  int stage, region, laps, finer;
+  double low, high, v0;               /* bracket of the start speed, guess */
+  double scale, level;                /* speed that errors are measured by, error of a step */
+  double known;                       /* the orbit's start, if only slopes are wanted */
+  double growth, size_f[WAYS], size_angle[WAYS]; /* what a lap with slopes adds up, from the last one */
+  int stage, region, laps, finer, sized;
 } trum_job;
 
 enum { HELD, ROUGH, FINE };
@@ -836,9 +962,19 @@ static void trum_start_lap(trum_lanes* l, int i, trum_job* job) {
   allowed = job->level * reach / job->in->m;
   put(&l->push, i, held ? 0.0 : push), put(&l->drag, i, held ? 0.0 : job->in->drag);
   put(&l->v0, i, job->v0), put(&l->per_allowed, i, 1.0 / allowed);
+  put(&l->per_growth, i, job->in->m / (job->in->tolerance * job->growth));
+  for (k = 0; l->slopes && k < WAYS; ++k) {
+    put(&l->per_f[k], i, job->in->m / (job->in->tolerance * job->size_f[k]));
+    put(&l->per_angle[k], i, job->in->m / (job->in->tolerance * job->size_angle[k]));
+  }
   put(&l->event_error, i, trum_event * cbrt(allowed * allowed * period));
   put(&l->kink_error, i, trum_kink * allowed);
   put(&l->newton_error, i, held ? 0.0 : allowed * push * sqrt(trum_newton * job->in->m / job->level));
+  put(&l->begins, i, HUGE_VAL), put(&l->ends, i, HUGE_VAL);
+  if (l->slopes && (held ? job->sized : job->stage == FINE)) {
+    put(&l->begins, i, trum_begins * period), put(&l->ends, i, trum_ends * period);
+    put(&l->newton_error, i, trum_closes * get(&l->newton_error, i));
+  }
   put(&l->patience, i, trum_most_tries * job->in->m);
   put(&l->natural, i, trum_first * period);
   put(&l->x, i, 0.0), put(&l->S, i, 1.0), put(&l->f, i, 0.0), put(&l->f_v, i, 0.0), put(&l->theta, i, 0.0);
@@ -847,11 +983,13 @@ static void trum_start_lap(trum_lanes* l, int i, trum_job* job) {
   put(&l->lap.friction, i, 0.0), put(&l->lap.angle, i, 0.0);
   put(&l->lap.full, i, 0.0), put(&l->lap.fastest, i, 0.0), put(&l->lap.error, i, 0.0);
   for (k = 0; l->slopes && k < WAYS; ++k) {
-    put(&l->d[k], i, 0.0), put(&l->d_f[k], i, 0.0), put(&l->d_theta[k], i, 0.0);
+    put(&l->d[k], i, 0.0), put(&l->changes.f[k], i, 0.0), put(&l->changes.ln_E[k], i, 0.0);
+    put(&l->changes.ln_R_v[k], i, 0.0), put(&l->lap.size_f[k], i, 0.0), put(&l->lap.size_angle[k], i, 0.0);
     put(&l->lap.d_x[k], i, 0.0), put(&l->lap.d_xx[k], i, 0.0);
     put(&l->lap.d_low[k], i, 0.0), put(&l->lap.d_high[k], i, 0.0);
     put(&l->lap.d_friction[k], i, 0.0), put(&l->lap.d_angle[k], i, 0.0);
   }
+  put(&l->changes.theta_E, i, 0.0), put(&l->changes.R_v_rate, i, 0.0), put(&l->changes.W_c_rate, i, 0.0);
   put_mask(&l->cold, i, 1), put_mask(&l->lost, i, 0), put_mask(&l->active, i, 1);
   job->region = -1;
   trum_next_region(l, i, job);
@@ -909,7 +1047,14 @@ static void trum_figures_slopes(const trum_lanes* l, int i, trum_job* job) {
   }
 }
 
-static void trum_load(trum_lanes* l, int i, trum_job* job, const trum_orbit_in* in, trum_orbit_out* out) {
+/* The next lap's slopes are not looked after: nothing is known of their size. */
+static void trum_unsized(trum_job* job) {
+  int k;
+  job->growth = 1e300;
+  for (k = 0; k < WAYS; ++k) job->size_f[k] = job->size_angle[k] = 1e300;
+}
+
+static void trum_load(trum_lanes* l, int i, trum_job* job, const trum_orbit_in* in, trum_orbit_out* out, double known) {
   const double period = 6.283185307179586477 / (in->omega_n + in->Delta_omega);
   double arg_[trum_regions_n_arg];
   trum_real own[trum_regions_n_arg], res_[trum_regions_n_res];
@@ -944,9 +1089,10 @@ static void trum_load(trum_lanes* l, int i, trum_job* job, const trum_orbit_in* 
       job->start[r][2 * phase] = phasor[trum_phasor_out_re], job->start[r][2 * phase + 1] = phasor[trum_phasor_out_im];
     }
   }
-  job->in = in, job->out = out;
+  job->in = in, job->out = out, job->known = known;
   job->stage = HELD, job->laps = job->finer = 0, job->v0 = 0.0, job->low = -HUGE_VAL, job->high = HUGE_VAL;
   job->scale = 0.0, job->level = trum_level * in->tolerance;
+  job->sized = 0, trum_unsized(job);
   out->mean = out->low = out->high = out->variance = out->start = out->level = out->error = NAN;
   out->contact = out->held = NAN, out->flags = 0;
   if (l->slopes) {
@@ -960,6 +1106,15 @@ static void trum_load(trum_lanes* l, int i, trum_job* job, const trum_orbit_in* 
 /* The rough level that makes one fine lap enough: Newton's step from there leaves its square. */
 static double trum_rough(double tolerance) { return trum_level * 0.1 * sqrt(tolerance); }
 
+/* Errors of the next lap's slopes are measured by what this one has added up. */
+static void trum_size(const trum_lanes* l, int i, trum_job* job, double growth) {
+  int k;
+  job->growth = growth;
+  for (k = 0; k < WAYS; ++k) {
+    job->size_f[k] = get(&l->lap.size_f[k], i) + 1e-250, job->size_angle[k] = get(&l->lap.size_angle[k], i) + 1e-250;
+  }
+}
+
 /* A lap is over: the next one, or 0 when the point is done.  Gain falls as the start rises: Newton in a bracket. */
 static int trum_judge(trum_lanes* l, int i, trum_job* job) {
   const trum_orbit_in* in = job->in;
@@ -971,6 +1126,12 @@ static int trum_judge(trum_lanes* l, int i, trum_job* job) {
     out->contact = lost ? NAN : get(&r->angle, i) / whole / 3.14159265358979323846;
     out->held = lost ? NAN : get(&r->friction, i) / whole;
     if (l->slopes && !lost) trum_figures_slopes(l, i, job);
+    if (l->slopes && !lost && !job->sized) {
+      job->sized = 1, trum_size(l, i, job, 1e300);
+      trum_start_lap(l, i, job);
+      return 1;
+    }
+    trum_unsized(job);
     if (get(&r->full, i) > 0.0) out->flags = trum_full_contact;
     if (!(in->push > fabs(in->drag))) {
       out->flags += trum_runaway;
@@ -978,6 +1139,7 @@ static int trum_judge(trum_lanes* l, int i, trum_job* job) {
     }
     job->stage = ROUGH, job->level = trum_level * trum_coarse;
     job->scale = 0.1 * in->D * in->k_c * in->W * (in->omega_n + in->Delta_omega);
+    if (!isnan(job->known)) job->v0 = job->known, job->level = trum_rough(in->tolerance), job->laps = 1;
     trum_start_lap(l, i, job);
     return 1;
   }
@@ -994,6 +1156,8 @@ static int trum_judge(trum_lanes* l, int i, trum_job* job) {
     const double top = fabs(job->v0 + low) > fabs(job->v0 + high) ? fabs(job->v0 + low) : fabs(job->v0 + high);
     const double fine = trum_level * in->tolerance;
     const int accurate = job->level <= fine * 1.0001, last = ++job->laps >= trum_most_laps;
+    /* a Newton step this small leaves an error of its square: the figures' derivatives take it along, slopes do not */
+    const double nearly = top * (l->slopes && job->stage == FINE ? in->tolerance : sqrt(0.1 * in->tolerance));
     const int coarse = job->laps == 1 && !accurate;
     double next = job->v0 + gain / pull, away, noise;
     int close;
@@ -1006,9 +1170,9 @@ static int trum_judge(trum_lanes* l, int i, trum_job* job) {
       next = 0.5 * (job->low + job->high);
     away = next - job->v0;
     noise = get(&r->error, i) * in->push / pull;
-    /* a Newton step this small leaves an error of its square, which the figures' derivatives take along */
-    close = !coarse && (away * away <= 0.1 * in->tolerance * top * top || fabs(away) <= noise ||
+    close = !coarse && (away * away <= nearly * nearly || fabs(away) <= noise ||
                         job->high - job->low <= 1e-15 * bound);
+    if (close && l->slopes) trum_size(l, i, job, pull);
     if (coarse) job->level = trum_rough(in->tolerance);
     /* the less a lap pulls speeds together, the more an error of a step weighs */
     job->scale = top * (pull > 1e-3 ? pull : 1e-3 * (in->push * whole < top ? pull + in->push * whole / top : 1.0));
@@ -1066,39 +1230,42 @@ static void trum_advance(trum_lanes* l, trum_job* jobs, int* busy) {
   }
 }
 
-/* Orbits of count points of one contact law, and their slopes unless these are null; lanes take the next point when
- * they are done with one. */
-static void trum_orbits(const trum_orbit_in* in, trum_orbit_out* out, const trum_slopes_in* slopes_in,
-                        trum_slopes_out* slopes_out, long count) {
+/* Works through count points of one contact law; lanes take the next point when they are done with one.  Slopes are of
+ * orbits that are known. */
+static void trum_run(const trum_orbit_in* in, trum_orbit_out* out, const trum_slopes_in* slopes_in,
+                     trum_slopes_out* slopes_out, long count) {
   trum_lanes l;
   trum_job jobs[TRUM_LANES];
-  trum_orbit_out unused;
-  trum_slopes_out unused_slopes;
+  trum_orbit_out own[TRUM_LANES];
+  trum_slopes_out unused;
   int busy[TRUM_LANES], i, left;
   long next = 0;
-  if (count <= 0) return;
   trum_clear(&l, in[0].hertz > 0.5, slopes_in != 0);
-  for (i = 0; i < TRUM_LANES; ++i) { /* lanes without a point carry the last one's numbers, and rest */
-    const long point = i < count ? i : count - 1;
-    jobs[i].slopes_in = slopes_in ? &slopes_in[point] : 0;
-    jobs[i].slopes_out = slopes_out && i < count ? &slopes_out[point] : &unused_slopes;
-    trum_load(&l, i, &jobs[i], &in[point], i < count ? &out[point] : &unused);
-    busy[i] = i < count;
-    if (!busy[i]) put_mask(&l.active, i, 0);
-  }
-  next = TRUM_LANES < count ? TRUM_LANES : count;
+  for (i = 0; i < TRUM_LANES; ++i) busy[i] = 0;
   do {
-    trum_advance(&l, jobs, busy);
     for (i = left = 0; i < TRUM_LANES; ++i) {
-      if (!busy[i] && next < count) {
-        jobs[i].slopes_in = slopes_in ? &slopes_in[next] : 0;
-        jobs[i].slopes_out = slopes_out ? &slopes_out[next] : &unused_slopes;
-        trum_load(&l, i, &jobs[i], &in[next], &out[next]);
-        busy[i] = 1, ++next;
+      const int idle = !busy[i], taken = next < count, resting = idle && !taken && next < TRUM_LANES;
+      if ((idle && taken) || resting) { /* lanes that never had a point carry the last one's numbers, and rest */
+        const long point = taken ? next : count - 1;
+        jobs[i].slopes_in = slopes_in ? &slopes_in[point] : 0;
+        jobs[i].slopes_out = slopes_out && taken ? &slopes_out[point] : &unused;
+        trum_load(&l, i, &jobs[i], &in[point], slopes_in || !taken ? &own[i] : &out[point],
+                  slopes_in ? out[point].start : NAN);
+        busy[i] = taken, ++next;
+        if (!taken) put_mask(&l.active, i, 0);
       }
       left += busy[i];
     }
+    if (left) trum_advance(&l, jobs, busy);
   } while (left);
+}
+
+/* Orbits of count points of one contact law, and their slopes unless these are null. */
+static void trum_orbits(const trum_orbit_in* in, trum_orbit_out* out, const trum_slopes_in* slopes_in,
+                        trum_slopes_out* slopes_out, long count) {
+  if (count <= 0) return;
+  trum_run(in, out, 0, 0, count);
+  if (slopes_in) trum_run(in, out, slopes_in, slopes_out, count);
 }
 
 /* One cycle of a point's orbit: rim speed, and distance since t1, at count equal times after t1. */
@@ -1111,7 +1278,7 @@ static void trum_history(const trum_orbit_in* in, const trum_orbit_out* orbit, d
   int i;
   trum_clear(&l, in->hertz > 0.5, 0);
   for (i = 0; i < TRUM_LANES; ++i) {
-    trum_load(&l, i, &jobs[i], in, &unused);
+    trum_load(&l, i, &jobs[i], in, &unused, NAN);
     if (i > 0) put_mask(&l.active, i, 0);
   }
   jobs[0].stage = FINE, jobs[0].level = orbit->level, jobs[0].v0 = orbit->start;
