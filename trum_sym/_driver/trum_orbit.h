@@ -659,7 +659,8 @@ static trum_plan trum_aim(trum_lanes* l, trum_attempt* t, mask tiny) {
     l->fresh[k] = l->fresh[k] | mine;
     p.redo = p.redo | mine;
     if (k == SPEED || k == FULL) p.bend = sel(mine, N_(-1), p.bend);
-    p.target = sel(mine, N_(-1), p.target);
+    /* with slopes a kink at the start leaves the aim where it is: the step may be bent to it */
+    if (!l->slopes || k == SPEED || k == FULL) p.target = sel(mine, N_(-1), p.target);
   }
   return p;
 }
@@ -850,7 +851,7 @@ static void trum_take(trum_lanes* l, const trum_attempt* t, mask accepted, real 
 static real trum_near_root(const trum_lanes* l, const trum_attempt* t, int event) {
   const trum_places spaces = trum_space(t->z);
   const trum_cubic c = trum_through(&spaces, t->e[0][event], t->e[1][event], t->e[2][event], t->e[EDGE][event]);
-  const mask plain = at_most(size_of(l->bend), N_(0)) & less_than(l->target, N_(0)) & less_than(N_(0), c.e0);
+  const mask plain = at_most(size_of(l->bend), N_(0)) & less_than(N_(0), c.e0);
   real root = N_(1);
   int j;
   for (j = 0; j < 3; ++j) {
