@@ -24,6 +24,7 @@ SECTION = "a sweep into a store"
 # Each in a process of its own: its peak memory is its own, and imports are no part of its time
 DRIVER = """
 import json, resource, sys, time
+from dataclasses import replace
 import numpy as np
 import trum_sym as ts
 from trum_sym import rotor
@@ -32,16 +33,16 @@ from trum_sym.stator import Levels
 what, points, outputs, out, scheduler = sys.argv[1:]
 side = max(2, round((int(points) / 10) ** 0.5))
 ranges = {"prepressure": np.linspace(120, 220, side), "frequency_difference": np.linspace(1000, 5000, side),
-          "load_torque": np.linspace(0.01, 0.1, 10)}
-motor = ts.load_motor("trum60")
+          "switching_phase": np.linspace(0, 0.9, 10)}  # every figure depends on all three
+motor, drive = ts.load_motor("trum60"), ts.Drive(load_torque=0.05)
 outputs = tuple(outputs.split(","))
 def mesh():
     return {n: v.reshape([-1 if i == j else 1 for j in range(3)]) for i, (n, v) in enumerate(ranges.items())}
 def bare():  # only what these points cost: kernels on all cores, no grid, no chunks, no store
     levels = Levels("winkler", "quartic", "harmonic", "measured")
-    figures(prepare(motor, ts.Drive(**mesh()), levels, 1e-3), outputs)
+    figures(prepare(motor, replace(drive, **mesh()), levels, 1e-3), outputs)
 def sweep(where):
-    return ts.sweep(motor, outputs=outputs, out=where, scheduler=scheduler or None, **ranges)
+    return ts.sweep(motor, drive, outputs=outputs, out=where, scheduler=scheduler or None, **ranges)
 def most():
     if sys.platform == "linux":
         return 1024 * int(open("/proc/self/status").read().split("VmHWM:")[1].split()[0])

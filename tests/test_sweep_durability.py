@@ -11,7 +11,7 @@ import signal
 import subprocess
 import sys
 import time
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 import numpy as np
@@ -158,14 +158,17 @@ def test_a_driver_that_is_killed_at_any_of_20_moments_is_completed(tmp_path, und
     print(f"chunks done when the driver was killed: {sorted(done)}")
 
 
-def test_an_interruption_is_one_line_and_leaves_what_is_done(tmp_path, capsys):
+@pytest.mark.parametrize("where", ["here", "on a cluster"])
+def test_an_interruption_is_one_line_and_leaves_what_is_done(tmp_path, capsys, where):
     out = tmp_path / "map.zarr"
     command = ["sweep", "--prepressure", "150:210:40000", "--outputs", "mean_speed", "--chunk", "20", "--out", str(out)]
-    with started([sys.executable, "-m", "trum_sym.console", *command], tmp_path / "said") as process:
-        wait_for(lambda: (out / "status/c/4").exists() or process.poll() is not None, "5 chunks")
-        process.send_signal(signal.SIGINT)
-        assert process.wait(30) == 130
-    assert (tmp_path / "said").read_text().splitlines()[-1] == "trum-sym: interrupted"
+    with ExitStack() as cluster:
+        there = []
+        if where == "on a cluster":
+            address, _ = cluster.enter_context(scheduler(tmp_path))
+            cluster.enter_context(worker(tmp_path, address, "one"))
+            there = ["--scheduler", address]
+        interrupted(tmp_path, out, [sys.executable, "-m", "trum_sym.console", *command, *there])
     assert not list(out.rglob("*.partial"))
     speeds, done = ({file.name for file in (out / name / "c").iterdir()} for name in ("mean_speed", "status"))
     assert done <= speeds
@@ -173,6 +176,15 @@ def test_an_interruption_is_one_line_and_leaves_what_is_done(tmp_path, capsys):
     assert main([*command, "--dry-run"]) == 0
     left = 40000 - 20 * len(done)
     assert f"{left} points in {left // 20} chunks are missing" in capsys.readouterr().out
+
+
+def interrupted(folder, out, command):
+    """A sweep that Ctrl-C ends once there are five chunks."""
+    with started(command, folder / "said") as process:
+        wait_for(lambda: (out / "status/c/4").exists() or process.poll() is not None, "5 chunks")
+        process.send_signal(signal.SIGINT)
+        assert process.wait(30) == 130
+    assert (folder / "said").read_text().splitlines()[-1] == "trum-sym: interrupted"
 
 
 def test_rests_of_a_cut_off_write_are_swept_away(tmp_path, undisturbed):

@@ -55,7 +55,7 @@ def sensitivities(
     motor, drive, contact, resonance, foundation, amplitude
         As for :func:`trum_sym.evaluate`; arrays broadcast.
     tolerance : float
-        Of the orbit that is differentiated.
+        Of the orbit that is differentiated; the slopes' own errors are of that size (docs/rotor.md).
 
     Returns
     -------
@@ -64,8 +64,7 @@ def sensitivities(
         what ``evaluate``'s figure changes by, per change of the parameter.  Amplitude and resonance follow prepressure
         and frequency difference as they do in ``evaluate``; under ``amplitude`` and ``resonance_frequency`` stands
         what each does alone.  ``speed_volatility`` is the continuous one.  NaN where no speed balances the load.
-        Those of ``contact_fraction`` are good to a percent only: theta's slope is infinite where a wave that shrinks
-        begins to touch with all of itself.
+        Where an extreme changes hands the slope is that of the extreme which is seen, one of the two sides'.
 
     Raises
     ------

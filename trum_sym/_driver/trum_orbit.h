@@ -707,8 +707,8 @@ static void trum_source(const trum_lanes* l, const trum_attempt* t, const real* 
     source[j] = t->T[j] * t->by[j].f[way] - T_f_v[j] * ((l->v0 + t->x[j]) * t->by[j].ln_R_v[way]);
 }
 
-/* T theta_E at the nodes.  Where all of the wave begins to touch the layer, theta is pi - sqrt(W_c^2 - W_full^2) / W_full
- * and E is 1/pi. */
+/* T theta_E at the nodes.  Where all of the wave begins to touch the layer, theta is pi less the root of
+ * (W_c / W_full)^2 - 1, and E is 1/pi. */
 static void trum_widening(const trum_lanes* l, const trum_attempt* t, real* T_theta_E) {
   const mask from = less_than(l->bend, N_(0)) & l->fresh[FULL];
   const mask to = less_than(N_(0), l->bend) & trum_same(l->target, N_(FULL));
