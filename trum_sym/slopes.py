@@ -55,7 +55,8 @@ def sensitivities(
     motor, drive, contact, resonance, foundation, amplitude
         As for :func:`trum_sym.evaluate`; arrays broadcast.
     tolerance : float
-        Of the orbit that is differentiated; the slopes' own errors are of that size (docs/rotor.md).
+        Of the orbit that is differentiated.  The slopes' median error is below it; single slopes are much worse
+        (docs/rotor.md), most where a kink falls on the instant of full contact.
 
     Returns
     -------
