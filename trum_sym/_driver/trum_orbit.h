@@ -53,9 +53,10 @@ typedef struct {
   double a_A, b_A, a_B, b_B; /* free motion before t1 */
   double W, D, k_c, engagement_per_height, W_full, hertz, push, drag;
   double tolerance; /* of mean and extremes, relative to the largest speed */
+  double held;      /* whether (1 or 0) a held rotor's figures are wanted */
 } trum_orbit_in;
 
-/* Speeds of the rim, m/s; means of theta/pi and of the friction fraction on a held rotor. */
+/* Speeds of the rim, m/s; means of theta/pi and of the friction fraction on a held rotor, NAN unless wanted. */
 typedef struct {
   double mean, low, high, variance, contact, held, start, level, error, flags;
 } trum_orbit_out;
@@ -280,27 +281,34 @@ static void trum_change(const trum_lanes* l, real tau, const trum_surface* at, r
   by->R_v_rate = wave[trum_wave_slopes_out_R_v_tau], by->W_c_rate = wave[trum_wave_slopes_out_W_c_tau];
 }
 
-/* Solves y_i = right_i + sum_j A_ij K_j y_j for the nodes after the first. */
-static void trum_solve(const real* K, const real* right, real* y) {
+/* The equations y_i = right_i + sum_j A_ij K_j y_j of the nodes after the first, eliminated. */
+typedef struct {
+  real first, second, third, t_1, t_2, t_21, M_01, M_02, M_12;
+} trum_eliminated;
+
+static trum_eliminated trum_eliminate(const real* K) {
   static const double A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS;
-  real M[3][3], b[3], first, second;
+  trum_eliminated e;
+  real M[3][3];
   int i, j;
-  for (i = 0; i < 3; ++i) {
+  for (i = 0; i < 3; ++i)
     for (j = 0; j < 3; ++j) M[i][j] = N_(i == j ? 1.0 : 0.0) - N_(A[i + 1][j + 1]) * K[j + 1];
-    b[i] = right[i + 1];
-  }
-  first = inverse_of(M[0][0]);
-  for (i = 1; i < 3; ++i) {
-    const real t = M[i][0] * first;
-    M[i][1] = M[i][1] - t * M[0][1], M[i][2] = M[i][2] - t * M[0][2], b[i] = b[i] - t * b[0];
-  }
-  second = inverse_of(M[1][1]);
-  {
-    const real t = M[2][1] * second;
-    y[3] = (b[2] - t * b[1]) * inverse_of(M[2][2] - t * M[1][2]);
-  }
-  y[2] = (b[1] - M[1][2] * y[3]) * second;
-  y[1] = (b[0] - M[0][1] * y[2] - M[0][2] * y[3]) * first;
+  e.first = inverse_of(M[0][0]);
+  e.t_1 = M[1][0] * e.first, e.t_2 = M[2][0] * e.first;
+  M[1][1] = M[1][1] - e.t_1 * M[0][1], M[1][2] = M[1][2] - e.t_1 * M[0][2];
+  M[2][1] = M[2][1] - e.t_2 * M[0][1], M[2][2] = M[2][2] - e.t_2 * M[0][2];
+  e.second = inverse_of(M[1][1]);
+  e.t_21 = M[2][1] * e.second;
+  e.third = inverse_of(M[2][2] - e.t_21 * M[1][2]);
+  e.M_01 = M[0][1], e.M_02 = M[0][2], e.M_12 = M[1][2];
+  return e;
+}
+
+static void trum_solve(const trum_eliminated* e, const real* right, real* y) {
+  const real b_1 = right[2] - e->t_1 * right[1], b_2 = right[3] - e->t_2 * right[1];
+  y[3] = (b_2 - e->t_21 * b_1) * e->third;
+  y[2] = (b_1 - e->M_12 * y[3]) * e->second;
+  y[1] = (right[1] - e->M_01 * y[2] - e->M_02 * y[3]) * e->first;
 }
 
 /* The cubic through (0, e0), (z1, e1), (z2, e2), (1, e3). */
@@ -537,6 +545,7 @@ static mask trum_same(real a, real b) { return at_most(size_of(a - b), N_(0.25))
 /* Collocation: x_i = x_0 + sum_j A_ij T_j (push f(x_j) - drag), by Newton on the three nodes after the first. */
 static void trum_try(const trum_lanes* l, trum_attempt* t) {
   static const double A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS, c[NODES] = TRUM_COLLOCATION_POINTS;
+  trum_eliminated equations;
   real G[NODES], right[NODES], y[NODES];
   int i, j, k, tries;
   for (j = 0; j < NODES; ++j) {
@@ -569,7 +578,8 @@ static void trum_try(const trum_lanes* l, trum_attempt* t) {
       right[i] = l->x - t->x[i];
       for (j = 0; j < NODES; ++j) right[i] = right[i] + N_(A[i][j]) * G[j];
     }
-    trum_solve(slope, right, y);
+    equations = trum_eliminate(slope);
+    trum_solve(&equations, right, y);
     for (j = 1; j < NODES; ++j) { /* friction bounds how far the speed can get */
       const real drift = l->x - l->h * t->z[j] * l->drag, reach = l->h * t->z[j] * l->push;
       const real next = most(drift - reach, least(drift + reach, t->x[j] + y[j]));
@@ -738,16 +748,19 @@ static real trum_ratio(trum_lanes* l, const trum_attempt* t, mask tiny, real* er
   ratio = *error * l->per_allowed;
   if (l->slopes) {
     const mask felt = less_than(N_(trum_feels) * l->period, l->h);
+    const int contact = any(held & l->active); /* a moving lap's is not asked for */
     real T_f_v[NODES], T_theta_E[NODES], of;
     int way;
-    trum_stiffness(l, t, T_f_v), trum_widening(l, t, T_theta_E);
+    trum_stiffness(l, t, T_f_v);
+    if (contact) trum_widening(l, t, T_theta_E);
     of = l->push * l->per_growth * trum_quadrature_error(T_f_v);
     for (way = 0; way < WAYS; ++way) {
       if (way == BY_DRAG || way == BY_FRICTION) continue;
       trum_source(l, t, T_f_v, way, G);
       of = most(of, l->per_f[way] * trum_quadrature_error(G));
+      if (!contact) continue;
       for (j = 0; j < NODES; ++j) G[j] = T_theta_E[j] * t->by[j].ln_E[way];
-      of = most(of, l->per_angle[way] * trum_quadrature_error(G));
+      of = sel(held, most(of, l->per_angle[way] * trum_quadrature_error(G)), of);
     }
     ratio = sel(felt & less_than(of, N_(1e30)), most(ratio, of), ratio);
   }
@@ -765,8 +778,8 @@ static real trum_ratio(trum_lanes* l, const trum_attempt* t, mask tiny, real* er
 }
 
 /* The step's slopes: the derivative of the collocation, with its Jacobian K, driven by how friction changes. */
-static void trum_take_slopes(trum_lanes* l, const trum_attempt* t, const real* T_f_v, const real* K, mask accepted,
-                             real (*d)[NODES]) {
+static void trum_take_slopes(trum_lanes* l, const trum_attempt* t, const real* T_f_v, const real* K,
+                             const trum_eliminated* equations, mask accepted, real (*d)[NODES]) {
   static const double A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS;
   const real per_frequency = N_(-1) / (l->omega_n + l->Delta_omega); /* d ln (drive period) */
   trum_lap* r = &l->lap;
@@ -790,7 +803,7 @@ static void trum_take_slopes(trum_lanes* l, const trum_attempt* t, const real* T
       right[i] = l->d[way] * (N_(1) + N_(A[i][0]) * K[0]);
       for (j = 0; j < NODES; ++j) right[i] = right[i] + N_(A[i][j]) * source[j];
     }
-    trum_solve(K, right, d[way]);
+    trum_solve(equations, right, d[way]);
     for (j = 0; j < NODES; ++j) {
       const real b = N_(A[EDGE][j]) * t->T[j];
       sum_x = sum_x + b * d[way][j], sum_xx = sum_xx + b * (t->x[j] * d[way][j]);
@@ -811,6 +824,7 @@ static void trum_take(trum_lanes* l, const trum_attempt* t, mask accepted, real 
   static const double A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS;
   const mask held = at_most(l->push, N_(0));
   trum_lap* r = &l->lap;
+  trum_eliminated equations;
   real S[NODES], T_f_v[NODES], K[NODES], rate[NODES], right[NODES], d[WAYS][NODES];
   real sum_f = N_(0), sum_theta = N_(0), sum_x = N_(0), sum_xx = N_(0), sum_S = N_(0), sum_xS = N_(0);
   int i, j, k;
@@ -819,7 +833,8 @@ static void trum_take(trum_lanes* l, const trum_attempt* t, mask accepted, real 
   for (j = 0; j < NODES; ++j) K[j] = l->push * T_f_v[j];
   S[0] = l->S;
   for (i = 1; i < NODES; ++i) right[i] = l->S * (N_(1) + N_(A[i][0]) * K[0]);
-  trum_solve(K, right, S);
+  equations = trum_eliminate(K);
+  trum_solve(&equations, right, S);
   for (j = 1; j < NODES; ++j) S[j] = most(N_(0), least(l->S, S[j])); /* friction never drives speeds apart */
   for (j = 0; j < NODES; ++j) {
     const real b = N_(A[EDGE][j]) * t->T[j];
@@ -827,7 +842,7 @@ static void trum_take(trum_lanes* l, const trum_attempt* t, mask accepted, real 
     sum_x = sum_x + b * t->x[j], sum_xx = sum_xx + b * (t->x[j] * t->x[j]);
     sum_S = sum_S + b * S[j], sum_xS = sum_xS + b * (t->x[j] * S[j]);
   }
-  if (l->slopes) trum_take_slopes(l, t, T_f_v, K, accepted, d);
+  if (l->slopes) trum_take_slopes(l, t, T_f_v, K, &equations, accepted, d);
   trum_extremes(rate, t->x, S, d, l->slopes, accepted & no(held), r);
   for (j = 1; j < NODES; ++j) {
     r->fastest = sel(accepted, most(r->fastest, t->at[j].R_v), r->fastest);
@@ -928,10 +943,11 @@ typedef struct {
   double start[TRUM_REGIONS][4], pulses[TRUM_REGIONS]; /* phasors at the start of the regions; their drive periods */
   double slopes[2][TRUM_REGIONS][4];                   /* of the phasors, by resonance and difference */
   double low, high, v0;               /* bracket of the start speed, guess */
+  double gain_low, gain_high;         /* of the laps from the bracket's ends */
+  double last_away, last_noise, keeps; /* Newton's last step, a lap's error then, and the share of a step that is left */
   double scale, level;                /* speed that errors are measured by, error of a step */
-  double known;                       /* the orbit's start, if only slopes are wanted */
   double growth, size_f[WAYS], size_angle[WAYS]; /* what a lap with slopes adds up, from the last one */
-  int stage, region, laps, finer, sized;
+  int stage, region, laps, finer, sized, halves; /* halves: whether the bracket is to be halved next */
 } trum_job;
 
 enum { HELD, ROUGH, FINE };
@@ -1055,7 +1071,27 @@ static void trum_unsized(trum_job* job) {
   for (k = 0; k < WAYS; ++k) job->size_f[k] = job->size_angle[k] = 1e300;
 }
 
-static void trum_load(trum_lanes* l, int i, trum_job* job, const trum_orbit_in* in, trum_orbit_out* out, double known) {
+/* The rough level that makes one fine lap enough: Newton's step from there leaves its square. */
+static double trum_rough(double tolerance) { return trum_level * 0.1 * sqrt(tolerance); }
+
+/* A point's search for its orbit begins from rest, or from where it is known to begin; 0 if no speed balances the load. */
+static int trum_set_off(trum_lanes* l, int i, trum_job* job, double known) {
+  const trum_orbit_in* in = job->in;
+  if (!(in->push > fabs(in->drag))) {
+    job->out->flags += trum_runaway;
+    return 0;
+  }
+  job->stage = ROUGH, job->level = trum_level * trum_coarse;
+  job->scale = 0.1 * in->D * in->k_c * in->W * (in->omega_n + in->Delta_omega);
+  if (!isnan(known)) job->v0 = known, job->laps = 1;
+  trum_start_lap(l, i, job);
+  return 1;
+}
+
+/* Puts a piece of a point's work into a lane: its rotor held, or the search for its orbit, from where that begins if it
+ * is known.  0 if there is nothing to do. */
+static int trum_load(trum_lanes* l, int i, trum_job* job, const trum_orbit_in* in, trum_orbit_out* out, int held,
+                     double known) {
   const double period = 6.283185307179586477 / (in->omega_n + in->Delta_omega);
   double arg_[trum_regions_n_arg];
   trum_real own[trum_regions_n_arg], res_[trum_regions_n_res];
@@ -1090,22 +1126,16 @@ static void trum_load(trum_lanes* l, int i, trum_job* job, const trum_orbit_in* 
       job->start[r][2 * phase] = phasor[trum_phasor_out_re], job->start[r][2 * phase + 1] = phasor[trum_phasor_out_im];
     }
   }
-  job->in = in, job->out = out, job->known = known;
-  job->stage = HELD, job->laps = job->finer = 0, job->v0 = 0.0, job->low = -HUGE_VAL, job->high = HUGE_VAL;
+  job->in = in, job->out = out;
+  job->laps = job->finer = job->halves = 0, job->last_away = job->last_noise = 0.0, job->keeps = 1.0;
+  job->stage = HELD, job->v0 = 0.0, job->low = -HUGE_VAL, job->high = HUGE_VAL;
   job->scale = 0.0, job->level = trum_level * in->tolerance;
   job->sized = 0, trum_unsized(job);
-  out->mean = out->low = out->high = out->variance = out->start = out->level = out->error = NAN;
-  out->contact = out->held = NAN, out->flags = 0;
-  if (l->slopes) {
-    trum_load_slopes(job);
-    for (r = 0; r < FIGURES; ++r)
-      for (k = 0; k < WAYS; ++k) job->slopes_out->of[r][k] = NAN;
-  }
+  if (l->slopes) trum_load_slopes(job);
+  if (!held) return trum_set_off(l, i, job, known);
   trum_start_lap(l, i, job);
+  return 1;
 }
-
-/* The rough level that makes one fine lap enough: Newton's step from there leaves its square. */
-static double trum_rough(double tolerance) { return trum_level * 0.1 * sqrt(tolerance); }
 
 /* Errors of the next lap's slopes are measured by what this one has added up. */
 static void trum_size(const trum_lanes* l, int i, trum_job* job, double growth) {
@@ -1132,17 +1162,8 @@ static int trum_judge(trum_lanes* l, int i, trum_job* job) {
       trum_start_lap(l, i, job);
       return 1;
     }
-    trum_unsized(job);
-    if (get(&r->full, i) > 0.0) out->flags = trum_full_contact;
-    if (!(in->push > fabs(in->drag))) {
-      out->flags += trum_runaway;
-      return 0;
-    }
-    job->stage = ROUGH, job->level = trum_level * trum_coarse;
-    job->scale = 0.1 * in->D * in->k_c * in->W * (in->omega_n + in->Delta_omega);
-    if (!isnan(job->known)) job->v0 = job->known, job->level = trum_rough(in->tolerance), job->laps = 1;
-    trum_start_lap(l, i, job);
-    return 1;
+    if (get(&r->full, i) > 0.0) out->flags += trum_full_contact;
+    return 0;
   }
   if (lost) { /* steps that are too bold chatter where the rotor is as fast as a line of contact */
     const double fine = trum_level * in->tolerance;
@@ -1160,23 +1181,34 @@ static int trum_judge(trum_lanes* l, int i, trum_job* job) {
     /* a Newton step this small leaves an error of its square: the figures' derivatives take it along, slopes do not */
     const double nearly = top * (l->slopes && job->stage == FINE ? in->tolerance : sqrt(0.1 * in->tolerance));
     const int coarse = job->laps == 1 && !accurate;
-    double next = job->v0 + gain / pull, away, noise;
-    int close;
-    if (!coarse) {
-      if (gain > 0.0) job->low = job->v0;
-      else job->high = job->v0;
+    const double missed = get(&r->error, i) * in->push, noise = missed / pull, was = job->level * job->scale;
+    double next = job->v0 + gain / pull, away, left;
+    int pinned, close;
+    if (!coarse || fabs(gain) > 10.0 * missed) {
+      if (gain > 0.0) job->low = job->v0, job->gain_low = gain;
+      else job->high = job->v0, job->gain_high = gain;
     }
     next = next > bound ? bound : next < -bound ? -bound : next;
-    if (!(next > job->low && next < job->high) && job->low > -HUGE_VAL && job->high < HUGE_VAL)
-      next = 0.5 * (job->low + job->high);
+    if (!(next > job->low && next < job->high) && job->low > -HUGE_VAL && job->high < HUGE_VAL) {
+      const double share = job->halves ? 0.5 : job->gain_low / (job->gain_low - job->gain_high);
+      next = job->low + share * (job->high - job->low), job->halves = !job->halves;
+    }
     away = next - job->v0;
-    noise = get(&r->error, i) * in->push / pull;
-    close = !coarse && (away * away <= nearly * nearly || fabs(away) <= noise ||
-                        job->high - job->low <= 1e-15 * bound);
-    if (close && l->slopes) trum_size(l, i, job, pull);
-    if (coarse) job->level = trum_rough(in->tolerance);
+    pinned = !coarse && (fabs(away) <= noise || job->high - job->low <= 1e-15 * bound);
+    /* what Newton's step leaves is its square, or what a lap keeps of it, and of the steps' errors a part: most cancel */
+    left = fabs(away) * (growth < fabs(away) / top ? growth : fabs(away) / top) + 0.3 * noise;
+    if (job->last_away > 10.0 * job->last_noise) job->keeps = fabs(away) < job->last_away ? fabs(away) / job->last_away : 1.0;
+    job->last_away = fabs(away), job->last_noise = noise;
+    close = accurate ? fabs(away) <= nearly && fabs(away) * job->keeps <= in->tolerance * top : left <= nearly;
+    close = close || pinned;
+    if (l->slopes) trum_size(l, i, job, pull);
     /* the less a lap pulls speeds together, the more an error of a step weighs */
     job->scale = top * (pull > 1e-3 ? pull : 1e-3 * (in->push * whole < top ? pull + in->push * whole / top : 1.0));
+    if (l->slopes && job->stage == ROUGH) { /* the orbit is known, and now its slopes' size is */
+      job->stage = FINE, job->level = fine, job->low = -HUGE_VAL, job->high = HUGE_VAL;
+      trum_start_lap(l, i, job);
+      return 1;
+    }
     if (close && accurate && noise > in->tolerance * top && !last && ++job->finer <= 3) {
       const double excess = in->tolerance * top / noise;
       job->level *= 0.3 * (excess > 0.01 ? excess : 0.01);
@@ -1191,7 +1223,7 @@ static int trum_judge(trum_lanes* l, int i, trum_job* job) {
       out->low = out->low < out->mean ? out->low : out->mean, out->high = out->high > out->mean ? out->high : out->mean;
       out->variance = variance > 0.0 ? variance : 0.0;
       out->start = next, out->level = job->level, out->error = noise / top;
-      if (noise <= in->tolerance * top && !isnan(out->held)) out->flags += trum_converged;
+      if (noise <= in->tolerance * top) out->flags += trum_converged;
       return 0;
     }
     if (last) { /* the best there is, and not flagged as converged */
@@ -1200,8 +1232,15 @@ static int trum_judge(trum_lanes* l, int i, trum_job* job) {
       out->start = job->v0, out->level = job->level, out->error = fabs(away) / top;
       return 0;
     }
-    if (close && !accurate) job->level = fine;
-    if (close) job->stage = FINE, job->low = -HUGE_VAL, job->high = HUGE_VAL;
+    if (close) {
+      /* the steps' errors add up to what follows the level's power 3/4 */
+      const double ratio = fine * job->scale / was, expected = noise * sqrt(ratio) * sqrt(sqrt(ratio));
+      const double excess = in->tolerance * top / expected;
+      job->level = excess < 1.0 ? fine * 0.5 * (excess > 0.01 ? excess : 0.01) : fine;
+      job->stage = FINE, job->low = -HUGE_VAL, job->high = HUGE_VAL;
+    } else if (coarse) {
+      job->level = trum_rough(in->tolerance);
+    }
     job->v0 = next;
   }
   trum_start_lap(l, i, job);
@@ -1231,29 +1270,46 @@ static void trum_advance(trum_lanes* l, trum_job* jobs, int* busy) {
   }
 }
 
-/* Works through count points of one contact law; lanes take the next point when they are done with one.  Slopes are of
- * orbits that are known. */
+/* Nothing is known yet. */
+static void trum_blank(trum_orbit_out* out, trum_slopes_out* slopes) {
+  int of, way;
+  out->mean = out->low = out->high = out->variance = out->start = out->level = out->error = NAN;
+  out->contact = out->held = NAN, out->flags = 0;
+  for (of = 0; slopes && of < FIGURES; ++of)
+    for (way = 0; way < WAYS; ++way) slopes->of[of][way] = NAN;
+}
+
+/* The piece of work from which on there is some: a point's rotor held, if that is wanted, then its orbit. */
+static long trum_piece(const trum_orbit_in* in, long piece, long count) {
+  return piece < 2 * count && piece % 2 == 0 && !(in[piece / 2].held > 0.5) ? piece + 1 : piece;
+}
+
+/* Works through count points of one contact law; lanes take the next piece of work when they are done with one.  Slopes
+ * are of orbits that are known. */
 static void trum_run(const trum_orbit_in* in, trum_orbit_out* out, const trum_slopes_in* slopes_in,
                      trum_slopes_out* slopes_out, long count) {
   trum_lanes l;
   trum_job jobs[TRUM_LANES];
   trum_orbit_out own[TRUM_LANES];
   trum_slopes_out unused;
-  int busy[TRUM_LANES], i, left;
+  int busy[TRUM_LANES], used[TRUM_LANES], i, left;
   long next = 0;
   trum_clear(&l, in[0].hertz > 0.5, slopes_in != 0);
-  for (i = 0; i < TRUM_LANES; ++i) busy[i] = 0;
+  for (i = 0; i < TRUM_LANES; ++i) busy[i] = used[i] = 0;
   do {
     for (i = left = 0; i < TRUM_LANES; ++i) {
-      const int idle = !busy[i], taken = next < count, resting = idle && !taken && next < TRUM_LANES;
-      if ((idle && taken) || resting) { /* lanes that never had a point carry the last one's numbers, and rest */
-        const long point = taken ? next : count - 1;
+      int taken;
+      while (!busy[i] && ((taken = (next = trum_piece(in, next, count)) < 2 * count) || !used[i])) {
+        /* lanes that never had work carry the last point's numbers, and rest */
+        const long point = taken ? next / 2 : count - 1;
+        const int scratch = slopes_in || !taken;
         jobs[i].slopes_in = slopes_in ? &slopes_in[point] : 0;
         jobs[i].slopes_out = slopes_out && taken ? &slopes_out[point] : &unused;
-        trum_load(&l, i, &jobs[i], &in[point], slopes_in || !taken ? &own[i] : &out[point],
-                  slopes_in ? out[point].start : NAN);
-        busy[i] = taken, ++next;
-        if (!taken) put_mask(&l.active, i, 0);
+        if (scratch) trum_blank(&own[i], 0);
+        busy[i] = trum_load(&l, i, &jobs[i], &in[point], scratch ? &own[i] : &out[point], !taken || next % 2 == 0,
+                            slopes_in ? out[point].start : NAN);
+        busy[i] = busy[i] && taken, used[i] = 1, next += taken;
+        if (!busy[i]) put_mask(&l.active, i, 0);
       }
       left += busy[i];
     }
@@ -1264,8 +1320,14 @@ static void trum_run(const trum_orbit_in* in, trum_orbit_out* out, const trum_sl
 /* Orbits of count points of one contact law, and their slopes unless these are null. */
 static void trum_orbits(const trum_orbit_in* in, trum_orbit_out* out, const trum_slopes_in* slopes_in,
                         trum_slopes_out* slopes_out, long count) {
+  long k;
   if (count <= 0) return;
+  for (k = 0; k < count; ++k) trum_blank(&out[k], slopes_out ? &slopes_out[k] : 0);
   trum_run(in, out, 0, 0, count);
+  for (k = 0; k < count; ++k) {
+    const int flags = (int)out[k].flags;
+    if (in[k].held > 0.5 && isnan(out[k].held) && flags & trum_converged) out[k].flags = flags - trum_converged;
+  }
   if (slopes_in) trum_run(in, out, slopes_in, slopes_out, count);
 }
 
@@ -1279,7 +1341,7 @@ static void trum_history(const trum_orbit_in* in, const trum_orbit_out* orbit, d
   int i;
   trum_clear(&l, in->hertz > 0.5, 0);
   for (i = 0; i < TRUM_LANES; ++i) {
-    trum_load(&l, i, &jobs[i], in, &unused, NAN);
+    trum_load(&l, i, &jobs[i], in, &unused, 1, NAN);
     if (i > 0) put_mask(&l.active, i, 0);
   }
   jobs[0].stage = FINE, jobs[0].level = orbit->level, jobs[0].v0 = orbit->start;

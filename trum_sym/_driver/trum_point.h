@@ -181,7 +181,7 @@ static inline void trum_orbit_of(const struct trum_drive* drive, trum_real* v, t
   in->engagement_per_height = (double)v[trum_at_engagement_per_height];
   in->W_full = (double)v[hertz ? trum_at_W_full_hertz : trum_at_W_full_winkler], in->hertz = hertz;
   in->push = (double)v[trum_at_push], in->drag = (double)v[trum_at_drag];
-  in->tolerance = (double)drive->tolerance;
+  in->tolerance = (double)drive->tolerance, in->held = 1.0;
 }
 
 static inline enum trum_status trum_solve_point(const struct trum_motor* motor, const struct trum_drive* drive,

@@ -86,9 +86,9 @@ void cycle_response_loop(char** args, const npy_intp* dimensions, const npy_intp
 }
 
 constexpr char orbit_in[] =
-    "omega_n Delta_omega xi psi s m n a_A b_A a_B b_B W D k_c engagement_per_height W_full hertz push drag tolerance";
+    "omega_n Delta_omega xi psi s m n a_A b_A a_B b_B W D k_c engagement_per_height W_full hertz push drag tolerance held";
 constexpr char orbit_out[] = "mean low high variance contact held start level error flags";
-constexpr int n_orbit_in = 20, n_orbit_out = 10, hertz_in = 16;
+constexpr int n_orbit_in = 21, n_orbit_out = 10, hertz_in = 16;
 const trum::OrbitCode* orbit_code = &trum::orbit_baseline;
 
 // Blocks of points of one contact law, small enough to keep their inputs in cache.
@@ -124,11 +124,11 @@ void cycle_sums_loop(char** args, const npy_intp* dimensions, const npy_intp* st
 
 // The same with the slopes of the figures, a matrix of figures by what they depend on.
 constexpr char slopes_in[] =
-    "omega_n Delta_omega xi psi s m n a_A b_A a_B b_B W D k_c engagement_per_height W_full hertz push drag tolerance "
+    "omega_n Delta_omega xi psi s m n a_A b_A a_B b_B W D k_c engagement_per_height W_full hertz push drag tolerance held "
     "a_A_omega_n b_A_omega_n a_B_omega_n b_B_omega_n a_A_Delta_omega b_A_Delta_omega a_B_Delta_omega b_B_Delta_omega";
 constexpr char slopes_out[] = "mean low high variance contact held start level error flags slopes";
 constexpr char slopes_signature[] =
-    "(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),()->"
+    "(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),()->"
     "(),(),(),(),(),(),(),(),(),(),(6,6)";
 constexpr int n_slopes_in = n_orbit_in + 8, n_slopes_out = n_orbit_out + 1, n_slopes = 36;
 void rotor_slopes_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
@@ -158,11 +158,11 @@ void rotor_slopes_loop(char** args, const npy_intp* dimensions, const npy_intp* 
 
 // Core dimension k: equal times of a cycle; `times` only gives their number.
 constexpr char history_in[] =
-    "omega_n Delta_omega xi psi s m n a_A b_A a_B b_B W D k_c engagement_per_height W_full hertz push drag tolerance "
+    "omega_n Delta_omega xi psi s m n a_A b_A a_B b_B W D k_c engagement_per_height W_full hertz push drag tolerance held "
     "low high start level times";
 constexpr char history_out[] = "speed distance";
 constexpr char history_signature[] =
-    "(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(k)->(k),(k)";
+    "(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(k)->(k),(k)";
 constexpr int n_history_in = n_orbit_in + 5, n_history_out = 2;
 void rotor_history_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
   const Unlocked unlocked;
