@@ -175,6 +175,8 @@ LANE_KERNELS = (
     "trum_friction",
     "trum_wave_slopes",
     "trum_friction_slopes",
+    "trum_friction_limit",
+    "trum_contact_limit",
 )
 
 

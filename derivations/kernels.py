@@ -12,7 +12,7 @@ from functools import cache
 
 import sympy as sp
 
-from derivations import amplitude, beam, contact, determinant, phases, rotor, section, surface
+from derivations import amplitude, beam, contact, determinant, phases, rotor, section, square_roots, surface
 from derivations.nomenclature import CONSTANTS, NOMENCLATURE, sym
 
 __all__ = ["Kernel", "kernels"]
@@ -260,6 +260,18 @@ def _slopes() -> list[Kernel]:
             "How friction and contact change with the angle phi and the logarithm of the engagement",
             rotor.friction_slopes(),
             {"f_phi": "1/rad", "f_E": "1", "theta_E": "rad", "E_height": "1"},
+        ),
+        Kernel(
+            "trum_friction_limit",
+            "Friction's slope by the rim's speed, over a bent step, where the rotor is as fast as all of the surface",
+            {"T_f_v": square_roots.friction_limit()},
+            {"T_f_v": "s^2/m"},
+        ),
+        Kernel(
+            "trum_contact_limit",
+            "The half-angle's slope by the engagement's logarithm, over a bent step, where the whole wave touches",
+            {"T_theta_E": square_roots.contact_limit()},
+            {"T_theta_E": "s"},
         ),
     ]
 

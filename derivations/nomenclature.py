@@ -112,6 +112,12 @@ sin_phi     | 1        | r | \sin\varphi_v | ours | its sine
 R_v         | m/s      | + | R_v | ours | amplitude of the surface speed along the wave
 f           | 1        | r | f | ours | net friction fraction, of mu F_c
 v           | m/s      | r | v | ours | speed of the rotor's rim, omega r_c
+v_rate      | m/s^2    | r | \dot v | ours | its rate
+R_v_rate    | m/s^2    | r | \dot R_v | ours | rate of R_v
+W_c_rate    | m/s      | r | \dot W_c | ours | rate of W_c
+p_larger    | 1        | r | p_1 | ours | the larger pressure where the surface is as fast as the rotor, over its mean
+p_smaller   | 1        | r | p_2 | ours | the smaller one
+step        | s        | + | h_t | ours | length of a time step
 T_load      | N*m      | r | T_{load} | eq. 38 | load torque
 """
 

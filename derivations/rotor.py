@@ -22,15 +22,18 @@ __all__ = [
     "contact_winkler",
     "filling",
     "friction",
+    "friction_slope",
     "friction_slopes",
     "hertz_full_height",
     "less",
     "peak_pressure",
     "phasor",
+    "pressed",
     "rotation",
     "stall_torque",
     "wave",
     "wave_in_time",
+    "widening",
     "winkler_full_height",
 ]
 
@@ -202,6 +205,21 @@ def peak_pressure() -> sp.Expr:
     return F_c / n_j * k_c * share_per_angle / b_m
 
 
+def pressed(p_1: sp.Expr, p_2: sp.Expr) -> sp.Expr:
+    """Mean of the pressures at the two points as fast as the rotor, over the contact's; there is no pull."""
+    return sp.Max(0, p_1) / 2 + sp.Max(0, p_2) / 2
+
+
+def friction_slope(pressure: sp.Expr, lead: sp.Expr) -> sp.Expr:
+    """df/dv from that mean pressure, and the root of R_v^2 - v^2 (eqs. 33 to 37)."""
+    return -2 * pressure / (lead + TINY)
+
+
+def widening(engaged: sp.Expr, angle: sp.Expr, sine: sp.Expr) -> sp.Expr:
+    """d theta / d ln E of a layer that carries its load, E (sin theta - theta cos theta) = 1 (eq. 31)."""
+    return -1 / (engaged * angle * sine + TINY)
+
+
 def _points() -> list[tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr, sp.Expr]]:
     """The two points where the surface is as fast as the rotor, phi + alpha and phi - alpha.
 
@@ -245,8 +263,7 @@ def friction() -> dict[str, sp.Expr]:
     pressures = [pressure for *_, pressure in points]
     net = 2 * (shares[0] - shares[1]) - 1
     moving = less(sp.Abs(v), R_v)
-    pressed = sum(sp.Max(0, pressure) / 2 for pressure in pressures)
-    slope = -2 * moving * pressed / (R_v * _speeds()[1] + TINY)
+    slope = moving * friction_slope(pressed(*pressures), R_v * _speeds()[1])
     return {"f": net, "f_v": slope, "p_1": pressures[0], "p_2": pressures[1]}
 
 
@@ -266,7 +283,7 @@ def friction_slopes() -> dict[str, sp.Expr]:
     return {
         "f_phi": pressures[0] - pressures[1],
         "f_E": 2 * (shares[0] - shares[1]),
-        "theta_E": -partly / (engagement * theta * sin_theta + TINY),
+        "theta_E": partly * widening(engagement, theta, sin_theta),
         "E_height": engagement * theta**2 * sin_theta / 2,
     }
 

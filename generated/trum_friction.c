@@ -16,7 +16,7 @@
  * out 2: p_1 [1]
  * out 3: p_2 [1]
  *
- * 90 operations: 27 mul, 18 sub, 16 add, 9 lt, 6 twice, 4 div, 3 fabs, 3 fmax, 1 atan2, 1 fmin, 1 sq, 1 sqrt
+ * 88 operations: 26 mul, 18 sub, 16 add, 9 lt, 6 twice, 3 fabs, 3 fmax, 2 div, 1 atan2, 1 fmin, 1 neg, 1 sq, 1 sqrt
  */
 /* How to prefix internal symbols */
 #ifdef CASADI_CODEGEN_PREFIX
@@ -193,29 +193,25 @@ static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw,
   a12=(a20*a12);
   a11=(a11-a12);
   if (res[0]!=0) res[0][0]=a11;
-  a11=(casadi_real)-2.;
   a04=casadi_fabs(a04);
   a04=(a04<a05);
-  a11=(a11*a04);
   a18=(a18*a03);
   a16=(a16*a07);
   a03=(a18+a16);
   a03=(a15*a03);
   a03=(a20+a03);
-  a04=casadi_fmax(a24,a03);
-  a12=(casadi_real)2.;
-  a04=(a04/a12);
+  a11=casadi_fmax(a24,a03);
   a18=(a18-a16);
   a15=(a15*a18);
   a20=(a20+a15);
   a24=casadi_fmax(a24,a20);
-  a24=(a24/a12);
-  a04=(a04+a24);
-  a11=(a11*a04);
+  a11=(a11+a24);
+  a04=(a04*a11);
   a05=(a05*a07);
   a06=(a06+a05);
-  a11=(a11/a06);
-  if (res[1]!=0) res[1][0]=a11;
+  a04=(a04/a06);
+  a04=(-a04);
+  if (res[1]!=0) res[1][0]=a04;
   if (res[2]!=0) res[2][0]=a20;
   if (res[3]!=0) res[3][0]=a03;
   return 0;

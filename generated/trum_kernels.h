@@ -168,6 +168,16 @@ int trum_friction_slopes(const trum_real** arg, trum_real** res, long long int* 
 enum { trum_friction_slopes_in_R_v, trum_friction_slopes_in_cos_phi, trum_friction_slopes_in_engagement, trum_friction_slopes_in_phi, trum_friction_slopes_in_share, trum_friction_slopes_in_sin_phi, trum_friction_slopes_in_sin_theta, trum_friction_slopes_in_theta, trum_friction_slopes_in_v, trum_friction_slopes_n_arg };
 enum { trum_friction_slopes_out_f_phi, trum_friction_slopes_out_f_E, trum_friction_slopes_out_theta_E, trum_friction_slopes_out_E_height, trum_friction_slopes_n_res };
 
+/* Friction's slope by the rim's speed, over a bent step, where the rotor is as fast as all of the surface */
+int trum_friction_limit(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_friction_limit_in_R_v, trum_friction_limit_in_R_v_rate, trum_friction_limit_in_p_larger, trum_friction_limit_in_p_smaller, trum_friction_limit_in_step, trum_friction_limit_in_v, trum_friction_limit_in_v_rate, trum_friction_limit_n_arg };
+enum { trum_friction_limit_out_T_f_v, trum_friction_limit_n_res };
+
+/* The half-angle's slope by the engagement's logarithm, over a bent step, where the whole wave touches */
+int trum_contact_limit(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_contact_limit_in_W_c_rate, trum_contact_limit_in_W_full, trum_contact_limit_in_step, trum_contact_limit_n_arg };
+enum { trum_contact_limit_out_T_theta_E, trum_contact_limit_n_res };
+
 /* A point of the surface within a region: displacements, tangential velocity, envelope, crest (eqs. 11, 12, 16, 20) */
 int trum_particle(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_particle_in_D, trum_particle_in_Delta_omega, trum_particle_in_W, trum_particle_in_a_A, trum_particle_in_a_B, trum_particle_in_b_A, trum_particle_in_b_B, trum_particle_in_g_A, trum_particle_in_g_B, trum_particle_in_k_c, trum_particle_in_omega_n, trum_particle_in_psi, trum_particle_in_s, trum_particle_in_tau, trum_particle_in_x, trum_particle_in_xi, trum_particle_n_arg };
@@ -216,6 +226,8 @@ enum { trum_interface_out_v_x, trum_interface_out_v_x_slope, trum_interface_out_
   X(trum_regions_slopes, 20, 24, "Delta_omega W a_A a_A_Delta_omega a_A_omega_n a_B a_B_Delta_omega a_B_omega_n b_A b_A_Delta_omega b_A_omega_n b_B b_B_Delta_omega b_B_omega_n m n omega_n psi s xi", "re_A_redu_omega_n im_A_redu_omega_n re_A_addredu_omega_n im_A_addredu_omega_n re_A_add_omega_n im_A_add_omega_n re_B_redu_omega_n im_B_redu_omega_n re_B_addredu_omega_n im_B_addredu_omega_n re_B_add_omega_n im_B_add_omega_n re_A_redu_Delta_omega im_A_redu_Delta_omega re_A_addredu_Delta_omega im_A_addredu_Delta_omega re_A_add_Delta_omega im_A_add_Delta_omega re_B_redu_Delta_omega im_B_redu_Delta_omega re_B_addredu_Delta_omega im_B_addredu_Delta_omega re_B_add_Delta_omega im_B_add_Delta_omega") \
   X(trum_wave_slopes, 24, 9, "D Delta_omega W f_A_im f_A_im_Delta_omega f_A_im_omega_n f_A_re f_A_re_Delta_omega f_A_re_omega_n f_B_im f_B_im_Delta_omega f_B_im_omega_n f_B_re f_B_re_Delta_omega f_B_re_omega_n g_A g_B k_c omega_n p_im p_re s tau xi", "W_c_omega_n R_v_omega_n phi_omega_n W_c_Delta_omega R_v_Delta_omega phi_Delta_omega W_c_tau R_v_tau phi_tau") \
   X(trum_friction_slopes, 9, 4, "R_v cos_phi engagement phi share sin_phi sin_theta theta v", "f_phi f_E theta_E E_height") \
+  X(trum_friction_limit, 7, 1, "R_v R_v_rate p_larger p_smaller step v v_rate", "T_f_v") \
+  X(trum_contact_limit, 3, 1, "W_c_rate W_full step", "T_theta_E") \
   X(trum_particle, 16, 5, "D Delta_omega W a_A a_B b_A b_B g_A g_B k_c omega_n psi s tau x xi", "zeta_z zeta_x v_x A_Q x_max") \
   X(trum_displacement, 5, 2, "D k_c w_A w_B x", "zeta_z zeta_x") \
   X(trum_interface, 12, 4, "F_c R_v cos_phi engagement k_c mu n_j share sin_phi v x x_max", "v_x v_x_slope p traction")

@@ -31,14 +31,18 @@ enum {
   trum_at_R_v,
   trum_at_R_v_Delta_omega,
   trum_at_R_v_omega_n,
+  trum_at_R_v_rate,
   trum_at_R_v_tau,
   trum_at_T,
+  trum_at_T_f_v,
   trum_at_T_load,
+  trum_at_T_theta_E,
   trum_at_U_s,
   trum_at_W,
   trum_at_W_c,
   trum_at_W_c_Delta_omega,
   trum_at_W_c_omega_n,
+  trum_at_W_c_rate,
   trum_at_W_c_tau,
   trum_at_W_full,
   trum_at_W_full_hertz,
@@ -150,9 +154,11 @@ enum {
   trum_at_p_1,
   trum_at_p_2,
   trum_at_p_im,
+  trum_at_p_larger,
   trum_at_p_minus,
   trum_at_p_plus,
   trum_at_p_re,
+  trum_at_p_smaller,
   trum_at_phi,
   trum_at_phi_Delta_omega,
   trum_at_phi_omega_n,
@@ -196,6 +202,7 @@ enum {
   trum_at_sin_theta,
   trum_at_slope,
   trum_at_smeared,
+  trum_at_step,
   trum_at_tau,
   trum_at_theta,
   trum_at_theta_E,
@@ -207,6 +214,7 @@ enum {
   trum_at_v,
   trum_at_v_A,
   trum_at_v_B,
+  trum_at_v_rate,
   trum_at_v_x,
   trum_at_v_x_slope,
   trum_at_varsigma,
@@ -405,6 +413,18 @@ static inline void trum_call_friction_slopes(trum_real* v) {
   const trum_real* arg[trum_friction_slopes_n_arg] = {v + trum_at_R_v, v + trum_at_cos_phi, v + trum_at_engagement, v + trum_at_phi, v + trum_at_share, v + trum_at_sin_phi, v + trum_at_sin_theta, v + trum_at_theta, v + trum_at_v};
   trum_real* res[trum_friction_slopes_n_res] = {v + trum_at_f_phi, v + trum_at_f_E, v + trum_at_theta_E, v + trum_at_E_height};
   trum_friction_slopes(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_friction_limit(trum_real* v) {
+  const trum_real* arg[trum_friction_limit_n_arg] = {v + trum_at_R_v, v + trum_at_R_v_rate, v + trum_at_p_larger, v + trum_at_p_smaller, v + trum_at_step, v + trum_at_v, v + trum_at_v_rate};
+  trum_real* res[trum_friction_limit_n_res] = {v + trum_at_T_f_v};
+  trum_friction_limit(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_contact_limit(trum_real* v) {
+  const trum_real* arg[trum_contact_limit_n_arg] = {v + trum_at_W_c_rate, v + trum_at_W_full, v + trum_at_step};
+  trum_real* res[trum_contact_limit_n_res] = {v + trum_at_T_theta_E};
+  trum_contact_limit(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_particle(trum_real* v) {

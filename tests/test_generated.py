@@ -146,6 +146,7 @@ def random_arguments(kernel, rng):
         d_re=0.8, d_im=0.5, W_c=5e-6, engagement=40.0, engagement_per_height=1e7, W_full=4e-7, share=-38.0,
         fullness=0.008, fullness_root=0.2, sin_theta=0.39, phi=0.2, cos_phi=0.98, sin_phi=0.2, R_v=1.2, v=0.3, f=0.4,
         x=3.1e-3, x_max=3e-3, w_A=3e-6, w_B=-4e-6,
+        R_v_rate=2e3, v_rate=-3e4, W_c_rate=-0.4, p_larger=1.4, p_smaller=1.1, step=2e-7,
     )  # fmt: skip
     for name, rate in (("a_A", 4e-11), ("b_A", 6e-6), ("a_B", -3e-11), ("b_B", 5e-6)):
         usual |= {f"{name}_omega_n": rate, f"{name}_Delta_omega": -2 * rate}

@@ -136,3 +136,31 @@ def test_warnings_are_given_once(trum60):
         warnings.simplefilter("always")
         ts.sensitivities(trum60, ts.Drive(prepressure=219.9))
     assert not given
+
+
+def test_slopes_over_a_bent_step_have_the_limits_of_the_kernels():
+    """Friction's slope and the half-angle's, times dt/dsigma = 2 h sigma, the time h sigma^2 after a square root."""
+    step, near = 1e-7, 1e-3
+    after = step * near**2
+    fastest, faster, faster_rim, engagement = 0.4, 2e3, -3e4, 3.0
+    touching = call("trum_contact_winkler", {"fullness": 1 / (np.pi * 3), "fullness_root": np.cbrt(1 / (np.pi * 3))})
+    for way in (1, -1):
+        there = {**touching, "engagement": engagement, "phi": 0.2, "cos_phi": np.cos(0.2), "sin_phi": np.sin(0.2)}
+        of_root = call("trum_friction", {**there, "R_v": fastest, "v": way * fastest})
+        pressures = sorted((float(of_root["p_1"]), float(of_root["p_2"])))
+        assert pressures[0] == pytest.approx(pressures[1]), "the two points are one"
+        limit = call(
+            "trum_friction_limit",
+            {"R_v": fastest, "R_v_rate": faster, "v": way * fastest, "v_rate": way * faster_rim, "step": step,
+             "p_smaller": pressures[0], "p_larger": pressures[1]},
+        )["T_f_v"]  # fmt: skip
+        moved = {"R_v": fastest + faster * after, "v": way * (fastest + faster_rim * after)}
+        slope = call("trum_friction", {**there, **moved})["f_v"]
+        assert slope * 2 * step * near == pytest.approx(limit, rel=1e-4)
+    full, growth = 2e-7, 0.05
+    engagement = (1 + growth * after / full) / np.pi
+    touching = call("trum_contact_winkler", {"fullness": 1 / (np.pi * engagement),
+                                             "fullness_root": np.cbrt(1 / (np.pi * engagement))})  # fmt: skip
+    opening = call("trum_friction_slopes", {**there, **moved, **touching, "engagement": engagement})["theta_E"]
+    limit = call("trum_contact_limit", {"W_full": full, "W_c_rate": -growth, "step": step})["T_theta_E"]
+    assert opening * 2 * step * near == pytest.approx(limit, rel=1e-3)

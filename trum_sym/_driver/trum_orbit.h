@@ -683,12 +683,19 @@ static void trum_limits(real bend, real* K) {
   K[0] = sel(less_than(bend, N_(0)), first, K[0]), K[EDGE] = sel(less_than(N_(0), bend), last, K[EDGE]);
 }
 
-/* The limit of T f_v where the rotor is as fast as all of the surface: f_v is -2 p / sqrt(R_v^2 - v^2), p the relative
- * pressure at that one point, and the root is that of its rate times h sigma^2. */
-static real trum_at_root(const trum_lanes* l, const real* e, real R_v, real R_v_rate, real v, real f) {
-  const real pressed = N_(0.5) * (most(N_(0), e[LARGER]) + most(N_(0), e[SMALLER]));
-  const real rate = size_of(N_(2) * (R_v * R_v_rate - v * (l->push * f - l->drag)));
-  return N_(-4) * pressed * root_of(l->h * inverse_of(most(rate, N_(1e-300))));
+/* The limit of T f_v where the rotor is as fast as all of the surface. */
+static real trum_at_root(const trum_lanes* l, const real* e, real R_v_rate, real v, real f) {
+  const real R_v = size_of(v), v_rate = l->push * f - l->drag;
+  real limit;
+  const real* arg[trum_friction_limit_n_arg];
+  real* res[trum_friction_limit_n_res];
+  arg[trum_friction_limit_in_R_v] = &R_v, arg[trum_friction_limit_in_R_v_rate] = &R_v_rate;
+  arg[trum_friction_limit_in_v] = &v, arg[trum_friction_limit_in_v_rate] = &v_rate;
+  arg[trum_friction_limit_in_p_larger] = &e[LARGER], arg[trum_friction_limit_in_p_smaller] = &e[SMALLER];
+  arg[trum_friction_limit_in_step] = &l->h;
+  res[trum_friction_limit_out_T_f_v] = &limit;
+  TRUM_KERNEL(trum_friction_limit)(arg, res, 0, 0, 0);
+  return limit;
 }
 
 /* T f_v at the nodes; the limits where T is 0 are exact if slopes are wanted. */
@@ -702,8 +709,8 @@ static void trum_stiffness(const trum_lanes* l, const trum_attempt* t, real* K) 
   trum_limits(l->bend, K);
   K[0] = least(K[0], N_(0)), K[EDGE] = least(K[EDGE], N_(0));
   if (!l->slopes) return;
-  first = trum_at_root(l, t->e[0], size_of(v0), t->by[0].R_v_rate, v0, t->f[0]);
-  last = trum_at_root(l, t->e[EDGE], size_of(v1), t->by[EDGE].R_v_rate, v1, t->f[EDGE]);
+  first = trum_at_root(l, t->e[0], t->by[0].R_v_rate, v0, t->f[0]);
+  last = trum_at_root(l, t->e[EDGE], t->by[EDGE].R_v_rate, v1, t->f[EDGE]);
   sliding = less_than(N_(0), t->e[1][SPEED]); /* some of the surface is faster than the rotor */
   there = less_than(size_of(t->e[EDGE][SPEED]), N_(1e-6) * size_of(t->e[1][SPEED]));
   K[0] = sel(from & l->fresh[SPEED], sel(sliding, first, N_(0)), K[0]);
@@ -717,8 +724,7 @@ static void trum_source(const trum_lanes* l, const trum_attempt* t, const real* 
     source[j] = t->T[j] * t->by[j].f[way] - T_f_v[j] * ((l->v0 + t->x[j]) * t->by[j].ln_R_v[way]);
 }
 
-/* T theta_E at the nodes.  Where all of the wave begins to touch the layer, theta is pi less the root of
- * (W_c / W_full)^2 - 1, and E is 1/pi. */
+/* T theta_E at the nodes, and its limit where all of the wave begins to touch the layer. */
 static void trum_widening(const trum_lanes* l, const trum_attempt* t, real* T_theta_E) {
   const mask from = less_than(l->bend, N_(0)) & l->fresh[FULL];
   const mask to = less_than(N_(0), l->bend) & trum_same(l->target, N_(FULL));
@@ -726,8 +732,13 @@ static void trum_widening(const trum_lanes* l, const trum_attempt* t, real* T_th
   int j;
   for (j = 0; j < NODES; ++j) T_theta_E[j] = t->T[j] * t->by[j].theta_E;
   for (j = 0; j < NODES; j += EDGE) {
-    const real rate = N_(2) * l->W_full * size_of(t->by[j].W_c_rate);
-    const real limit = N_(-2) * l->W_full * root_of(l->h * inverse_of(most(rate, N_(1e-300))));
+    real limit;
+    const real* arg[trum_contact_limit_n_arg];
+    real* res[trum_contact_limit_n_res];
+    arg[trum_contact_limit_in_W_full] = &l->W_full, arg[trum_contact_limit_in_W_c_rate] = &t->by[j].W_c_rate;
+    arg[trum_contact_limit_in_step] = &l->h;
+    res[trum_contact_limit_out_T_theta_E] = &limit;
+    TRUM_KERNEL(trum_contact_limit)(arg, res, 0, 0, 0);
     T_theta_E[j] = sel(j == 0 ? from : to, sel(partly, limit, N_(0)), T_theta_E[j]);
   }
 }
