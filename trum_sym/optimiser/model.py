@@ -27,6 +27,7 @@ __all__ = ["Box", "Functions", "Model", "functions"]
 
 _TURN = 2 * np.pi
 _DETERMINANT = ("q_ratio", "q_square_ratio", "q_average", "q_volatility")
+_HELD = {"stall_torque", "contact_fraction"}  # the figures of a rotor that is held
 _INPUTS = ("prepressure", "frequency_difference", "switching_phase", "load_torque", "periods", "on_periods")
 _PHASE = "switching_phase"
 _STEPS = {"prepressure": 0.02, "frequency_difference": 0.3, _PHASE: 1e-3}  # of closed forms' differences: N, Hz, rad
@@ -152,7 +153,8 @@ class Model:
     def _case(self, points: Array, tolerance: float) -> Case:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", ValidityWarning)  # the box has warned
-            return prepare(self.motor, self.drives(points), self.levels, tolerance)
+            case = prepare(self.motor, self.drives(points), self.levels, tolerance)
+        return replace(case, arguments={**case.arguments, "held": float(bool(self.names & _HELD))})
 
     def _closed(self, case: Case) -> dict[str, Array]:
         """Figures that need no orbit."""
