@@ -90,7 +90,7 @@ def _evolution(case: Case, **settings: float) -> tuple[float, float]:
         return case.at(np.atleast_2d(x.T))[0] / case.scale
 
     target = NonlinearConstraint(
-        lambda x: (case.at(np.atleast_2d(x.T))[1] / case.target - 1.0).reshape(1, -1), -_MET, _MET
+        lambda x: (case.at(np.atleast_2d(x.T))[1] / case.target - 1.0).reshape(1, *x.shape[1:]), -_MET, _MET
     )
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
