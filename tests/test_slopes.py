@@ -164,3 +164,31 @@ def test_slopes_over_a_bent_step_have_the_limits_of_the_kernels():
     opening = call("trum_friction_slopes", {**there, **moved, **touching, "engagement": engagement})["theta_E"]
     limit = call("trum_contact_limit", {"W_full": full, "W_c_rate": -growth, "step": step})["T_theta_E"]
     assert opening * 2 * step * near == pytest.approx(limit, rel=1e-3)
+
+
+def test_at_a_kink_the_slope_is_that_of_one_side(trum60):
+    """Two peaks of a cycle's speed are equally high at some frequency difference: the highest speed has a kink there."""
+
+    def drive(difference):
+        return ts.Drive(prepressure=180.0, frequency_difference=difference, load_torque=0.1)
+
+    def slope(difference):
+        found = ts.sensitivities(trum60, drive(difference), tolerance=1e-9)
+        return float(found["max_speed"]["frequency_difference"])
+
+    low, high = 3165.0, 3170.0
+    left, right = slope(low), slope(high)
+    while high - low > 1e-7:
+        middle = (low + high) / 2
+        here = slope(middle)
+        nearer = abs(here - left) < abs(here - right)
+        low, high, left, right = (middle, high, here, right) if nearer else (low, middle, left, here)
+    assert right - left > 3e-3
+    reach = 0.5 * np.arange(4)
+    for side, way in ((left, -1.0), (right, 1.0)):  # one-sided differences of third order
+        speeds = ts.evaluate(trum60, drive((low + high) / 2 + way * reach), tolerance=1e-9).max_speed
+        one_sided = way * (-11 * speeds[0] + 18 * speeds[1] - 9 * speeds[2] + 2 * speeds[3]) / (6 * reach[1])
+        assert side == pytest.approx(one_sided, rel=1e-3)
+    assert slope((low + high) / 2) == pytest.approx(left, rel=1e-6) or slope((low + high) / 2) == pytest.approx(
+        right, rel=1e-6
+    )
