@@ -124,6 +124,7 @@ typedef struct {
   real slopes_[2][4];                          /* of the phasors at the region's start, by resonance and difference */
   mask fresh[EVENTS];                          /* it begins at this event */
   mask active, cold, lost;
+  mask contact; /* the lap measures the contact and no friction, whose kinks it passes over */
   int hertz, slopes; /* contact law; whether slopes are wanted */
   trum_lap lap;
   trum_record* record;
@@ -375,6 +376,7 @@ static void trum_first_event(const trum_lanes* l, const real* z, real (*e)[EVENT
       from = sel(crossed, begin, from), to = sel(crossed, lowest, to), found = found | crossed;
     }
     if (k == LARGER || k == SMALLER) found = found & no(saturated);
+    if (k != FULL) found = found & no(l->contact);
     if (!any(found & l->active)) continue;
     {
       const real at_from = trum_cubic_at(&c, from), at_to = trum_cubic_at(&c, to);
@@ -754,6 +756,7 @@ static real trum_ratio(trum_lanes* l, const trum_attempt* t, mask tiny, real* er
   if (any(held & l->active)) { /* a held lap also measures the contact */
     G[0] = t->T[0] * l->theta;
     for (j = 1; j < NODES; ++j) G[j] = t->T[j] * t->at[j].theta;
+    *error = sel(l->contact, N_(0), *error);
     *error = sel(held, most(*error, N_(0.31830988618379067154) * trum_quadrature_error(G)), *error);
   }
   ratio = *error * l->per_allowed;
@@ -958,7 +961,8 @@ typedef struct {
   double last_away, last_noise, keeps; /* Newton's last step, a lap's error then, and the share of a step that is left */
   double scale, level;                /* speed that errors are measured by, error of a step */
   double growth, size_f[WAYS], size_angle[WAYS]; /* what a lap with slopes adds up, from the last one */
-  int stage, region, laps, finer, sized, halves; /* halves: whether the bracket is to be halved next */
+  int stage, region, laps, finer, halves; /* halves: whether the bracket is to be halved next */
+  int sized;                              /* laps with slopes of the held rotor so far */
 } trum_job;
 
 enum { HELD, ROUGH, FINE };
@@ -983,7 +987,7 @@ static int trum_next_region(trum_lanes* l, int i, trum_job* job) {
 
 static void trum_start_lap(trum_lanes* l, int i, trum_job* job) {
   const double period = get(&l->period, i), whole = get(&l->whole, i), push = job->in->push;
-  const int held = job->stage == HELD;
+  const int held = job->stage == HELD, friction = held && job->sized == 1, contact = held && job->sized == 2;
   double reach = held ? whole : job->scale / push, allowed;
   int k;
   if (reach > whole) reach = whole;
@@ -992,8 +996,8 @@ static void trum_start_lap(trum_lanes* l, int i, trum_job* job) {
   put(&l->v0, i, job->v0), put(&l->per_allowed, i, 1.0 / allowed);
   put(&l->per_growth, i, job->in->m / (job->in->tolerance * job->growth));
   for (k = 0; l->slopes && k < WAYS; ++k) {
-    put(&l->per_f[k], i, job->in->m / (job->in->tolerance * job->size_f[k]));
-    put(&l->per_angle[k], i, job->in->m / (job->in->tolerance * job->size_angle[k]));
+    put(&l->per_f[k], i, contact ? 0.0 : job->in->m / (job->in->tolerance * job->size_f[k]));
+    put(&l->per_angle[k], i, friction ? 0.0 : job->in->m / (job->in->tolerance * job->size_angle[k]));
   }
   put(&l->event_error, i, trum_event * cbrt(allowed * allowed * period));
   put(&l->kink_error, i, trum_kink * allowed);
@@ -1019,6 +1023,7 @@ static void trum_start_lap(trum_lanes* l, int i, trum_job* job) {
   }
   put(&l->changes.theta_E, i, 0.0), put(&l->changes.R_v_rate, i, 0.0), put(&l->changes.W_c_rate, i, 0.0);
   put_mask(&l->cold, i, 1), put_mask(&l->lost, i, 0), put_mask(&l->active, i, 1);
+  put_mask(&l->contact, i, contact);
   job->region = -1;
   trum_next_region(l, i, job);
 }
@@ -1063,8 +1068,8 @@ static void trum_figures_slopes(const trum_lanes* l, int i, trum_job* job) {
   for (way = 0; way < WAYS; ++way) {
     double(*of)[WAYS] = job->slopes_out->of;
     if (job->stage == HELD) {
-      of[OF_CONTACT][way] = get(&r->d_angle[way], i) / whole / 3.14159265358979323846;
-      of[OF_HELD][way] = get(&r->d_friction[way], i) / whole;
+      if (job->sized != 1) of[OF_CONTACT][way] = get(&r->d_angle[way], i) / whole / 3.14159265358979323846;
+      if (job->sized != 2) of[OF_HELD][way] = get(&r->d_friction[way], i) / whole;
     } else {
       const double d0 = get(&l->d[way], i) / pull, d_x = get(&r->d_x[way], i) / whole;
       of[OF_MEAN][way] = d_x + S * d0;
@@ -1168,8 +1173,9 @@ static int trum_judge(trum_lanes* l, int i, trum_job* job) {
     out->contact = lost ? NAN : get(&r->angle, i) / whole / 3.14159265358979323846;
     out->held = lost ? NAN : get(&r->friction, i) / whole;
     if (l->slopes && !lost) trum_figures_slopes(l, i, job);
-    if (l->slopes && !lost && !job->sized) {
-      job->sized = 1, trum_size(l, i, job, 1e300);
+    if (l->slopes && !lost && job->sized < 2) { /* once more for the friction, and for the contact by itself */
+      if (!job->sized) trum_size(l, i, job, 1e300);
+      ++job->sized;
       trum_start_lap(l, i, job);
       return 1;
     }
@@ -1194,13 +1200,15 @@ static int trum_judge(trum_lanes* l, int i, trum_job* job) {
     const int coarse = job->laps == 1 && !accurate;
     const double missed = get(&r->error, i) * in->push, noise = missed / pull, was = job->level * job->scale;
     double next = job->v0 + gain / pull, away, left;
-    int pinned, close;
+    int inside, pinned, close;
     if (!coarse || fabs(gain) > 10.0 * missed) {
       if (gain > 0.0) job->low = job->v0, job->gain_low = gain;
       else job->high = job->v0, job->gain_high = gain;
     }
     next = next > bound ? bound : next < -bound ? -bound : next;
-    if (!(next > job->low && next < job->high) && job->low > -HUGE_VAL && job->high < HUGE_VAL) {
+    /* Newton's step is not taken out of the bracket, nor if it is not getting shorter: it may go round in circles */
+    inside = next > job->low && next < job->high && fabs(next - job->v0) <= 0.5 * job->last_away;
+    if (!inside && job->low > -HUGE_VAL && job->high < HUGE_VAL) {
       const double share = job->halves ? 0.5 : job->gain_low / (job->gain_low - job->gain_high);
       next = job->low + share * (job->high - job->low), job->halves = !job->halves;
     }
@@ -1260,7 +1268,7 @@ static int trum_judge(trum_lanes* l, int i, trum_job* job) {
 
 static void trum_clear(trum_lanes* l, int hertz, int slopes) {
   int k;
-  l->active = l->cold = l->lost = is(0), l->hertz = hertz, l->slopes = slopes, l->record = 0;
+  l->active = l->cold = l->lost = l->contact = is(0), l->hertz = hertz, l->slopes = slopes, l->record = 0;
   for (k = 0; k < EVENTS; ++k) l->fresh[k] = is(0), l->event[k] = TRUM_NUMBER(0);
   l->tau = l->left = l->h = l->natural = l->bend = l->target = l->tries = l->patience = TRUM_NUMBER(0);
 }
@@ -1291,7 +1299,7 @@ static void trum_blank(trum_orbit_out* out, trum_slopes_out* slopes) {
 }
 
 /* The piece of work from which on there is some: a point's rotor held, if that is wanted, then its orbit. */
-static long trum_piece(const trum_orbit_in* in, long piece, long count) {
+static long trum_next_piece(const trum_orbit_in* in, long piece, long count) {
   return piece < 2 * count && piece % 2 == 0 && !(in[piece / 2].held > 0.5) ? piece + 1 : piece;
 }
 
@@ -1310,7 +1318,7 @@ static void trum_run(const trum_orbit_in* in, trum_orbit_out* out, const trum_sl
   do {
     for (i = left = 0; i < TRUM_LANES; ++i) {
       int taken;
-      while (!busy[i] && ((taken = (next = trum_piece(in, next, count)) < 2 * count) || !used[i])) {
+      while (!busy[i] && ((taken = (next = trum_next_piece(in, next, count)) < 2 * count) || !used[i])) {
         /* lanes that never had work carry the last point's numbers, and rest */
         const long point = taken ? next / 2 : count - 1;
         const int scratch = slopes_in || !taken;
