@@ -216,7 +216,7 @@ def friction_slope(pressure: sp.Expr, lead: sp.Expr) -> sp.Expr:
 
 
 def widening(engaged: sp.Expr, angle: sp.Expr, sine: sp.Expr) -> sp.Expr:
-    """d theta / d ln E of a layer that carries its load, E (sin theta - theta cos theta) = 1 (eq. 31)."""
+    """Derivative of theta by ln E of a layer that carries its load, E (sin theta - theta cos theta) = 1 (eq. 31)."""
     return -1 / (engaged * angle * sine + TINY)
 
 

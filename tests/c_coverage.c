@@ -137,6 +137,11 @@ static void edges(void) {
     several[1].drag = 2 * in.push; /* no speed balances that */
     trum_orbits(several, out, 0, 0, 3);
     expect(out[2].mean == out[0].mean && ((int)out[1].flags & trum_runaway), "several points");
+    several[2].held = 0.0;
+    trum_orbits(several, out, 0, 0, 3);
+    expect(out[2].mean == out[0].mean && (int)out[2].flags & trum_converged, "an orbit does not need a held rotor");
+    expect(out[2].held != out[2].held && out[0].held == out[0].held, "a held rotor is not computed unasked");
+    several[2].held = 1.0;
     trum_orbits(several, out, 0, 0, 0);
     {
       trum_slopes_in with[3];

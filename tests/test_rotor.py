@@ -237,8 +237,10 @@ def test_an_encoder_sees_less_fluctuation_the_longer_it_averages(trum60):
 def test_newton_on_laps_does_not_go_round_in_circles(trum60):
     """Here Newton's steps lead from one end of the bracket to the other and back: their length has to be watched."""
     motor = trum60.with_values({"friction_coefficient": 0.15036263687842363, "rotor_inertia": 1.1334116873345693e-05})
-    drive = ts.Drive(prepressure=151.94908881274398, frequency_difference=2783.3467231060276, load_torque=0.20079393255353645,
-                     periods=16, on_periods=10, start="steady")  # fmt: skip
+    drive = ts.Drive(
+        prepressure=151.94908881274398, frequency_difference=2783.3467231060276, load_torque=0.20079393255353645,
+        periods=16, on_periods=10, start="steady",
+    )  # fmt: skip
     fine = ts.evaluate(motor, drive, tolerance=1e-8)
     for tolerance in (1e-2, 3e-3, 1e-3, 3e-4):
         found = ts.evaluate(motor, drive, tolerance=tolerance)

@@ -167,7 +167,7 @@ def test_slopes_over_a_bent_step_have_the_limits_of_the_kernels():
 
 
 def test_at_a_kink_the_slope_is_that_of_one_side(trum60):
-    """Two peaks of a cycle's speed are equally high at some frequency difference: the highest speed has a kink there."""
+    """Two peaks of a cycle's speed are equally high at some frequency difference: the highest has a kink there."""
 
     def drive(difference):
         return ts.Drive(prepressure=180.0, frequency_difference=difference, load_torque=0.1)

@@ -56,7 +56,8 @@ typedef struct {
   double held;      /* whether (1 or 0) a held rotor's figures are wanted */
 } trum_orbit_in;
 
-/* Speeds of the rim, m/s; means of theta/pi and of the friction fraction on a held rotor, NAN unless wanted. */
+/* Speeds of the rim, m/s; means of theta/pi and of the friction fraction on a held rotor, NAN unless wanted: it also
+ * tells of full contact. */
 typedef struct {
   double mean, low, high, variance, contact, held, start, level, error, flags;
 } trum_orbit_out;
