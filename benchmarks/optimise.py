@@ -95,7 +95,7 @@ def _evolution(case: Case, **settings: float) -> tuple[float, float]:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         found = differential_evolution(
-            deviation, Bounds([0, 0], [1, 1]), constraints=target, vectorized=True, updating="deferred", polish=False,
+            deviation, Bounds([0, 0], [1, 1]), constraints=target, vectorized=True, updating="deferred",
             seed=int(case.rng.integers(2**31)), **settings,
         )  # fmt: skip
     return case.volatility(np.asarray(found.x))

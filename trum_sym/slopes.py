@@ -56,7 +56,7 @@ def sensitivities(
         As for :func:`trum_sym.evaluate`; arrays broadcast.
     tolerance : float
         Of the orbit that is differentiated.  The slopes' median error is below it; single slopes are much worse
-        (docs/rotor.md), most where a kink falls on the instant of full contact.
+        (docs/rotor.md).
 
     Returns
     -------
