@@ -15,7 +15,7 @@ from trum_sym.validate import Array, ArrayLike
 
 __all__ = ["StoppedError", "call_in_blocks", "one_thread"]
 
-_BLOCK, _SMALLEST = 512, 32  # points in a block, at most and at least
+_BLOCK, _SMALLEST = 512, 8  # points in a block, at most and at least: what a register has lanes for
 _stopped: ContextVar[Callable[[], bool] | None] = ContextVar("_stopped", default=None)
 
 
@@ -39,26 +39,37 @@ def one_thread(stopped: Callable[[], bool]) -> Iterator[None]:
         _stopped.reset(token)
 
 
-def call_in_blocks(kernel: str, values: Mapping[str, ArrayLike], label: str | None = None) -> dict[str, Array]:
+def call_in_blocks(
+    kernel: str,
+    values: Mapping[str, ArrayLike],
+    label: str | None = None,
+    *,
+    inner: Mapping[str, tuple[int, ...]] | None = None,
+    smallest: int = _SMALLEST,
+) -> dict[str, Array]:
     """Evaluate a kernel as :func:`trum_sym.kernels.call` does, block by block on all cores.
 
     Parameters
     ----------
     kernel : str
-        A kernel of scalars.
+        A kernel of scalars; its outputs may have inner dimensions.
     values : mapping
         At least the kernel's arguments; arrays broadcast.
     label : str, optional
         Shows a bar of this name on the standard error, if there is more than one block.
+    inner : mapping, optional
+        The outputs that have inner dimensions, and these.
+    smallest : int
+        Points that are not worth sharing out.
     """
     inputs, outputs = signature(kernel)
     columns = np.broadcast_arrays(*(np.asarray(values[name], np.float64) for name in inputs))
     shape, size = columns[0].shape, columns[0].size
     # what is the same for all points is not laid out for each
     flat = [column.reshape(-1)[:1] if not any(column.strides) else column.ravel() for column in columns]
-    results = np.empty((len(outputs), size))
+    results = {name: np.empty((size, *(inner or {}).get(name, ()))) for name in outputs}
     cores = os.cpu_count() or 1
-    length = min(_BLOCK, max(_SMALLEST, -(-size // cores)))
+    length = min(_BLOCK, max(smallest, -(-size // cores)))
     starts = range(0, size, length)
     workers = min(len(starts), cores)
 
@@ -68,8 +79,11 @@ def call_in_blocks(kernel: str, values: Mapping[str, ArrayLike], label: str | No
             for name, column in zip(inputs, flat, strict=True)
         }
         found = call(kernel, block)
-        for row, name in zip(results, outputs, strict=True):
-            row[begin : begin + length] = found[name]
+        for name, result in results.items():
+            result[begin : begin + length] = found[name]
+
+    def whole() -> dict[str, Array]:
+        return {name: result.reshape((*shape, *result.shape[1:])) for name, result in results.items()}
 
     stopped = _stopped.get()
     if stopped is not None:
@@ -77,13 +91,13 @@ def call_in_blocks(kernel: str, values: Mapping[str, ArrayLike], label: str | No
             if stopped():
                 raise StoppedError
             run(begin)
-        return {name: row.reshape(shape) for name, row in zip(outputs, results, strict=True)}
+        return whole()
     if workers > 1 or (label and len(starts) > 1):
         _in_threads(run, starts, workers, label)
     else:
         for begin in starts:
             run(begin)
-    return {name: row.reshape(shape) for name, row in zip(outputs, results, strict=True)}
+    return whole()
 
 
 def _in_threads(run: Callable[[int], None], starts: range, workers: int, label: str | None) -> None:

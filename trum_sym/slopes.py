@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from trum_sym.batch import call_in_blocks
 from trum_sym.drive import Drive
 from trum_sym.errors import ValidityWarning
 from trum_sym.kernels import call
@@ -84,8 +85,13 @@ def orbit_with_slopes(case: Case, levels: Levels) -> tuple[Orbit, dict[str, dict
 
     Beside those of :data:`FIGURES` stands ``speed_deviation``, the speed's standard deviation in rad/s.
     """
-    raw = call("rotor_slopes", {**case.arguments, **_states(case)})
-    slopes = np.asarray(raw["slopes"])
+    raw = call_in_blocks(
+        "rotor_slopes",
+        {**case.arguments, **_states(case)},
+        inner={"slopes": (len(FIGURES), len(PARAMETERS))},
+        smallest=1,  # steps with slopes are long: a core each
+    )
+    slopes = raw["slopes"]
     force, friction, radius, inertia = (np.asarray(case.symbols[name]) for name in ("F_c", "mu", "r_c", "J"))
     alone = {
         "prepressure": slopes[..., 0] / _column(force),
@@ -98,7 +104,7 @@ def orbit_with_slopes(case: Case, levels: Levels) -> tuple[Orbit, dict[str, dict
     for name, (d_omega_n, d_W) in _following(case, levels).items():
         alone[name] = alone[name] + alone["amplitude"] * _column(d_W)
         alone[name] = alone[name] + alone["resonance_frequency"] * _column(d_omega_n / _TURN)
-    orbit = as_orbit({name: np.asarray(value) for name, value in raw.items() if name != "slopes"}, case.symbols)
+    orbit = as_orbit({name: value for name, value in raw.items() if name != "slopes"}, case.symbols)
     return orbit, _figures(case, raw, alone)
 
 
