@@ -1,12 +1,14 @@
 """How often the optimiser is right: random problems against dense maps of their boxes.
 
     python tests/optimise_study.py run FILE.jsonl --draws 100 --targets 10 --side 101
+    python tests/optimise_study.py again FILE.jsonl --to NEW.jsonl
     python tests/optimise_study.py report FILE.jsonl
 
 A draw is a motor (friction, inertia), a load, a start, pulse counts and a box.  Its targets are the speeds of random
 points of the box, and two speeds out of reach.  The best of the map is found without the optimiser: where the speed
 crosses the target along the map's edges, by regula falsi on orbits at 1e-8, then SciPy's SLSQP with differences.
-What is done already in FILE is not done again, so a run may be stopped and taken up.
+What is done already in FILE is not done again, so a run may be stopped and taken up.  The maps take most of the time:
+`again` solves the problems of FILE once more and compares with the maps that it has.
 """
 
 from __future__ import annotations
@@ -141,14 +143,20 @@ def extremes(dense):
     return ends
 
 
-def problem(dense, target):
-    """The optimiser's answer, and how long it took."""
+def problem(motor, drive, low, high, target):
+    """The optimiser's answer, as a record."""
     begin = time.perf_counter()
     found = ts.optimize(
-        dense.motor, dense.drive, target_speed=target,
-        bounds={"prepressure": (dense.low[0], dense.high[0]), "frequency_difference": (dense.low[1], dense.high[1])},
+        motor, drive, target_speed=target,
+        bounds={"prepressure": (low[0], high[0]), "frequency_difference": (low[1], high[1])},
     )  # fmt: skip
-    return found, time.perf_counter() - begin
+    record = {
+        "target": target, "status": found.status, "seconds": time.perf_counter() - begin,
+        "objective": found.objective, "violation": found.constraint_violation, "evaluations": found.evaluations,
+        "optima": len(found.evidence.optima), "where": [found.prepressure, found.frequency_difference],
+        "range": found.evidence.reachable_speed,
+    }  # fmt: skip
+    return record
 
 
 def records(seed, targets, side):
@@ -160,22 +168,16 @@ def records(seed, targets, side):
         return
     for k in range(targets):
         target = float(dense.at(rng.uniform(size=2), 1e-9).mean_speed)
-        found, seconds = problem(dense, target)
-        yield {
-            "seed": seed, "kind": "feasible", "number": k, "side": side, "target": target, "status": found.status,
-            "objective": found.objective, "violation": found.constraint_violation, "map": dense.best(target),
-            "seconds": seconds, "evaluations": found.evaluations, "optima": len(found.evidence.optima),
-            "where": [found.prepressure, found.frequency_difference],
-        }  # fmt: skip
+        found = problem(motor, drive, low, high, target)
+        yield {"seed": seed, "kind": "feasible", "number": k, "side": side, "map": dense.best(target), **found}
     low_speed, high_speed = extremes(dense)
     reach = high_speed - low_speed
     for end, sign in ((low_speed, -1), (high_speed, 1)):
         beyond = 10 ** rng.uniform(-4, 0)
-        found, seconds = problem(dense, end + sign * beyond * reach)
+        found = problem(motor, drive, low, high, end + sign * beyond * reach)
         yield {
-            "seed": seed, "kind": "unreachable", "side": side, "target": end + sign * beyond * reach, "beyond": beyond,
-            "status": found.status, "range": found.evidence.reachable_speed, "true range": [low_speed, high_speed],
-            "seconds": seconds,
+            "seed": seed, "kind": "unreachable", "side": side, "beyond": beyond, "true range": [low_speed, high_speed],
+            **found,
         }  # fmt: skip
 
 
@@ -190,6 +192,17 @@ def run(file, draws, targets, side, first):
         with file.open("a") as stream:
             stream.writelines(json.dumps(record) + "\n" for record in found)
         print(f"draw {seed}: {len(found)} problems", flush=True)
+
+
+def again(file, to):
+    """The problems of a file, against its maps."""
+    known = [json.loads(line) for line in file.read_text().splitlines()]
+    done = len(to.read_text().splitlines()) if to.exists() else 0
+    for record in known[done:]:
+        motor, drive, low, high, _ = draw(record["seed"])
+        new = problem(motor, drive, low, high, record["target"]) if "target" in record else {}
+        with to.open("a") as stream:
+            stream.write(json.dumps({**record, **new}) + "\n")
 
 
 def wrong(record):
@@ -232,8 +245,9 @@ def report(file):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=("run", "report"))
+    parser.add_argument("what", choices=("run", "again", "report"))
     parser.add_argument("file", type=Path)
+    parser.add_argument("--to", type=Path, help="where `again` writes")
     parser.add_argument("--draws", type=int, default=100)
     parser.add_argument("--first", type=int, default=0, help="the first draw's number")
     parser.add_argument("--targets", type=int, default=10)
@@ -242,7 +256,9 @@ def main():
     warnings.simplefilter("ignore", ts.ValidityWarning)
     if chosen.what == "run":
         run(chosen.file, chosen.draws, chosen.targets, chosen.side, chosen.first)
-    report(chosen.file)
+    if chosen.what == "again":
+        again(chosen.file, chosen.to)
+    report(chosen.to or chosen.file)
 
 
 if __name__ == "__main__":
