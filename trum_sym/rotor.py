@@ -45,13 +45,11 @@ class Orbit:
 
 
 def orbit_values(
-    modal: Mapping[str, ArrayLike],
-    stator: Mapping[str, ArrayLike],
-    contact: str,
-    tolerance: ArrayLike,
-    held: bool = True,
+    modal: Mapping[str, ArrayLike], stator: Mapping[str, ArrayLike], contact: str, tolerance: ArrayLike
 ) -> dict[str, ArrayLike]:
     """The driver's arguments: modal state, geometry and what the steps of a point share.
+
+    Where ``held`` is set to 0, stall torque and contact fraction are not computed, and NaN.
 
     Parameters
     ----------
@@ -63,14 +61,12 @@ def orbit_values(
         ``"winkler"`` or ``"hertz"``.
     tolerance : float or array
         Of mean and extremes, relative to the largest speed.
-    held : bool
-        Whether the figures of a rotor that is held, stall torque and contact fraction, are wanted; else they are NaN.
     """
     shared = dict(call("trum_rotor_coefficients", stator))
     full = {law: shared.pop(f"W_full_{law}") for law in ("winkler", "hertz")}
     of_contact = {"W_full": full[contact], "hertz": float(contact == "hertz")}
     geometry = {"D": stator["D"], "k_c": stator["k_c"]}
-    return {**modal, **geometry, **shared, **of_contact, "tolerance": tolerance, "held": float(held)}
+    return {**modal, **geometry, **shared, **of_contact, "tolerance": tolerance, "held": 1.0}
 
 
 def solve_orbit(values: Mapping[str, ArrayLike], stator: Mapping[str, ArrayLike], progress: bool = False) -> Orbit:
