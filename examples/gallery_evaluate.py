@@ -7,14 +7,12 @@ Prints the point; with a folder, also draws phases.svg there.
 
 from __future__ import annotations
 
-import math
 import sys
 from pathlib import Path
 
 import trum_sym as ts
 from trum_sym import plots as figures
-
-ARCSEC = math.pi / 648000
+from trum_sym.inputs.units import ARCSEC
 
 
 def main(folder: Path | None = None) -> None:

@@ -7,7 +7,6 @@ Prints the curve; with a folder, also draws torque-speed.svg there.
 
 from __future__ import annotations
 
-import math
 import sys
 from pathlib import Path
 
@@ -15,8 +14,7 @@ import numpy as np
 
 import trum_sym as ts
 from trum_sym import plots as figures
-
-ARCSEC = math.pi / 648000
+from trum_sym.inputs.units import ARCSEC
 
 
 def main(folder: Path | None = None) -> None:

@@ -20,12 +20,12 @@ from pathlib import Path
 import numpy as np
 
 import trum_sym as ts
+from trum_sym.model.levels import Levels
 from trum_sym.model.operating_point import figures, prepare
 from trum_sym.model.sensitivities import FIGURES, PARAMETERS
-from trum_sym.model.stator import Levels
 
 TOLERANCES = (1e-3, 1e-6, 1e-9)
-LEVELS = Levels("winkler", "quartic", "harmonic", "measured")
+LEVELS = Levels()
 SHIFTS = np.array([1.0, -1.0, 2.0, -2.0, 3.0, -3.0])
 WEIGHTS = np.array([45.0, -45.0, -9.0, 9.0, 1.0, -1.0]) / 60
 STEPS = (5e-5, 2e-4, 8e-4)  # over the parameter

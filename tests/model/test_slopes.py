@@ -16,9 +16,13 @@ from trum_sym.model.sensitivities import FIGURES, PARAMETERS, orbit_with_slopes
 
 # relative steps of the differences
 STEPS = {
-    "prepressure": 1e-4, "frequency_difference": 1e-4, "load_torque": 1e-4,
-    "friction_coefficient": 1e-4, "amplitude": 1e-4, "resonance_frequency": 1e-5,
-}  # fmt: skip
+    "prepressure": 1e-4,
+    "frequency_difference": 1e-4,
+    "load_torque": 1e-4,
+    "friction_coefficient": 1e-4,
+    "amplitude": 1e-4,
+    "resonance_frequency": 1e-5,
+}
 
 
 def changed(motor, drive, point, name, factor):
@@ -66,7 +70,7 @@ def test_slopes_change_no_figure(trum60):
     """They are taken along an orbit that is found without them."""
     drive = ts.Drive(prepressure=np.linspace(150, 200, 11), load_torque=0.05)
     case = prepare(trum60, drive, slopes_study.LEVELS, 1e-6)
-    orbit, _ = orbit_with_slopes(case, slopes_study.LEVELS)
+    orbit, _ = orbit_with_slopes(case)
     assert np.array_equal(orbit.mean_speed, ts.evaluate(trum60, drive, tolerance=1e-6).mean_speed)
 
 
@@ -151,16 +155,25 @@ def test_slopes_over_a_bent_step_have_the_limits_of_the_kernels():
         assert pressures[0] == pytest.approx(pressures[1]), "the two points are one"
         limit = call(
             "trum_friction_limit",
-            {"R_v": fastest, "R_v_rate": faster, "v": way * fastest, "v_rate": way * faster_rim, "step": step,
-             "p_smaller": pressures[0], "p_larger": pressures[1]},
-        )["T_f_v"]  # fmt: skip
+            {
+                "R_v": fastest,
+                "R_v_rate": faster,
+                "v": way * fastest,
+                "v_rate": way * faster_rim,
+                "step": step,
+                "p_smaller": pressures[0],
+                "p_larger": pressures[1],
+            },
+        )["T_f_v"]
         moved = {"R_v": fastest + faster * after, "v": way * (fastest + faster_rim * after)}
         slope = call("trum_friction", {**there, **moved})["f_v"]
         assert slope * 2 * step * near == pytest.approx(limit, rel=1e-4)
     full, growth = 2e-7, 0.05
     engagement = (1 + growth * after / full) / np.pi
-    touching = call("trum_contact_winkler", {"fullness": 1 / (np.pi * engagement),
-                                             "fullness_root": np.cbrt(1 / (np.pi * engagement))})  # fmt: skip
+    touching = call(
+        "trum_contact_winkler",
+        {"fullness": 1 / (np.pi * engagement), "fullness_root": np.cbrt(1 / (np.pi * engagement))},
+    )
     opening = call("trum_friction_slopes", {**there, **moved, **touching, "engagement": engagement})["theta_E"]
     limit = call("trum_contact_limit", {"W_full": full, "W_c_rate": -growth, "step": step})["T_theta_E"]
     assert opening * 2 * step * near == pytest.approx(limit, rel=1e-3)

@@ -15,11 +15,11 @@ from orbit_reference import GATES, Reference, _modal, half_angle, surface
 import trum_sym as ts
 from trum_sym import plots as figures
 from trum_sym.errors import ParameterError
+from trum_sym.inputs.units import ARCSEC
 from trum_sym.plots.motion import SECTION_5
 from trum_sym.plots.transfer import MODELS
 from trum_sym.report.catalogue import PICTURES
 
-ARCSEC = np.pi / 648000
 SPEED = 1e6 * ARCSEC
 
 
@@ -454,8 +454,10 @@ def test_fig_27b_beats_with_the_difference_of_45_and_39_703_khz():
     per = 48  # samples of a drive period
     envelope = np.array([np.abs(velocity[i : i + per]).max() for i in range(9 * per, len(velocity) - per)])
     at = time[9 * per : len(velocity) - per] + 0.5 / 45
-    beats = [at[(at > low) & (at < low + 0.1888)][np.argmin(envelope[(at > low) & (at < low + 0.1888)])]
-             for low in (0.0, 0.1888, 0.3776)]  # fmt: skip
+    beats = [
+        at[(at > low) & (at < low + 0.1888)][np.argmin(envelope[(at > low) & (at < low + 0.1888)])]
+        for low in (0.0, 0.1888, 0.3776)
+    ]
     assert np.diff(beats) == pytest.approx(1 / 5.297, rel=0.06)
     drive = ts.Drive(frequency_difference=5297.0, periods=90, on_periods=45, start="steady")
     w = states(reference(drive, 39703.0), 1e-3 * time[time >= 0])
@@ -561,5 +563,9 @@ def test_the_catalogue_has_every_figure_of_the_paper_that_can_be_drawn():
     numbers = ["3", "6", "7", "8", *map(str, range(9, 24)), "25b", "26b", "27b", *map(str, range(29, 33))]
     assert [anchor.removeprefix("figure-") for anchor in anchors if anchor.startswith("figure-")] == numbers
     assert set(anchors) - {f"figure-{n}" for n in numbers} == {
-        "map-periodic", "map-rest", "speed-determinant", "torque-speed", "contact-zone"
-    }  # fmt: skip
+        "map-periodic",
+        "map-rest",
+        "speed-determinant",
+        "torque-speed",
+        "contact-zone",
+    }

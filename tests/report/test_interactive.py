@@ -198,10 +198,13 @@ def test_random_drives_agree_too(page):
     rng = np.random.default_rng(5)
     for _ in range(25):
         settings = {
-            "prepressure": float(rng.integers(100, 221)), "frequency_difference": float(rng.integers(-50, 51) * 100),
-            "on_periods": float(rng.integers(10, 20)), "load_torque": float(rng.integers(-50, 51) / 100),
-            "start": str(rng.choice(["periodic", "steady", "rest"])), "phase_lead": float(rng.choice([1, -1])),
-        }  # fmt: skip
+            "prepressure": float(rng.integers(100, 221)),
+            "frequency_difference": float(rng.integers(-50, 51) * 100),
+            "on_periods": float(rng.integers(10, 20)),
+            "load_torque": float(rng.integers(-50, 51) / 100),
+            "start": str(rng.choice(["periodic", "steady", "rest"])),
+            "phase_lead": float(rng.choice([1, -1])),
+        }
         found, expected = numbers(page, f"trumMotor.set({json.dumps(settings)})"), evaluated(settings)
         for name in OUTPUTS:  # the contact's mean is the one figure that the tolerance does not bound
             assert found[name] == pytest.approx(expected[name], rel=1e-8 if name == "contact_fraction" else 1e-9), name

@@ -17,7 +17,7 @@ from refusals import refusal
 import trum_sym as ts
 from trum_sym.console import main
 from trum_sym.model import batch
-from trum_sym.model.stator import Levels
+from trum_sym.model.levels import Levels
 from trum_sym.output.progress import Progress, duration
 from trum_sym.quantities import OUTPUTS
 from trum_sym.sweeps import engine
@@ -27,7 +27,7 @@ from trum_sym.sweeps.plan import make_plan
 from trum_sym.sweeps.task import Found, compute
 
 DRIVE = ts.Drive(periods=4, on_periods=3, load_torque=0.1)
-LEVELS = Levels("winkler", "quartic", "harmonic", "measured")
+LEVELS = Levels()
 SMALL = ["--periods", "4", "--on-periods", "3", "--load-torque", "0.1"]
 
 

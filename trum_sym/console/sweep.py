@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from trum_sym.console.options import Quantity, chosen_motor, number_option, point_options
+from trum_sym.console.options import Quantity, chosen_levels, chosen_motor, number_option, point_options
 
 if TYPE_CHECKING:
     from trum_sym.sweeps.plan import Plan
@@ -63,7 +63,7 @@ def sweep(
     """  # noqa: D301
     from trum_sym.errors import ParameterError
     from trum_sym.inputs.drive import Drive
-    from trum_sym.model.stator import Levels
+    from trum_sym.model.levels import Levels
     from trum_sym.sweeps.plan import make_plan
     from trum_sym.sweeps.run import check_out, estimate, run
 
@@ -78,11 +78,11 @@ def sweep(
             if name.strip() in (*ranges, *(other.partition("=")[0].strip() for other in fixed)):
                 raise ParameterError("--set", text, "each name once")
             ranges[name.strip()] = given
-    levels = Levels(*(options[name] for name in ("contact", "resonance", "foundation", "amplitude")))
+    levels = Levels(**chosen_levels(options))
     names = None if outputs is None else tuple(name.strip() for name in outputs.split(","))
     plan = make_plan(
         chosen_motor(motor, fixed), Drive(start=options["start"]), levels, None, 1e-3, names, chunk, ranges
-    )  # fmt: skip
+    )
     if dry_run:
         click.echo(_estimate(estimate("--out", plan, out, scheduler, chunk is not None), out))
         return

@@ -10,10 +10,11 @@ import numpy as np
 
 from trum_sym.errors import ParameterError
 from trum_sym.inputs.checks import Array
-from trum_sym.inputs.motor import Parameter, Spec
+from trum_sym.inputs.domain import Spec
 from trum_sym.inputs.units import parse_quantity
+from trum_sym.output.json_text import finite
 
-__all__ = ["KINDS", "Distribution", "checked", "default_distribution", "from_text"]
+__all__ = ["KINDS", "Distribution", "checked", "from_text"]
 
 # what each kind is told, in the order of its text form; optional ones after the bar
 _FORMS = {
@@ -83,8 +84,8 @@ class Distribution:
 
     def as_dict(self) -> dict[str, object]:
         """Everything by name; null where it is not set or not bounded."""
-        values = {field.name: getattr(self, field.name) for field in fields(self)}
-        return {name: None if isinstance(v, float) and not math.isfinite(v) else v for name, v in values.items()}
+        values: dict[str, object] = finite({field.name: getattr(self, field.name) for field in fields(self)})
+        return values
 
 
 def _wrong(name: str, got: object, allowed: str, unit: str) -> ParameterError:
@@ -159,10 +160,3 @@ def from_text(name: str, text: str, unit: str) -> Distribution:
         raise ParameterError(name, text, form)
     numbers = {key: parse_quantity(f"{name}, {key}", part, unit) for key, part in zip(wanted, given, strict=False)}
     return Distribution(kind, **numbers)
-
-
-def default_distribution(parameter: Parameter) -> Distribution | None:
-    """What a motor file says of a parameter: its distribution, else uniform over its range, else nothing."""
-    if parameter.distribution is not None:
-        return parameter.distribution
-    return None if parameter.range is None else Distribution("uniform", *parameter.range)

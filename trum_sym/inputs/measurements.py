@@ -12,16 +12,15 @@ from types import MappingProxyType
 import numpy as np
 
 from trum_sym.errors import ParameterError
-from trum_sym.inputs.checks import Array, Domain, number
-from trum_sym.inputs.drive import DRIVE_DOMAINS
+from trum_sym.inputs.checks import Array, number
+from trum_sym.inputs.domain import Domain
+from trum_sym.inputs.drive import DRIVE_DOMAINS, LEAD
 from trum_sym.inputs.units import Unit, parse_unit
 from trum_sym.quantities import OUTPUTS
 
 __all__ = ["INPUTS", "SIGNALS", "UNCERTAINTY", "Measurements", "from_columns", "read_measurements", "table_of"]
 
-INPUTS = MappingProxyType(
-    {**DRIVE_DOMAINS, "phase_lead": (Domain(low=-1, low_open=False, high=1, high_open=False), "1")}
-)
+INPUTS = MappingProxyType({**DRIVE_DOMAINS, "phase_lead": (LEAD, "1")})
 SIGNALS = ("displacement", "velocity", "envelope")  # of a decay, each against time
 UNCERTAINTY = "_uncertainty"
 
@@ -157,9 +156,10 @@ def _check_columns(data: Measurements) -> None:
         for column in data.observed:
             if column + UNCERTAINTY not in names:
                 raise ParameterError(
-                    "data", " and ".join(data.observed),
+                    "data",
+                    " and ".join(data.observed),
                     f"one measured column, or a column {column}{UNCERTAINTY} to weigh it against the others",
-                )  # fmt: skip
+                )
 
 
 def read_measurements(source: str | PathLike[str]) -> Measurements:

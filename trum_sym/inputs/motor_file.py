@@ -9,19 +9,30 @@ from types import MappingProxyType
 from typing import Any
 
 from trum_sym.errors import ParameterError
-from trum_sym.inputs.checks import ArrayLike, Domain, number
+from trum_sym.inputs.checks import ArrayLike, number
 from trum_sym.inputs.distributions import Distribution, checked
+from trum_sym.inputs.domain import Domain, Spec
 from trum_sym.inputs.drive import DRIVE_DOMAINS
-from trum_sym.inputs.motor import SPECS, Motor, Parameter, Published, Spec, spec
+from trum_sym.inputs.motor import SPECS, Motor, Parameter, Published, spec
 from trum_sym.inputs.units import Unit, parse_unit
 from trum_sym.quantities import OUTPUTS
 
 __all__ = ["load_motor", "motor_text"]
 
 _KEYS = (
-    "value", "unit", "symbol", "source", "range", "reason", "note", "interval", "data", "distribution", "mean",
+    "value",
+    "unit",
+    "symbol",
+    "source",
+    "range",
+    "reason",
+    "note",
+    "interval",
+    "data",
+    "distribution",
+    "mean",
     "standard_deviation",
-)  # fmt: skip
+)
 
 
 def _unit(name: str, given: str, wanted: str) -> Unit:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Mapping
 from dataclasses import replace
+from typing import Unpack
 
 import numpy as np
 
@@ -14,9 +15,10 @@ from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
 from trum_sym.model.batch import call_in_blocks
 from trum_sym.model.kernels import call
+from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.model.operating_point import Case, prepare
 from trum_sym.model.rotor import Orbit, as_orbit
-from trum_sym.model.stator import Amplitude, Contact, Foundation, Levels, Resonance, solve_stator
+from trum_sym.model.stator import solve_stator
 
 __all__ = ["FIGURES", "PARAMETERS", "orbit_with_slopes", "sensitivities"]
 
@@ -39,11 +41,8 @@ def sensitivities(
     motor: Motor,
     drive: Drive | None = None,
     *,
-    contact: Contact = "winkler",
-    resonance: Resonance = "quartic",
-    foundation: Foundation = "harmonic",
-    amplitude: Amplitude = "measured",
     tolerance: float = 1e-6,
+    **levels: Unpack[LevelChoice],
 ) -> dict[str, dict[str, Array]]:
     """Derivatives of an operating point's figures.
 
@@ -75,12 +74,11 @@ def sensitivities(
     ConvergenceError
         If the forced amplitude and the resonance do not settle.
     """
-    levels = Levels(contact, resonance, foundation, amplitude)
-    _, found = orbit_with_slopes(prepare(motor, drive, levels, tolerance), levels)
+    _, found = orbit_with_slopes(prepare(motor, drive, Levels(**levels), tolerance))
     return {name: found[name] for name in FIGURES}
 
 
-def orbit_with_slopes(case: Case, levels: Levels) -> tuple[Orbit, dict[str, dict[str, Array]]]:
+def orbit_with_slopes(case: Case) -> tuple[Orbit, dict[str, dict[str, Array]]]:
     """The orbit of a case that :func:`trum_sym.model.operating_point.prepare` has checked, and its figures' slopes.
 
     Beside those of :data:`FIGURES` stands ``speed_deviation``, the speed's standard deviation in rad/s.
@@ -101,7 +99,7 @@ def orbit_with_slopes(case: Case, levels: Levels) -> tuple[Orbit, dict[str, dict
         "amplitude": slopes[..., 4] / _column(case.stator.W),
         "resonance_frequency": slopes[..., 5] * _TURN,
     }
-    for name, (d_omega_n, d_W) in _following(case, levels).items():
+    for name, (d_omega_n, d_W) in _following(case).items():
         alone[name] = alone[name] + alone["amplitude"] * _column(d_W)
         alone[name] = alone[name] + alone["resonance_frequency"] * _column(d_omega_n / _TURN)
     orbit = as_orbit({name: value for name, value in raw.items() if name != "slopes"}, case.symbols)
@@ -121,7 +119,7 @@ def _states(case: Case) -> dict[str, ArrayLike]:
     return {**rates, **call(f"trum_start_{case.drive.start}_slopes", case.arguments)}
 
 
-def _following(case: Case, levels: Levels) -> dict[str, tuple[Array, Array]]:
+def _following(case: Case) -> dict[str, tuple[Array, Array]]:
     """Derivatives of the resonance (rad/s) and the amplitude (m) by prepressure and frequency difference."""
     force, difference = (np.asarray(x) for x in (case.drive.prepressure, case.drive.frequency_difference))
     force_step, difference_step = _STEP * force, _STEP * np.asarray(case.stator.omega_n) / _TURN
@@ -135,7 +133,7 @@ def _following(case: Case, levels: Levels) -> dict[str, tuple[Array, Array]]:
             prepressure=force + along_force * force_step,
             frequency_difference=difference + along_difference * difference_step,
         )
-        stator = solve_stator(case.motor, moved, levels)
+        stator = solve_stator(case.motor, moved, case.levels)
 
     def derivatives(of: ArrayLike) -> tuple[Array, Array]:
         at = np.broadcast_to(of, (8, *case.shape))

@@ -15,11 +15,11 @@ from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
 from trum_sym.model.cycle import cycle_sums
 from trum_sym.model.kernels import call
+from trum_sym.model.levels import Levels
 from trum_sym.model.operating_point import Case, evaluate, prepare
 from trum_sym.model.pressure import peak_pressure
 from trum_sym.model.rotor import Orbit, solve_orbit
 from trum_sym.model.sensitivities import orbit_with_slopes
-from trum_sym.model.stator import Levels
 from trum_sym.optimiser.expressions import Expression, symbol
 from trum_sym.optimiser.extra import casadi
 
@@ -126,7 +126,7 @@ class Model:
         """The same and their derivatives by the box's variables, each (n, d)."""
         case = self._case(points, tolerance)
         self.evaluations += len(points)
-        orbit, found = orbit_with_slopes(case, self.levels)
+        orbit, found = orbit_with_slopes(case)
         figures = {**self._closed(case), **_speeds(orbit)}
         closed = self.names.difference(found)
         slopes = self._differences(points, range(points.shape[1])) if closed else {}

@@ -14,8 +14,9 @@ from trum_sym.inputs.motor import Motor
 from trum_sym.inputs.motor_file import load_motor
 from trum_sym.model.operating_point import evaluate
 from trum_sym.paper.cycle import READINGS
+from trum_sym.paper.published import BOX
 from trum_sym.plots.style import COLOURS, INK, Panels, figure_of, legend, panels, styled
-from trum_sym.plots.trends import BOX, Variable, measures
+from trum_sym.plots.trends import Variable, measures
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

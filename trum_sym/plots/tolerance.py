@@ -11,7 +11,7 @@ from trum_sym.errors import MissingExtraError
 from trum_sym.output.files import check_target, replaced
 from trum_sym.quantities import OUTPUTS
 from trum_sym.uncertainty.propagation import CONFIDENCE, Estimate, Indices
-from trum_sym.uncertainty.study import BALANCED, MISSED, Study
+from trum_sym.uncertainty.result import BALANCED, MISSED, Study
 from trum_sym.uncertainty.tables import label, shown
 
 if TYPE_CHECKING:

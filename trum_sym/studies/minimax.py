@@ -172,17 +172,24 @@ class Minimax:
 
         limits = [{"type": "ineq", "fun": above, "jac": above_slopes}]
         if self.held:
-            limits.append({
-                "type": "eq",
-                "fun": lambda x: np.array([(look(x)[0][0, 1] - self._low[0]) / self._unit[0]]),
-                "jac": lambda x: np.append(look(x)[1][0, 1] / self._unit[0], 0.0)[np.newaxis],
-            })  # fmt: skip
+            limits.append(
+                {
+                    "type": "eq",
+                    "fun": lambda x: np.array([(look(x)[0][0, 1] - self._low[0]) / self._unit[0]]),
+                    "jac": lambda x: np.append(look(x)[1][0, 1] / self._unit[0], 0.0)[np.newaxis],
+                }
+            )
         first = float(np.max(self._figure(look(start)[0][:, 0])) / self._size)
         with suppress(_Enough):
             minimize(
-                lambda x: x[d], np.append(start, first), jac=lambda _: np.append(np.zeros(d), 1.0), method="SLSQP",
-                bounds=[(0.0, 1.0)] * d + [(None, None)], constraints=limits, options={"maxiter": 40, "ftol": _CLOSE},
-            )  # fmt: skip
+                lambda x: x[d],
+                np.append(start, first),
+                jac=lambda _: np.append(np.zeros(d), 1.0),
+                method="SLSQP",
+                bounds=[(0.0, 1.0)] * d + [(None, None)],
+                constraints=limits,
+                options={"maxiter": 40, "ftol": _CLOSE},
+            )
         # whatever it says of its success: the best place that it saw
         best = min(seen, key=lambda key: self._rank(*seen[key]))
         return np.frombuffer(best).copy()

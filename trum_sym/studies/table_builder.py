@@ -69,10 +69,11 @@ class Builder:
         self.accuracy = TOLERANCE * fastest
         if self.error * self.floor < 2 * self.accuracy:
             raise ParameterError(
-                "error", self.error,
+                "error",
+                self.error,
                 f"at least {2 * self.accuracy / self.floor:.2g}: the rotor swings up to {fastest:.3g} rad/s, and its "
                 f"mean is known to {self.accuracy:.2g} rad/s",
-            )  # fmt: skip
+            )
         self._rows = functions([c.expression for c in self.constraints]) if self.constraints else None
         self._excess = np.full(figures["mean_speed"].size, -1.0)
         if self._rows is not None:

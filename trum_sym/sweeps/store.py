@@ -114,15 +114,26 @@ def _create(store: LocalStore | MemoryStore, plan: Plan) -> zarr.Group:
     for axis in plan.grid.axes:
         for name, values in axis.values.items():
             group.create_array(
-                name, data=values, chunks=(axis.size,), compressors=codecs, fill_value=np.nan,
-                dimension_names=[axis.name], attributes=plan.about(name),
-            )  # fmt: skip
+                name,
+                data=values,
+                chunks=(axis.size,),
+                compressors=codecs,
+                fill_value=np.nan,
+                dimension_names=[axis.name],
+                attributes=plan.about(name),
+            )
     for name in (*plan.settings.outputs, "status"):
         kind, absent = {"status": (np.uint8, _ABSENT), "converged": (np.bool_, False)}.get(name, (np.float64, np.nan))
         group.create_array(
-            name, shape=plan.grid.shape, chunks=plan.chunk, dtype=kind, fill_value=absent, compressors=codecs,
-            dimension_names=dimensions, attributes=plan.about(name),
-        )  # fmt: skip
+            name,
+            shape=plan.grid.shape,
+            chunks=plan.chunk,
+            dtype=kind,
+            fill_value=absent,
+            compressors=codecs,
+            dimension_names=dimensions,
+            attributes=plan.about(name),
+        )
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ZarrUserWarning)  # its form is not settled, but xarray looks for it
         zarr.consolidate_metadata(store)

@@ -15,7 +15,9 @@ import numpy as np
 import numpy.typing as npt
 
 from trum_sym.errors import MissingExtraError, ParameterError
-from trum_sym.inputs.checks import Array, Domain, number
+from trum_sym.inputs.checks import Array, number
+from trum_sym.inputs.domain import Domain
+from trum_sym.output.json_text import finite
 
 __all__ = ["CONFIDENCE", "LEVELS", "Estimate", "Indices", "Propagation", "Spread", "check_design", "propagate", "share"]
 
@@ -40,7 +42,8 @@ class Estimate(NamedTuple):
 
     def as_dict(self) -> dict[str, float | None]:
         """By name; null where the samples do not give a number."""
-        return {name: x if np.isfinite(x) else None for name, x in self._asdict().items()}
+        known: dict[str, float | None] = finite(self._asdict())
+        return known
 
 
 @dataclass(frozen=True)
