@@ -339,7 +339,8 @@ def test_console_reads_units_and_comments(capsys, csv_file):
         for text, name in (
             (LAW, "a.csv"),
             (
-                "\ufeff# a comment\n\namplitude [m] , prepressure [kN]\n8.3e-6,0.1\n7.3e-6,0.12\n6.6e-6,0.14\n6e-6,0.16\n",
+                "\ufeff# a comment\n\namplitude [m] , prepressure [kN]\n"
+                "8.3e-6,0.1\n7.3e-6,0.12\n6.6e-6,0.14\n6e-6,0.16\n",
                 "b.csv",
             ),
         )

@@ -10,8 +10,6 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
-    from trum_sym.inputs.checks import Array
-
 __all__ = ["Domain", "Spec"]
 
 
@@ -36,7 +34,7 @@ class Domain:
         where = " " + " and ".join(bounds) if bounds else ""
         return f"{kind}{where}" + (f" in {unit}" if unit != "1" else "")
 
-    def contains(self, values: Array) -> npt.NDArray[np.bool_]:
+    def contains(self, values: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]:
         """Element by element: is the value finite and inside?"""
         import numpy as np
 

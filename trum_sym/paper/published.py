@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
 import numpy as np
 
 __all__ = ["BOX", "ENCODER", "TABLE_2", "TABLE_5"]
 
-BOX: dict[Literal["frequency_difference", "prepressure"], tuple[float, float]] = {
+BOX: dict[str, tuple[float, float]] = {
     "prepressure": (160.0, 210.0),
     "frequency_difference": (2800.0, 3300.0),
 }
