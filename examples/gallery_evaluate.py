@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 import trum_sym as ts
-from trum_sym import plots as figures
+from trum_sym import plots
 from trum_sym.inputs.units import ARCSEC
 
 
@@ -25,7 +25,7 @@ def main(folder: Path | None = None) -> None:
     print(f"mean speed  {point.mean_speed / ARCSEC:10.0f} arcsec/s")
     print(f"stall       {point.stall_torque:10.4f} N m")
     if folder is not None:
-        figures.save(figures.phase_responses(motor, drive), folder / "phases.svg")
+        plots.save(plots.phase_responses(motor, drive), folder / "phases.svg")
 
 
 if __name__ == "__main__":

@@ -234,6 +234,16 @@ def wrong(record):
     return ""
 
 
+def report_solved(solved):
+    if not solved:
+        return
+    ratio = np.array([record["objective"] / record["map"] - 1 for record in solved])
+    print(f"  objective over the map's: median {np.median(ratio):+.1e}, worst {ratio.max():+.1e}")
+    print(f"  largest violation {max(record['violation'] for record in solved):.1e}")
+    times = np.array([record["seconds"] for record in solved])
+    print(f"  seconds: median {np.median(times):.2f}, 95 % {np.quantile(times, 0.95):.2f}, most {times.max():.2f}")
+
+
 def report(file):
     found = [json.loads(line) for line in file.read_text().splitlines()]
     for side in sorted({record["side"] for record in found}):
@@ -246,15 +256,7 @@ def report(file):
         print(f"  feasible targets: {right} of {len(feasible)} right")
         right = len(unreachable) - sum(record["kind"] == "unreachable" for record, _ in bad)
         print(f"  unreachable targets: {right} of {len(unreachable)} right")
-        solved = [record for record in feasible if record["status"] == "solved"]
-        if solved:
-            ratio = np.array([record["objective"] / record["map"] - 1 for record in solved])
-            print(f"  objective over the map's: median {np.median(ratio):+.1e}, worst {ratio.max():+.1e}")
-            print(f"  largest violation {max(record['violation'] for record in solved):.1e}")
-            times = np.array([record["seconds"] for record in solved])
-            print(
-                f"  seconds: median {np.median(times):.2f}, 95 % {np.quantile(times, 0.95):.2f}, most {times.max():.2f}"
-            )
+        report_solved([record for record in feasible if record["status"] == "solved"])
         for record, why in bad:
             print(f"  seed {record['seed']}, target {record['target']:.10g}: {why}")
 

@@ -12,7 +12,7 @@ import trum_sym as ts
 from studies import slopes as slopes_study
 from trum_sym.model.kernels import call
 from trum_sym.model.operating_point import prepare
-from trum_sym.model.sensitivities import FIGURES, PARAMETERS, orbit_with_slopes
+from trum_sym.model.sensitivities import DIFFERENTIATED, PARAMETERS, orbit_with_slopes
 
 # relative steps of the differences
 STEPS = {
@@ -43,12 +43,12 @@ def test_derivatives_are_those_of_evaluate(trum60, start, contact):
     options = {"contact": contact, "tolerance": 1e-9}
     point = ts.evaluate(trum60, drive, **options)
     found = ts.sensitivities(trum60, drive, **options)
-    assert tuple(found) == FIGURES
+    assert tuple(found) == DIFFERENTIATED
     for name in PARAMETERS:
         step = STEPS[name]
         up, down = (ts.evaluate(*changed(trum60, drive, point, name, 1 + e), **options) for e in (step, -step))
         base = getattr(drive, name, None) or getattr(point, name, None) or trum60.friction_coefficient.value
-        for figure in FIGURES:
+        for figure in DIFFERENTIATED:
             difference = (getattr(up, figure) - getattr(down, figure)) / (2 * step * base)
             # differences see the orbit's own tolerance
             scale = abs(getattr(point, figure) / base) * (1e-3 if figure == "contact_fraction" else 2e-4)
@@ -78,7 +78,7 @@ def test_derivatives_broadcast_and_are_nan_without_an_orbit(trum60):
     drive = ts.Drive(prepressure=np.array([160.0, 180.0, 200.0]), load_torque=np.array([[0.1], [5.0]]))
     found = ts.sensitivities(trum60, drive)
     single = ts.sensitivities(trum60, ts.Drive(prepressure=180.0, load_torque=0.1))
-    for figure in FIGURES:
+    for figure in DIFFERENTIATED:
         for name in PARAMETERS:
             assert found[figure][name].shape == (2, 3)
             assert found[figure][name][0, 1] == single[figure][name]

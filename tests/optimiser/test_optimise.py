@@ -269,10 +269,10 @@ def test_slopes_of_every_figure_are_its_differences(trum60):
     box = Box(("prepressure", "frequency_difference", "switching_phase"), np.zeros(3), np.ones(3))
     model = Model(trum60, DRIVE, LEVELS, box, frozenset(names))
     places = np.array([[180.0, 3000.0, 0.3], [166.0, 3170.0, 2.0]])
-    _, slopes = model.figures_with_slopes(places, 1e-9)
+    _, slopes = model.results_with_slopes(places, 1e-9)
     for k, step in enumerate((0.05, 0.5, 1e-3)):
         shift = step * np.eye(3)[k]
-        up, down = model.figures(places + shift, 1e-9), model.figures(places - shift, 1e-9)
+        up, down = model.results(places + shift, 1e-9), model.results(places - shift, 1e-9)
         for name in names:
             difference = (up[name] - down[name]) / (2 * step)
             size = np.abs(up[name]) * 1e-5 / step * (0.05 if k < 2 else 1e-3)

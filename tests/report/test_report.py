@@ -18,7 +18,7 @@ from trum_sym import report
 from trum_sym.console import main
 from trum_sym.paper.published import TABLE_2
 from trum_sym.paper.tables import TABLE_1, TABLE_4, tables
-from trum_sym.quantities import OUTPUTS
+from trum_sym.quantities import QUANTITIES
 from trum_sym.report import output
 from trum_sym.report.catalogue import PICTURES
 
@@ -260,5 +260,5 @@ def test_its_sliders_give_the_figures_of_the_package(browser, folder):
         browser.find_element(By.CSS_SELECTOR, "[data-action=reset]").click()
         enter(browser, settings)
         expected, every = evaluated(settings), numbers(browser, "trumMotor.figures()")
-        for name in OUTPUTS:
+        for name in QUANTITIES:
             assert every[name] == pytest.approx(expected[name], rel=1e-9), name

@@ -158,7 +158,7 @@ class Folded:
         def at(share):
             return np.clip(-1.5 + 3.0 * share, -1.5, 1.5)
 
-    def figures(self, points, _):
+    def results(self, points, _):
         x = points[:, 0]
         speed = x**3 - x
         swing = np.full(x.size, 2.0)
@@ -170,14 +170,14 @@ class Folded:
             "drive_frequency": 4e4 + x,
         }
 
-    def figures_with_slopes(self, points, tolerance):
-        return self.figures(points, tolerance), {"mean_speed": 3 * points**2 - 1}
+    def results_with_slopes(self, points, tolerance):
+        return self.results(points, tolerance), {"mean_speed": 3 * points**2 - 1}
 
 
 def test_a_fold_makes_a_jump_and_no_more_than_one():
     model = Folded()
     share = np.linspace(0, 1, 61)[:, np.newaxis]
-    known = Chart(share, (61,), model.figures(model.box.at(share), 0))
+    known = Chart(share, (61,), model.results(model.box.at(share), 0))
     speeds = np.linspace(-1.5, 1.5, 31)
     builder = Builder(model, known, (), speeds, 0.1, 0.01, lambda _: None)
     segments = builder.build()

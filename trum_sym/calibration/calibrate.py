@@ -21,9 +21,9 @@ from trum_sym.inputs.measurements import Measurements, from_columns, read_measur
 from trum_sym.inputs.motor import SPECS, Motor, Parameter, spec
 from trum_sym.inputs.motor_file import load_motor
 from trum_sym.model.levels import LevelChoice, Levels
-from trum_sym.quantities import OUTPUTS
+from trum_sym.quantities import QUANTITIES
 
-__all__ = ["ERRORS", "Calibration", "Estimate", "calibrate"]
+__all__ = ["ERRORS", "Calibration", "FittedParameter", "calibrate"]
 
 ERRORS = ("absolute", "relative")
 _USUAL = {  # what is fitted if nothing else is asked for, by what was measured
@@ -38,7 +38,7 @@ _LAW = ("amplitude_factor", "amplitude_exponent")
 
 
 @dataclass(frozen=True)
-class Estimate:
+class FittedParameter:
     """One fitted parameter, in SI.
 
     Attributes
@@ -77,7 +77,7 @@ class Calibration:
         In words; for an unidentifiable fit, which combination stays open.
     motor : Motor
         With the fitted values in place; the motor as it came if the status is not ``"solved"``.
-    estimates : tuple of Estimate
+    estimates : tuple of FittedParameter
     covariance, correlation : (k, k) array
         Of the estimates in their order.
     residuals, separation
@@ -93,7 +93,7 @@ class Calibration:
     status: str
     message: str
     motor: Motor
-    estimates: tuple[Estimate, ...]
+    estimates: tuple[FittedParameter, ...]
     covariance: Array
     correlation: Array
     residuals: Residuals
@@ -102,7 +102,7 @@ class Calibration:
     explained: float
     iterations: int
 
-    def __getitem__(self, name: str) -> Estimate:
+    def __getitem__(self, name: str) -> FittedParameter:
         """The estimate of a parameter."""
         for estimate in self.estimates:
             if estimate.name == name:
@@ -270,7 +270,7 @@ def _fitted(
     if not np.isfinite(found.separation.half_width):  # what rounding makes of it is no error
         error[[model.names.index(name) for name in names]] = np.inf
     estimates = tuple(
-        Estimate(
+        FittedParameter(
             name,
             model.units[k],
             float(value),
@@ -326,10 +326,10 @@ def _residual_unit(data: Measurements, model: Model, errors: str) -> str:
     if errors == "relative" or model.uncertainty is not None:
         return "1"
     (name,) = data.observed
-    return OUTPUTS[name].unit if name in OUTPUTS else model.units[-1]
+    return QUANTITIES[name].unit if name in QUANTITIES else model.units[-1]
 
 
-def _with_estimates(motor: Motor, estimates: tuple[Estimate, ...], data: Measurements) -> Motor:
+def _with_estimates(motor: Motor, estimates: tuple[FittedParameter, ...], data: Measurements) -> Motor:
     """The motor with the fitted values; eq. 8 carries the range on which it was fitted."""
     changed = {}
     for e in estimates:

@@ -17,7 +17,7 @@ from trum_sym.inputs.motor import SPECS, Motor, spec
 from trum_sym.inputs.units import parse_unit
 from trum_sym.model.levels import Levels
 from trum_sym.model.operating_point import evaluate
-from trum_sym.model.sensitivities import FIGURES, sensitivities
+from trum_sym.model.sensitivities import DIFFERENTIATED, sensitivities
 from trum_sym.model.stator import solve_stator
 
 __all__ = ["DecayModel", "Model", "PointModel"]
@@ -95,7 +95,9 @@ class PointModel:
             )
 
     def _is_exact(self, name: str) -> bool:
-        of_rotor = set(self._observed) <= set(FIGURES) - ({"speed_volatility"} if self._sampling_period else set())
+        of_rotor = set(self._observed) <= set(DIFFERENTIATED) - (
+            {"speed_volatility"} if self._sampling_period else set()
+        )
         return name in _ROTOR_SCALES and of_rotor
 
     def _figures(self, motor: Motor, drive: Drive) -> dict[str, ArrayLike]:

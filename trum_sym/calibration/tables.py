@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from trum_sym.calibration.calibrate import Calibration, Estimate
+from trum_sym.calibration.calibrate import Calibration, FittedParameter
 from trum_sym.inputs.motor import Motor
 from trum_sym.output.json_text import json_text
 
@@ -52,7 +52,7 @@ def calibration_json(found: Calibration) -> str:
     return json_text(record)
 
 
-def _estimate(e: Estimate) -> dict[str, object]:
+def _estimate(e: FittedParameter) -> dict[str, object]:
     known = math.isfinite(e.standard_error)
     return {
         "value": e.value if known else None,

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from trum_sym.inputs.motor import Motor
 
 __all__ = [
-    "Quantity",
+    "QuantityType",
     "choice_option",
     "chosen_drive",
     "chosen_levels",
@@ -31,7 +31,7 @@ __all__ = [
 ]
 
 
-class Quantity(click.ParamType):  # type: ignore[type-arg, unused-ignore]
+class QuantityType(click.ParamType):  # type: ignore[type-arg, unused-ignore]
     """A number, bare in its SI unit or with a unit that converts to it."""
 
     def __init__(self, unit: str) -> None:
@@ -50,7 +50,7 @@ class Quantity(click.ParamType):  # type: ignore[type-arg, unused-ignore]
 def number_option(name: str, unit: str, default: float | None, text: str, metavar: str) -> Callable[..., Any]:
     """An option that takes a quantity."""
     shown = False if default is None else f"{default:g}"
-    return click.option(name, type=Quantity(unit), default=default, show_default=shown, help=text, metavar=metavar)
+    return click.option(name, type=QuantityType(unit), default=default, show_default=shown, help=text, metavar=metavar)
 
 
 def choice_option(name: str, words: tuple[str, ...], text: str) -> Callable[..., Any]:

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from trum_sym.console.options import Quantity, chosen_levels, chosen_motor, number_option, point_options
+from trum_sym.console.options import QuantityType, chosen_levels, chosen_motor, number_option, point_options
 
 if TYPE_CHECKING:
     from trum_sym.sweeps.plan import Plan
-    from trum_sym.sweeps.run import Estimate, Summary
+    from trum_sym.sweeps.run import Summary, Workload
 
 __all__ = ["sweep"]
 
@@ -109,7 +109,7 @@ def _summary(plan: Plan, summary: Summary) -> str:
     return text
 
 
-def _estimate(found: Estimate, out: Path | None) -> str:
+def _estimate(found: Workload, out: Path | None) -> str:
     from trum_sym.output.progress import duration
 
     plan, shape = found.plan, " x ".join(f"{axis.name} {axis.size}" for axis in found.plan.grid.axes)
@@ -132,6 +132,6 @@ _RANGED = []
 for _option in sweep.params:  # the options of a point, but with ranges
     if _option.name in ("chunk", "motor"):
         continue
-    if isinstance(_option.type, Quantity) or _option.name == "phase_lead":
+    if isinstance(_option.type, QuantityType) or _option.name == "phase_lead":
         _option.type = Range()
         _RANGED.append(str(_option.name))

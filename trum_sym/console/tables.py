@@ -12,7 +12,7 @@ from trum_sym.inputs.motor import Motor, Published
 from trum_sym.inputs.units import parse_unit
 from trum_sym.model.operating_point import OperatingPoint
 from trum_sym.output.json_text import json_text
-from trum_sym.quantities import OUTPUTS
+from trum_sym.quantities import QUANTITIES
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -70,7 +70,7 @@ def as_table(motor: Motor, drive: Drive, point: OperatingPoint, levels: Mapping[
 
     published = _published(motor, drive)
     rows = []
-    for name, (label, unit, shown) in OUTPUTS.items():
+    for name, (label, unit, shown) in QUANTITIES.items():
         value, entry = getattr(point, name), published.get(name)
         ours = f"{_convert(value, unit, shown):.6g}" if np.isfinite(value) else "-"
         paper = difference = source = ""

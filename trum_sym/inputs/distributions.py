@@ -115,12 +115,21 @@ def checked(name: str, distribution: Distribution, wanted: Spec) -> Distribution
             )
     if not given.low < given.high:
         raise _wrong(name, f"{given.kind} from {given.low:g} to {given.high:g}", "low < high", unit)
-    if given.kind in ("uniform", "triangular"):
-        if not (math.isfinite(given.low) and math.isfinite(given.high)):
-            raise _wrong(name, f"{given.kind} from {given.low:g} to {given.high:g}", "finite low and high", unit)
-        if given.kind == "triangular" and not (_real(given.mode) and given.low <= given.mode <= given.high):  # type: ignore[operator]
-            raise _wrong(name, f"mode = {given.mode!r}", "low <= mode <= high", unit)
-        return given
+    return _checked_bounded(name, given, unit) if given.kind in ("uniform", "triangular") else _cut(name, given, wanted)
+
+
+def _checked_bounded(name: str, given: Distribution, unit: str) -> Distribution:
+    """A uniform or triangular distribution, as it was given."""
+    if not (math.isfinite(given.low) and math.isfinite(given.high)):
+        raise _wrong(name, f"{given.kind} from {given.low:g} to {given.high:g}", "finite low and high", unit)
+    if given.kind == "triangular" and not (_real(given.mode) and given.low <= given.mode <= given.high):  # type: ignore[operator]
+        raise _wrong(name, f"mode = {given.mode!r}", "low <= mode <= high", unit)
+    return given
+
+
+def _cut(name: str, given: Distribution, wanted: Spec) -> Distribution:
+    """A normal or lognormal distribution, cut at the parameter's domain."""
+    domain, unit = wanted.domain, wanted.unit
     mean, deviation = given.mean, given.standard_deviation
     if not _real(deviation) or not 0 < deviation < math.inf:  # type: ignore[operator]
         raise _wrong(name, f"standard_deviation = {deviation!r}", "a finite number > 0", unit)

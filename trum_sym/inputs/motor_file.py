@@ -15,7 +15,7 @@ from trum_sym.inputs.domain import Domain, Spec
 from trum_sym.inputs.drive import DRIVE_DOMAINS
 from trum_sym.inputs.motor import SPECS, Motor, Parameter, Published, spec
 from trum_sym.inputs.units import Unit, parse_unit
-from trum_sym.quantities import OUTPUTS
+from trum_sym.quantities import QUANTITIES
 
 __all__ = ["load_motor", "motor_text"]
 
@@ -152,9 +152,9 @@ def _read_published(entry: object) -> Published:
     for key in ("output", "unit", "source"):
         if not isinstance(entry[key], str):
             raise ParameterError(f"published.{key}", entry[key], "text")
-    if entry["output"] not in OUTPUTS:
-        raise ParameterError("published.output", entry["output"], f"one of {', '.join(OUTPUTS)}")
-    unit = _unit("published.unit", entry["unit"], OUTPUTS[entry["output"]].unit)
+    if entry["output"] not in QUANTITIES:
+        raise ParameterError("published.output", entry["output"], f"one of {', '.join(QUANTITIES)}")
+    unit = _unit("published.unit", entry["unit"], QUANTITIES[entry["output"]].unit)
     number("published.value", _in_si("published.value", entry["value"], unit, entry["unit"]), Domain(), entry["unit"])
     for name, value in entry["drive"].items():
         if name not in DRIVE_DOMAINS:

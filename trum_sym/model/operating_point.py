@@ -19,7 +19,7 @@ from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.model.rotor import Orbit, encoder_deviation, history, orbit_values, solve_orbit
 from trum_sym.model.stator import Stator, solve_stator
 
-__all__ = ["FIGURES", "OF_CYCLE", "OF_ORBIT", "Case", "OperatingPoint", "evaluate", "figures", "prepare"]
+__all__ = ["OF_CYCLE", "OF_ORBIT", "RESULTS", "Case", "OperatingPoint", "evaluate", "point_of", "prepare", "results"]
 
 OF_CYCLE = frozenset(("q_ratio", "q_square_ratio", "q_average", "q_volatility"))
 """The figures that take the sums over a cycle."""
@@ -102,7 +102,7 @@ class OperatingPoint:
         return {field.name: getattr(self, field.name) for field in fields(self)}
 
 
-FIGURES = tuple(field.name for field in fields(OperatingPoint) if field.name not in ("motor", "start", "contact"))
+RESULTS = tuple(field.name for field in fields(OperatingPoint) if field.name not in ("motor", "start", "contact"))
 """The figures of an operating point that depend on its numbers, in order."""
 
 
@@ -194,18 +194,18 @@ def prepare(
 
 def point_of(case: Case, progress: bool = False) -> OperatingPoint:
     """All figures of a case from :func:`prepare`."""
-    found = figures(case, FIGURES, progress)
+    found = results(case, RESULTS, progress)
     return OperatingPoint(motor=case.motor.name, start=case.drive.start, contact=case.levels.contact, **found)
 
 
-def figures(case: Case, wanted: Collection[str], progress: bool = False) -> dict[str, Any]:
+def results(case: Case, wanted: Collection[str], progress: bool = False) -> dict[str, Any]:
     """Some figures of a case by name, each of the case's shape; what none of them needs is not computed.
 
     Parameters
     ----------
     case : Case
         From :func:`prepare`.
-    wanted : names of :data:`FIGURES`, or ``"runaway"``
+    wanted : names of :data:`RESULTS`, or ``"runaway"``
         The last says where no speed balances the load.
     progress : bool
         As for :func:`evaluate`.

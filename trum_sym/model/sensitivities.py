@@ -20,7 +20,7 @@ from trum_sym.model.operating_point import Case, prepare
 from trum_sym.model.rotor import Orbit, as_orbit
 from trum_sym.model.stator import solve_stator
 
-__all__ = ["FIGURES", "PARAMETERS", "orbit_with_slopes", "sensitivities"]
+__all__ = ["DIFFERENTIATED", "PARAMETERS", "orbit_with_slopes", "sensitivities"]
 
 PARAMETERS = (
     "prepressure",
@@ -30,7 +30,7 @@ PARAMETERS = (
     "amplitude",
     "resonance_frequency",
 )
-FIGURES = ("mean_speed", "min_speed", "max_speed", "speed_volatility", "contact_fraction", "stall_torque")
+DIFFERENTIATED = ("mean_speed", "min_speed", "max_speed", "speed_volatility", "contact_fraction", "stall_torque")
 
 _TURN = 2 * np.pi
 _STATES = ("a_A", "b_A", "a_B", "b_B")
@@ -61,11 +61,12 @@ def sensitivities(
     Returns
     -------
     dict
-        ``[figure][parameter]`` for all of :data:`FIGURES` and :data:`PARAMETERS`, in SI units (Hz for frequencies):
-        what ``evaluate``'s figure changes by, per change of the parameter.  Amplitude and resonance follow prepressure
-        and frequency difference as they do in ``evaluate``; under ``amplitude`` and ``resonance_frequency`` stands
-        what each does alone.  ``speed_volatility`` is the continuous one.  NaN where no speed balances the load.
-        Where an extreme changes hands the slope is that of the extreme which is seen, one of the two sides'.
+        ``[figure][parameter]`` for all of :data:`DIFFERENTIATED` and :data:`PARAMETERS`, in SI units (frequencies
+        in Hz): what ``evaluate``'s figure changes by, per change of the parameter.  Amplitude and resonance follow
+        prepressure and frequency difference as they do in ``evaluate``; under ``amplitude`` and
+        ``resonance_frequency`` stands what each does alone.  ``speed_volatility`` is the continuous one.  NaN where
+        no speed balances the load.  Where an extreme changes hands the slope is that of the extreme which is seen,
+        one of the two sides'.
 
     Raises
     ------
@@ -75,18 +76,18 @@ def sensitivities(
         If the forced amplitude and the resonance do not settle.
     """
     _, found = orbit_with_slopes(prepare(motor, drive, Levels(**levels), tolerance))
-    return {name: found[name] for name in FIGURES}
+    return {name: found[name] for name in DIFFERENTIATED}
 
 
 def orbit_with_slopes(case: Case) -> tuple[Orbit, dict[str, dict[str, Array]]]:
     """The orbit of a case that :func:`trum_sym.model.operating_point.prepare` has checked, and its figures' slopes.
 
-    Beside those of :data:`FIGURES` stands ``speed_deviation``, the speed's standard deviation in rad/s.
+    Beside those of :data:`DIFFERENTIATED` stands ``speed_deviation``, the speed's standard deviation in rad/s.
     """
     raw = call_in_blocks(
         "rotor_slopes",
         {**case.arguments, **_states(case)},
-        inner={"slopes": (len(FIGURES), len(PARAMETERS))},
+        inner={"slopes": (len(DIFFERENTIATED), len(PARAMETERS))},
         smallest=1,  # steps with slopes are long: a core each
     )
     slopes = raw["slopes"]
@@ -151,7 +152,7 @@ def _figures(case: Case, orbit: Mapping[str, ArrayLike], slopes: Mapping[str, Ar
     """From rim speeds, variance and friction fraction to the rotor's figures."""
     radius, force, friction = (np.asarray(case.symbols[name]) for name in ("r_c", "F_c", "mu"))
     mean, held = np.asarray(orbit["mean"]), np.asarray(orbit["held"])
-    found: dict[str, dict[str, Array]] = {name: {} for name in (*FIGURES, "speed_deviation")}
+    found: dict[str, dict[str, Array]] = {name: {} for name in (*DIFFERENTIATED, "speed_deviation")}
     with np.errstate(all="ignore"):
         deviation = np.sqrt(orbit["variance"])
         for parameter, slope in slopes.items():

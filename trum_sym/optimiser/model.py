@@ -116,13 +116,13 @@ class Model:
         varied: dict[str, Any] = {name: points[..., k] for k, name in enumerate(self.box.names)}
         return replace(self.drive, **varied)
 
-    def figures(self, points: Array, tolerance: float) -> dict[str, Array]:
+    def results(self, points: Array, tolerance: float) -> dict[str, Array]:
         """The wanted figures, mean speed and deviation always among them; NaN where no speed balances the load."""
         case = self._case(points, tolerance)
         self.evaluations += len(points)
         return {**self._closed(case), **_speeds(solve_orbit(case.arguments, case.symbols))}
 
-    def figures_with_slopes(self, points: Array, tolerance: float) -> tuple[dict[str, Array], dict[str, Array]]:
+    def results_with_slopes(self, points: Array, tolerance: float) -> tuple[dict[str, Array], dict[str, Array]]:
         """The same and their derivatives by the box's variables, each (n, d)."""
         case = self._case(points, tolerance)
         self.evaluations += len(points)
@@ -180,7 +180,7 @@ class Model:
             moved = np.repeat(points[np.newaxis], 6, axis=0)
             moved[:, :, k] += shifts[:, np.newaxis] * step
             if orbits:
-                flat = self.figures(moved.reshape(-1, points.shape[1]), _FINEST)
+                flat = self.results(moved.reshape(-1, points.shape[1]), _FINEST)
                 found = {name: value.reshape(6, -1) for name, value in flat.items()}
             else:
                 found = self._closed(self._case(moved, _FINEST))

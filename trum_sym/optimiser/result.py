@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from trum_sym.inputs.units import parse_unit
 from trum_sym.output.json_text import finite, json_text
-from trum_sym.quantities import OUTPUTS
+from trum_sym.quantities import QUANTITIES
 
 if TYPE_CHECKING:
     from trum_sym.optimiser.solve import Problem
@@ -115,7 +115,7 @@ def as_json_text(optimum: Optimum) -> str:
 
 
 def _shown(name: str, value: float) -> tuple[str, str, str]:
-    label, unit, shown = OUTPUTS[name]
+    label, unit, shown = QUANTITIES[name]
     return label, f"{parse_unit(unit).to_si(value) / parse_unit(shown).to_si(1.0):.8g}", "" if shown == "1" else shown
 
 

@@ -140,22 +140,40 @@ def box_of(drive: Drive, bounds: Mapping[str, Bound] | None) -> tuple[Box, list[
     for name, value in given.items():
         if name not in (*_VARIABLES, *_PULSES):
             raise ParameterError("bounds", name, f"one of {', '.join((*_VARIABLES, *_PULSES))}")
-        domain, unit = DRIVE_DOMAINS[name]
-        if not isinstance(value, tuple | list):
-            held[name] = float(number(name, one_number(name, value, unit), domain, unit))
-            continue
-        if len(value) != 2:
-            raise ParameterError(f"bounds of {name}", value, "two numbers, low and high")
-        low, high = (
-            float(number(f"bounds of {name}", one_number(f"bounds of {name}", end, unit), domain, unit))
-            for end in value
-        )
-        if low > high or (low == high and name in _VARIABLES):
-            empty = "one number holds it there" if low == high else "these are reversed"
-            raise ParameterError(f"bounds of {name}", f"{low:g} to {high:g}", f"low < high in {unit} ({empty})")
-        ranges[name] = (low, high)
+        if isinstance(value, tuple | list):
+            ranges[name] = _range(name, value)
+        else:
+            held[name] = _checked(name, name, value)
     continuous: dict[str, Any] = {name: value for name, value in held.items() if name not in _PULSES}
     drive = replace(drive, **continuous)
+    names = tuple(name for name in _VARIABLES if name in ranges)
+    if not names:
+        raise ParameterError("bounds", "every variable held", "a range for prepressure or frequency_difference")
+    ends = np.array([ranges[name] for name in names])
+    return Box(names, ends[:, 0], ends[:, 1]), _pulse_counts(drive, ranges, held), drive
+
+
+def _checked(label: str, name: str, value: object) -> float:
+    domain, unit = DRIVE_DOMAINS[name]
+    return float(number(label, one_number(label, value, unit), domain, unit))
+
+
+def _range(name: str, value: Sequence[object]) -> tuple[float, float]:
+    """The ends of a variable's range, checked."""
+    label, unit = f"bounds of {name}", DRIVE_DOMAINS[name][1]
+    if len(value) != 2:
+        raise ParameterError(label, value, "two numbers, low and high")
+    low, high = (_checked(label, name, end) for end in value)
+    if low > high or (low == high and name in _VARIABLES):
+        empty = "one number holds it there" if low == high else "these are reversed"
+        raise ParameterError(label, f"{low:g} to {high:g}", f"low < high in {unit} ({empty})")
+    return low, high
+
+
+def _pulse_counts(
+    drive: Drive, ranges: Mapping[str, tuple[float, float]], held: Mapping[str, float]
+) -> list[tuple[int, int]]:
+    """The pairs of periods and on_periods that the bounds allow."""
     axes = []
     for name in _PULSES:
         alone = held.get(name, float(getattr(drive, name)))
@@ -163,14 +181,10 @@ def box_of(drive: Drive, bounds: Mapping[str, Bound] | None) -> tuple[Box, list[
     counts = [range(int(low), int(high) + 1) for low, high in axes]
     pulses = [(m, n) for m in counts[0] for n in counts[1] if m <= 2 * n <= 2 * m]
     if not pulses:
-        of, m = axes[1], axes[0]
+        m, n = axes
         wanted = f"a range with periods/2 to periods in it, with periods {m[0]:g} to {m[1]:g}"
-        raise ParameterError("bounds of on_periods", f"{of[0]:g} to {of[1]:g}", wanted)
-    names = tuple(name for name in _VARIABLES if name in ranges)
-    if not names:
-        raise ParameterError("bounds", "every variable held", "a range for prepressure or frequency_difference")
-    ends = np.array([ranges[name] for name in names])
-    return Box(names, ends[:, 0], ends[:, 1]), pulses, drive
+        raise ParameterError("bounds of on_periods", f"{n[0]:g} to {n[1]:g}", wanted)
+    return pulses
 
 
 def aim_of(

@@ -257,7 +257,7 @@ def _looked(search: _Search, rows: Functions, places: Array) -> list[Visit]:
     if not len(places):
         return []
     model = search.model
-    figures, by = model.figures_with_slopes(model.box.at(places), _DESCENT)
+    figures, by = model.results_with_slopes(model.box.at(places), _DESCENT)
     slopes = rows.slopes(figures, {name: slope * model.box.width for name, slope in by.items()})
     return [Visit(*entry) for entry in zip(places, rows.values(figures), slopes, strict=True)]
 
@@ -318,7 +318,7 @@ def _between(search: _Search, rows: Functions, low: Array, high: Array, value: f
     for _ in range(_STEPS):
         along = np.linspace(0.0, 1.0, 10)[1:-1, np.newaxis]
         places = low + along * (high - low)
-        found = rows.values(model.figures(model.box.at(places), _DESCENT))[:, 0]
+        found = rows.values(model.results(model.box.at(places), _DESCENT))[:, 0]
         below = np.flatnonzero(found <= value)
         above = np.flatnonzero(found > value)
         if below.size + above.size < len(places):  # no orbit in between

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
 
-from trum_sym import plots as figures
+from trum_sym import plots
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
 from trum_sym.paper.cycle import READINGS
@@ -82,7 +82,7 @@ def _section_5() -> Iterator[Picture]:
             "where the quarter begins. Blue turns clockwise (Q > 0), orange counter-clockwise. The point lies "
             "at k_c x = π/4.",
             f"Four small plots of the surface point's path in the quarters of a beat while {name}.",
-            partial(figures.ellipse, region=region),
+            partial(plots.ellipse, region=region),
         )
         yield Picture(
             f"figure-{first + 1}",
@@ -90,7 +90,7 @@ def _section_5() -> Iterator[Picture]:
             f"Vertical displacement, {name}",
             f"In {settings} The orange envelope is the length of the rotating vectors' sum (eq. 12), in closed form.",
             f"Vertical displacement of a surface point over the region {name}, oscillating inside a beating envelope.",
-            partial(figures.vertical_displacement, region=region),
+            partial(plots.vertical_displacement, region=region),
         )
         yield Picture(
             f"figure-{first + 2}",
@@ -99,7 +99,7 @@ def _section_5() -> Iterator[Picture]:
             f"In {settings} Above Q, the exact determinant of eq. A5; below, the crest's tangential velocity, whose "
             "sign is Q's (eq. 42).",
             f"Determinant Q and tangential velocity of the crest over the region {name}, with the signs of Q shaded.",
-            partial(figures.determinant, region=region),
+            partial(plots.determinant, region=region),
         )
 
 
@@ -111,7 +111,7 @@ PICTURES: tuple[Picture, ...] = (
         "Table 3's drive: 20 periods, 14 on, in its periodic state. A phase that is switched off rings down at the "
         "resonance; one that is switched on beats before it settles. Dashed: envelopes.",
         "Displacements of phase A and phase B over a drive cycle in three shaded regions: A off, B off, both on.",
-        figures.phase_responses,
+        plots.phase_responses,
     ),
     Picture(
         "figure-6",
@@ -120,7 +120,7 @@ PICTURES: tuple[Picture, ...] = (
         "One wavelength in the middle of each region, at Table 3's drive. The velocity is a sine along x; dots mark "
         "the crest, which is the fastest point only when the wave does not grow or shrink.",
         "Three sine curves of the tangential velocity over one wavelength, with dots at the wave's crest.",
-        figures.tangential_velocity,
+        plots.tangential_velocity,
     ),
     *(
         Picture(
@@ -131,7 +131,7 @@ PICTURES: tuple[Picture, ...] = (
             "drives the rotor, orange (−) brakes it, by the sign of the kernel's traction. Each panel says which share "
             "of Table 3's cycle the rotor's orbit spends in the model; both figures together make 100 %.",
             f"Eight panels of surface speed against the angle from the crest, driving and braking zones, rotor {word}.",
-            partial(figures.transfer_models, forward=forward),
+            partial(plots.transfer_models, forward=forward),
         )
         for number, word, forward in ((7, "forward", True), (8, "backward", False))
     ),
@@ -143,7 +143,7 @@ PICTURES: tuple[Picture, ...] = (
         "Two cycles at Table 3's drive on the periodic orbit. v_s is the mean over time (eq. 39), S_k the standard "
         "deviation (eq. 41); sigma_s is their ratio (eq. 40).",
         "Rotor speed over two cycles with its mean as a dashed line and a band of one standard deviation.",
-        figures.instantaneous_speed,
+        plots.instantaneous_speed,
     ),
     Picture(
         "figure-19",
@@ -151,7 +151,7 @@ PICTURES: tuple[Picture, ...] = (
         "Forward and backward parts of the determinant",
         "Table 3's drive. Blue and orange areas are the sums of eqs. 43 and 44; dotted lines separate the regions.",
         "Determinant Q over a cycle with its positive parts shaded blue and its negative parts orange.",
-        figures.forward_and_backward,
+        plots.forward_and_backward,
     ),
     Picture(
         "figure-20",
@@ -160,7 +160,7 @@ PICTURES: tuple[Picture, ...] = (
         "180 N, load 0.3 N m. Left as the motor keeps running, right as if every cycle began from rest with the other "
         "phase leading, which is the reading closest to Table 4.",
         "Rotor speed and determinant over a cycle for six frequency differences, two readings side by side.",
-        figures.cycles,
+        plots.cycles,
     ),
     Picture(
         "figure-21",
@@ -168,7 +168,7 @@ PICTURES: tuple[Picture, ...] = (
         "Trends with the frequency difference",
         f"180 N, load 0.3 N m. {_LEADS} Stars: what Table 4 prints.",
         "Mean speed, Q_aver, volatility and Q_vib against the frequency difference for three starts.",
-        figures.trends,
+        plots.trends,
     ),
     Picture(
         "figure-22",
@@ -176,7 +176,7 @@ PICTURES: tuple[Picture, ...] = (
         "Speed and determinant over a cycle, by prepressure",
         "3000 Hz, load 0.3 N m; left and right as in Figure 20.",
         "Rotor speed and determinant over a cycle for six prepressures, two readings side by side.",
-        partial(figures.cycles, variable="prepressure"),
+        partial(plots.cycles, variable="prepressure"),
     ),
     Picture(
         "figure-23",
@@ -184,7 +184,7 @@ PICTURES: tuple[Picture, ...] = (
         "Trends with the prepressure",
         f"3000 Hz, load 0.3 N m. {_LEADS} Stars: what Table 4 prints.",
         "Mean speed, Q_aver, volatility and Q_vib against the prepressure for three starts.",
-        partial(figures.trends, variable="prepressure"),
+        partial(plots.trends, variable="prepressure"),
     ),
     Picture(
         "figure-25b",
@@ -193,7 +193,7 @@ PICTURES: tuple[Picture, ...] = (
         "Colour: level of the resonance; line: how the friction layer stiffens the stator. The grey line was measured "
         "(prepressure not stated). The paper's own points are not printed as numbers.",
         "Resonance frequency against prepressure for sixteen combinations of levels, with the measured 39703 Hz.",
-        figures.resonance_levels,
+        plots.resonance_levels,
     ),
     Picture(
         "figure-26b",
@@ -202,7 +202,7 @@ PICTURES: tuple[Picture, ...] = (
         "45 kHz until t_off, then free at the measured resonance of 39.703 kHz with Table 1's damping ratio. The "
         "amplitude at 80 V is not printed, so velocity is over its amplitude.",
         "Velocity of phase A, constant amplitude until power-off, then decaying.",
-        figures.power_off,
+        plots.power_off,
     ),
     Picture(
         "figure-27b",
@@ -210,7 +210,7 @@ PICTURES: tuple[Picture, ...] = (
         "Beat after power-off of one of two phases",
         "Both phases at 45 kHz until A is switched off; bands last 1/(f_q − f_n), the paper's 0.188 ms.",
         "Velocity of a surface point: steady until power-off, then a beat that dies away.",
-        figures.beat,
+        plots.beat,
     ),
     Picture(
         "figure-29",
@@ -219,7 +219,7 @@ PICTURES: tuple[Picture, ...] = (
         "Sixty readings of 2 ms at Table 3's drive, for each start. Table 4 prints a mean of 633 arcsec/s and a "
         "volatility of 17.3 %.",
         "Deviation of sixty encoder readings from their mean for three starts.",
-        figures.measured_speed,
+        plots.measured_speed,
     ),
     Picture(
         "figure-30",
@@ -227,7 +227,7 @@ PICTURES: tuple[Picture, ...] = (
         "Trends with the frequency difference, as measured",
         f"As Figure 21, with the volatility that the encoder of 2 ms reads. {_LEADS}",
         "Mean speed, Q_aver, volatility of a 2 ms encoder and Q_vib against the frequency difference.",
-        partial(figures.trends, sampling_period=ENCODER),
+        partial(plots.trends, sampling_period=ENCODER),
     ),
     Picture(
         "figure-31",
@@ -235,7 +235,7 @@ PICTURES: tuple[Picture, ...] = (
         "Trends with the prepressure, as measured",
         f"At 3300 Hz, as the paper's experiment, with the volatility that the encoder of 2 ms reads. {_LEADS}",
         "Mean speed, Q_aver, volatility of a 2 ms encoder and Q_vib against the prepressure at 3300 Hz.",
-        lambda motor: figures.trends(
+        lambda motor: plots.trends(
             motor, Drive(frequency_difference=3300.0), variable="prepressure", sampling_period=ENCODER
         ),
     ),
@@ -245,7 +245,7 @@ PICTURES: tuple[Picture, ...] = (
         "The six points of Table 5",
         f"Prepressure and frequency difference change together. {_LEADS}",
         "Mean speed, Q_aver, volatility and Q_vib at the six numbered points of Table 5.",
-        figures.multivariable,
+        plots.multivariable,
     ),
     Picture(
         "map-periodic",
@@ -254,7 +254,7 @@ PICTURES: tuple[Picture, ...] = (
         "Above the paper's box, below its surroundings with the box outlined; start periodic, lead +1, load 0.3 N m. "
         "The orange line is zero speed, where the volatility has no bound.",
         "Maps of mean speed, volatility and Q_aver over frequency difference and prepressure, periodic start.",
-        figures.maps,
+        plots.maps,
     ),
     Picture(
         "map-rest",
@@ -262,7 +262,7 @@ PICTURES: tuple[Picture, ...] = (
         "The box in the reading closest to Table 4",
         "As above, but every cycle begins from rest and the other phase leads.",
         "Maps of mean speed, volatility and Q_aver over frequency difference and prepressure, start rest, lead −1.",
-        lambda motor: figures.maps(motor, READINGS[-1].of(Drive())),
+        lambda motor: plots.maps(motor, READINGS[-1].of(Drive())),
     ),
     Picture(
         "speed-determinant",
@@ -271,7 +271,7 @@ PICTURES: tuple[Picture, ...] = (
         "Each dot is an operating point at 0.3 N m. The paper concludes that Q_aver and Q_vib follow v_s and sigma_s; "
         "the legend gives the rank correlation in each reading (+1: always; 0: not at all).",
         "Scatter of mean speed against Q_aver and of volatility against Q_vib, over the box and around it.",
-        figures.prediction,
+        plots.prediction,
     ),
     Picture(
         "torque-speed",
@@ -280,7 +280,7 @@ PICTURES: tuple[Picture, ...] = (
         "Up to 98 % of what friction can hold. A dot is the mean torque on the rotor held still: a larger load drives "
         "it back. Dotted: Table 3's load.",
         "Mean speed against load torque for three starts, falling curves, with the stall torque on the axis.",
-        figures.torque_speed,
+        plots.torque_speed,
     ),
     Picture(
         "contact-zone",
@@ -289,7 +289,7 @@ PICTURES: tuple[Picture, ...] = (
         "Above: where the layer presses, and which way its friction pulls (blue forward, red backward), at Table 3's "
         "drive. Below: half-angle over π, 1 where the whole wave touches.",
         "Traction over time and angle from the crest, and the contact's half-angle over time.",
-        figures.contact_zone,
+        plots.contact_zone,
     ),
 )
 

@@ -132,7 +132,7 @@ class Minimax:
         values, slopes = [], []
         box = self.problem.box
         for model in self.models:
-            figures, by = model.figures_with_slopes(box.at(share[np.newaxis]), _SEARCH)
+            figures, by = model.results_with_slopes(box.at(share[np.newaxis]), _SEARCH)
             values.append(self._rows.values(figures)[0])
             slopes.append(self._rows.slopes(figures, {name: slope * box.width for name, slope in by.items()})[0])
         return np.array(values), np.array(slopes)
@@ -218,7 +218,7 @@ class Minimax:
     def _onto(self, share: Array) -> Array:
         """Newton's least steps onto what is violated: the held speed, and constraints in their worst cases."""
         for _ in range(_NEWTON):
-            figures = [m.figures_with_slopes(self.problem.box.at(share[np.newaxis]), TOLERANCE) for m in self.models]
+            figures = [m.results_with_slopes(self.problem.box.at(share[np.newaxis]), TOLERANCE) for m in self.models]
             width = self.problem.box.width
             values = np.array([self._rows.values(f)[0] for f, _ in figures])
             slopes = np.array([self._rows.slopes(f, {n: s * width for n, s in by.items()})[0] for f, by in figures])

@@ -19,7 +19,7 @@ from trum_sym.optimiser.search import one_number
 from trum_sym.output.progress import said
 from trum_sym.studies.posed import Bound, posed
 from trum_sym.studies.speed_table_result import Gap, Segment, SpeedTable
-from trum_sym.studies.table_builder import Builder, Entry
+from trum_sym.studies.table_builder import Builder, TableEntry
 
 __all__ = ["speed_table"]
 
@@ -109,7 +109,7 @@ def speed_table(
     )
 
 
-def _segment(model: Model, entries: list[Entry]) -> Segment:
+def _segment(model: Model, entries: list[TableEntry]) -> Segment:
     points = model.box.at(np.array([entry.share for entry in entries]))
     return Segment(
         speed=np.array([entry.speed for entry in entries]),

@@ -21,7 +21,7 @@ from trum_sym.inputs.points import check_point
 from trum_sym.model.levels import Levels
 from trum_sym.model.operating_point import OF_ORBIT
 from trum_sym.model.stator import warn_outside_fit
-from trum_sym.quantities import OUTPUTS
+from trum_sym.quantities import QUANTITIES
 from trum_sym.sweeps.grid import PARAMETERS, Grid, chunk_shape, read_ranges
 from trum_sym.sweeps.task import STATUS, Settings, Task, identity, sort_out
 
@@ -93,7 +93,7 @@ class Plan:
             return {"long_name": "whether mean and extremes met the tolerance"}
         if any(name in axis.values for axis in self.grid.axes):
             return {"units": PARAMETERS[name][1], "long_name": name.replace("_", " ")}
-        return {"units": OUTPUTS[name].unit, "long_name": OUTPUTS[name].label}
+        return {"units": QUANTITIES[name].unit, "long_name": QUANTITIES[name].label}
 
     def attributes(self) -> dict[str, str | float]:
         """Everything that decides about the result but the swept values: as text and numbers that any file holds."""
@@ -164,7 +164,7 @@ def make_plan(
 
 
 def _outputs(given: Sequence[str] | None, swept: set[str]) -> tuple[str, ...]:
-    known = [name for name in (*OUTPUTS, "converged") if name not in swept]
+    known = [name for name in (*QUANTITIES, "converged") if name not in swept]
     if given is None:
         return tuple(known)
     if isinstance(given, str) or not given:

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from trum_sym.sweeps.store import Store
 
-__all__ = ["Estimate", "Summary", "check_out", "estimate", "run", "sweep"]
+__all__ = ["Summary", "Workload", "check_out", "estimate", "run", "sweep"]
 
 _SMALL = 2**30  # bytes of a result that is held in memory
 _SAMPLE_SECONDS = 2.0
@@ -57,7 +57,7 @@ class Summary:
 
 
 @dataclass(frozen=True)
-class Estimate:
+class Workload:
     """What a sweep would take: seconds for what is missing, at ``rate`` points a second on ``threads`` threads."""
 
     plan: Plan
@@ -245,7 +245,7 @@ def _unfinished(progress: Progress, reason: str) -> str:
     )
 
 
-def estimate(name: str, plan: Plan, target: Path | None, scheduler: str | None, chunk_given: bool) -> Estimate:
+def estimate(name: str, plan: Plan, target: Path | None, scheduler: str | None, chunk_given: bool) -> Workload:
     """Measure a sample of a plan's points, and say what the rest would take; writes nothing.
 
     Raises
@@ -271,4 +271,4 @@ def estimate(name: str, plan: Plan, target: Path | None, scheduler: str | None, 
                 break
             count = int(count * min(8.0, max(2.0, _SAMPLE_SECONDS / max(seconds, 1e-3))))
     sample = threads * min(count, plan.grid.size)
-    return Estimate(plan, left, int(missing.sum()), sample, sample / seconds, threads)
+    return Workload(plan, left, int(missing.sum()), sample, sample / seconds, threads)

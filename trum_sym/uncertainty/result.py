@@ -14,7 +14,7 @@ from trum_sym.inputs.distributions import Distribution
 from trum_sym.inputs.drive import DRIVE_DOMAINS, Drive
 from trum_sym.inputs.motor import SPECS, Motor
 from trum_sym.model.operating_point import OperatingPoint
-from trum_sym.quantities import OUTPUTS
+from trum_sym.quantities import QUANTITIES
 from trum_sym.uncertainty.propagation import Estimate, Propagation, share
 
 if TYPE_CHECKING:
@@ -121,7 +121,7 @@ class Study:
         variables: dict[str, Any] = {
             name: (dims, values, {"units": unit_of(name)}) for name, values in found.points.items()
         }
-        for name, output in OUTPUTS.items():
+        for name, output in QUANTITIES.items():
             # an uncertain amplitude is both, and the same
             variables[name] = (dims, found.values[name], {"units": output.unit, "long_name": output.label})
         variables["converged"] = (dims, self.settled, {"long_name": "the orbit met its tolerance"})

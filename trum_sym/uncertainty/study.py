@@ -19,7 +19,7 @@ from trum_sym.inputs.points import check_point, check_single, numbers_of
 from trum_sym.inputs.units import parse_quantity
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.model.operating_point import evaluate
-from trum_sym.quantities import OUTPUTS
+from trum_sym.quantities import QUANTITIES
 from trum_sym.uncertainty.propagation import check_design, propagate
 from trum_sym.uncertainty.result import BALANCED, MISSED, Study, Target
 
@@ -89,15 +89,15 @@ def _read_target(text: object) -> Target:
         raise ParameterError("target", text, "OUTPUT >= NUMBER or <=, >, <, such as mean_speed >= 600 arcsec/s")
     output, relation, bound = found.groups()
     _check_output("target", output)
-    value = parse_quantity(f"target, {output}", bound, OUTPUTS[output].unit)
+    value = parse_quantity(f"target, {output}", bound, QUANTITIES[output].unit)
     if not np.isfinite(value):
         raise ParameterError(f"target, {output}", bound, "a finite number")
     return Target(" ".join(str(text).split()), output, relation, value)
 
 
 def _check_output(name: str, output: object) -> None:
-    if not isinstance(output, str) or output not in OUTPUTS:
-        raise ParameterError(name, output, f"one of {', '.join(OUTPUTS)}")
+    if not isinstance(output, str) or output not in QUANTITIES:
+        raise ParameterError(name, output, f"one of {', '.join(QUANTITIES)}")
 
 
 def _texts(name: str, given: object) -> tuple[str, ...]:
@@ -167,7 +167,7 @@ def tolerance(
     for output in outputs:
         _check_output("outputs", output)
     if not outputs:
-        raise ParameterError("outputs", "none", f"at least one of {', '.join(OUTPUTS)}")
+        raise ParameterError("outputs", "none", f"at least one of {', '.join(QUANTITIES)}")
     targets = tuple(map(_read_target, _texts("target", target)))
     distributions = _chosen(motor, parameters)
     sampled = {name: checked(name, given, _spec_of(name)) for name, given in distributions.items()}
@@ -185,7 +185,7 @@ def tolerance(
             sampling_period=sampling_period,
             **levels,
         )
-        values: dict[str, ArrayLike] = {name: np.asarray(getattr(found, name)) for name in OUTPUTS}
+        values: dict[str, ArrayLike] = {name: np.asarray(getattr(found, name)) for name in QUANTITIES}
         settled.append(np.asarray(found.converged))
         values[BALANCED] = np.isfinite(values["mean_speed"]).astype(float)
         if targets:

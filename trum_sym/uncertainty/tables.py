@@ -9,7 +9,7 @@ import numpy as np
 
 from trum_sym.inputs.units import parse_unit
 from trum_sym.output.json_text import json_text
-from trum_sym.quantities import OUTPUTS
+from trum_sym.quantities import QUANTITIES
 from trum_sym.uncertainty.propagation import CONFIDENCE, Estimate, Indices
 from trum_sym.uncertainty.result import BALANCED, MISSED, Study, unit_of
 
@@ -30,7 +30,7 @@ def label(output: str) -> str:
 
 def shown(output: str, value: float) -> float:
     """A value in the unit that people read."""
-    return value / parse_unit(OUTPUTS[output].shown).to_si(1.0)
+    return value / parse_unit(QUANTITIES[output].shown).to_si(1.0)
 
 
 def _percent(share: Estimate) -> str:
@@ -82,7 +82,7 @@ def _parameters(study: Study) -> list[str]:
 def _spreads(study: Study) -> list[str]:
     rows = []
     for output in study.outputs:
-        spread, unit = study.propagation.spread(output), OUTPUTS[output].shown
+        spread, unit = study.propagation.spread(output), QUANTITIES[output].shown
         median = spread.quantiles[0.5]
         values = [getattr(study.nominal, output), spread.mean, spread.standard_deviation]
         values += [spread.quantiles[level].value for level in (0.05, 0.5, 0.95)]
@@ -208,7 +208,7 @@ def as_json_text(study: Study) -> str:
 def _output_record(study: Study, output: str) -> dict[str, object]:
     spread, nominal = study.propagation.spread(output), getattr(study.nominal, output)
     return {
-        "unit": OUTPUTS[output].unit,
+        "unit": QUANTITIES[output].unit,
         "nominal": nominal,
         "mean": spread.mean,
         "standard_deviation": spread.standard_deviation,
