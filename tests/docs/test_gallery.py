@@ -9,9 +9,9 @@ import subprocess
 import sys
 from pathlib import Path
 
-import matplotlib.image
 import numpy as np
 import pytest
+from lazily import lazily
 
 import trum_sym as ts
 
@@ -23,6 +23,7 @@ PICTURES = {
     "optimize": "optimum",
     "own_motor": "own-motor",
 }
+image = lazily("matplotlib.image")
 NUMBER = re.compile(r"-?\d+\.?\d*(?:e-?\d+)?")
 
 
@@ -43,7 +44,7 @@ def drawn(tmp_path_factory):
 def images(text):
     """The text without its embedded images, and these."""
     found = re.findall(r"data:image/png;base64,([^\"]+)", text)
-    pixels = [matplotlib.image.imread(io.BytesIO(base64.b64decode(image))) for image in found]
+    pixels = [image.imread(io.BytesIO(base64.b64decode(data))) for data in found]
     drawing = re.sub(r"data:image/png;base64,[^\"]+", "", text)
     return re.sub(r'(id="|#)[^")]+', r"\1", drawing), pixels  # ids are hashes of what they name
 
@@ -78,9 +79,9 @@ def test_a_stale_picture_is_noticed(drawn):
     assert differ(text.replace("w_A (µm)", "w_A (mm)"), text) == "another drawing"
     map_text = (drawn[1] / "optimum.svg").read_text("utf-8")
     first = re.search(r"base64,([^\"]+)", map_text)[1]
-    pixels = matplotlib.image.imread(io.BytesIO(base64.b64decode(first)))
+    pixels = image.imread(io.BytesIO(base64.b64decode(first)))
     buffer = io.BytesIO()
-    matplotlib.image.imsave(buffer, pixels[::-1], format="png")
+    image.imsave(buffer, pixels[::-1], format="png")
     turned = map_text.replace(first, base64.b64encode(buffer.getvalue()).decode(), 1)
     assert differ(turned, map_text) == "another image"
 
