@@ -36,8 +36,11 @@ def drawn(tmp_path_factory):
     for name in PICTURES:
         done = subprocess.run(
             [sys.executable, ROOT / "examples" / f"gallery_{name}.py", folder],
-            capture_output=True, text=True, encoding="utf-8", check=True,
-        )  # fmt: skip
+            capture_output=True,
+            text=True,
+            encoding="utf-8",
+            check=True,
+        )
         printed[name] = done.stdout
         assert (folder / f"{PICTURES[name]}.svg").stat().st_size < 400_000
     return printed, folder
