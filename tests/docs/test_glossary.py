@@ -21,7 +21,8 @@ def rows():
 
 
 def of_python(path):
-    """What a module defines, assigns or takes, and its words of data; not what its docstrings and comments say."""
+    """A module's name, what it defines, assigns or takes, and its words of data; not its docstrings and comments."""
+    yield path.parent.name if path.stem == "__init__" else path.stem
     for node in ast.walk(ast.parse(path.read_text("utf-8"))):
         match node:
             case ast.FunctionDef(name=name) | ast.ClassDef(name=name) | ast.arg(arg=name):
