@@ -15,10 +15,10 @@ from scipy.optimize import brentq
 from tabulate import tabulate
 
 import trum_sym as ts
-from trum_sym.report.claims import VERDICTS, Claim, best, claims, reading_rows, readings, varied
-from trum_sym.report.findings import Context
-from trum_sym.report.readings import ARCSEC, AXES, ENCODER, LOAD_INERTIA, Readings
-from trum_sym.report.trends import PAIRS, trends
+from trum_sym.paper.claims import VERDICTS, Claim, best, claims, reading_rows, readings, varied
+from trum_sym.paper.findings import Context
+from trum_sym.paper.readings import ARCSEC, AXES, ENCODER, LOAD_INERTIA, Readings
+from trum_sym.paper.trends import PAIRS, trends
 
 MARKS = {
     "nearest": "nearest to Table 4's determinants",

@@ -6,15 +6,15 @@ from collections import Counter
 from dataclasses import dataclass
 from typing import Any
 
-from trum_sym.drive import STARTS
 from trum_sym.errors import ParameterError
-from trum_sym.figures.cycle import ARCSEC
-from trum_sym.motor import Motor
-from trum_sym.report.claims import VERDICTS, Claim, best, claims, reading_rows, readings, varied
-from trum_sym.report.findings import Context
-from trum_sym.report.paper_tables import Table
-from trum_sym.report.readings import AXES, LEADS, LOAD_INERTIA, published
-from trum_sym.report.trends import FOLLOWS, PAIRS, trends
+from trum_sym.inputs.drive import STARTS
+from trum_sym.inputs.motor import Motor
+from trum_sym.paper.claims import VERDICTS, Claim, best, claims, reading_rows, readings, varied
+from trum_sym.paper.cycle import ARCSEC
+from trum_sym.paper.findings import Context
+from trum_sym.paper.readings import AXES, LEADS, LOAD_INERTIA, published
+from trum_sym.paper.tables import Table
+from trum_sym.paper.trends import FOLLOWS, PAIRS, trends
 
 __all__ = ["Judged", "judge"]
 
