@@ -18,7 +18,7 @@ import trum_sym as ts
 from trum_sym.paper.claims import VERDICTS, Claim, best, claims, reading_rows, readings, varied
 from trum_sym.paper.findings import Context
 from trum_sym.paper.readings import ARCSEC, AXES, ENCODER, LOAD_INERTIA, Readings
-from trum_sym.paper.trends import PAIRS, trends
+from trum_sym.paper.trends import PAIRS, Trend, trends
 
 MARKS = {
     "nearest": "nearest to Table 4's determinants",
@@ -108,10 +108,10 @@ def _wrapped(text: str) -> list[str]:
     return textwrap.wrap(text, 118)
 
 
-def followed(motor: ts.Motor, found: Readings) -> str:
+def followed(found: list[Trend]) -> str:
     """From what inertia on the trends are those of the determinants."""
     rows: dict[tuple[str, str, str], list[str]] = {}
-    for trend in trends(Context(motor, found)):
+    for trend in found:
         cells = rows.setdefault((trend.start, f"{trend.lead:+.0f}", trend.variable), [])
         cells.append(" ".join(f"{value:+.2f}" for value in trend.at_ends))
         cells.append(
@@ -159,10 +159,10 @@ def listed(judged: list[Claim]) -> str:
     return "\n".join(lines)
 
 
-def text(motor: ts.Motor, found: Readings, judged: list[Claim]) -> str:
+def text(motor: ts.Motor, found: Readings, judged: list[Claim], followed_from: list[Trend]) -> str:
     """All of it."""
     parts = (
-        summary(found, judged), phases(motor), by_inertia(judged), followed(motor, found), possible(motor),
+        summary(found, judged), phases(motor), by_inertia(judged), followed(followed_from), possible(motor),
         listed(judged),
     )  # fmt: skip
     return "\n\n".join(parts)
@@ -172,7 +172,7 @@ def main() -> None:
     """Print it."""
     motor = ts.load_motor("trum60")
     found = readings(motor)
-    print(text(motor, found, claims(motor, found)))
+    print(text(motor, found, claims(motor, found), trends(Context(motor, found))))
 
 
 if __name__ == "__main__":

@@ -27,6 +27,7 @@ from trum_sym.model.cycle import PANELS_PER_PERIOD, modal_values, scaled
 from trum_sym.model.kernels import call
 from trum_sym.model.rotor import encoder_deviation, history, orbit_values, solve_orbit
 from trum_sym.model.stator import AMPLITUDES, CONTACTS, FOUNDATIONS, RESONANCES, Levels, solve_stator
+from trum_sym.paper.cycle import weight_inertia
 
 __all__ = [
     "ARCSEC",
@@ -74,10 +75,9 @@ _TABLE_5 = np.array(
     [(180.0, 3300.0), (170.0, 3100.0), (160.0, 3000.0), (190.0, 2800.0), (200.0, 2900.0), (210.0, 3200.0)]
 )
 ENCODER = 2e-3  # s, Sect. 8.2
-_GRAVITY, _STRING = 9.80665, 0.030  # m/s^2; m, the least radius at which a string can run around a rotor of 60 mm
-LOAD_INERTIA = np.array([0.0, 0.3 * _STRING / _GRAVITY, 4e-3])
+LOAD_INERTIA = np.array([0.0, weight_inertia(0.3, 0.030), 4e-3])
 """What the load adds to the rotor's moment of inertia, kg m^2: nothing; a weight that pulls Table 3's 0.3 N m by a
-string (Sect. 8.1) at the least radius, which is T r/g; and 4e-3, the same at 131 mm, or with the torque plate's own."""
+string (Sect. 8.1) at the stator's radius of 30 mm; and 4e-3, the same at 131 mm, or nearer with the torque plate."""
 RIG = slice(1, None)
 """The values of ``LOAD_INERTIA`` between which the measured motor's lies."""
 _SAMPLES = 64  # of a drive period, of the path that the encoder differences

@@ -216,15 +216,18 @@ def _constant(c: Context) -> Finding:
 
 
 def _grows(region: int, phase: str, name: str) -> Check:
-    """Whether a phase's amplitude rises all through a region."""
+    """Whether a phase's amplitude rises from each drive period of a region to the next."""
+    m, n = _PULSES
+    periods = 2 * n - m if region == ADD else m - n
 
     def check(c: Context) -> Finding:
         size = _amplitudes(c, _PULSES, region)[0]["AB".index(phase)]
+        size = size[..., np.linspace(0, size.shape[-1] - 1, periods + 1).astype(int)]
         rising = np.asarray((np.diff(size, axis=-1) > 0).mean(axis=-1))
         first, last = size[:, :, 0, 0, 0], size[:, :, 0, 0, -1]
         return Finding(
             rising == 1,
-            f"share of {name} of Table 3 in which the amplitude of phase {phase} rises: "
+            f"share of the {periods} periods of {name} of Table 3 in which the amplitude of phase {phase} rises: "
             f"{_cells(100 * rising[:, :, 0, 0], '.0f')} %; over W_maxf it goes from {_cells(first, '.2f')} to "
             f"{_cells(last, '.2f')}",
             levels=(DEFAULT,),
