@@ -15,9 +15,11 @@ from scipy.optimize import brentq
 from tabulate import tabulate
 
 import trum_sym as ts
+from trum_sym.inputs.units import ARCSEC
 from trum_sym.paper.claims import VERDICTS, Claim, best, claims, reading_rows, readings, varied
 from trum_sym.paper.findings import Context
-from trum_sym.paper.readings import ARCSEC, AXES, ENCODER, LOAD_INERTIA, Readings
+from trum_sym.paper.published import ENCODER
+from trum_sym.paper.readings import AXES, LOAD_INERTIA, Readings
 from trum_sym.paper.trends import PAIRS, Trend, trends
 
 MARKS = {
@@ -41,15 +43,20 @@ def summary(found: Readings, judged: list[Claim]) -> str:
     default = {"contact": "winkler", "amplitude": "measured"}
     table = [
         (
-            row["start"], row["phase lead"], row["switching phase"][:1], row["resonance"], row["q_average off %"],
-            row["q_volatility off %"], *(row["mean_speed"][i] / ARCSEC for i in (0, 1)),
+            row["start"],
+            row["phase lead"],
+            row["switching phase"][:1],
+            row["resonance"],
+            row["q_average off %"],
+            row["q_volatility off %"],
+            *(row["mean_speed"][i] / ARCSEC for i in (0, 1)),
             *(100 * row["speed_volatility"][i] for i in (0, 1)),
             f"{len(row['holds'])} of {len(row['holds']) + len(row['fails'])}",
         )
         for row in rows
         if all(row[axis] == word for axis, word in default.items())
         and (row["resonance"], row["foundation"]) in (("quartic", "harmonic"), ("39703 Hz", "any"))
-    ]  # fmt: skip
+    ]
     headers = (
         "start", "lead", "crest", "f_n", "Q_aver off %", "Q_vib off %", "v_s arcsec/s", "with load", "sigma_s %",
         "with load", "claims met",

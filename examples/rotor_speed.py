@@ -5,13 +5,11 @@ python examples/rotor_speed.py
 
 from __future__ import annotations
 
-import math
-
 from tabulate import tabulate
 
 import trum_sym as ts
+from trum_sym.inputs.units import ARCSEC
 
-ARCSEC = math.pi / 648000
 WEIGHT = 0.3 * 0.030 / 9.80665  # kg m^2: what a weight adds that pulls 0.3 N m by a string at 30 mm (Sect. 8.1)
 
 

@@ -15,9 +15,10 @@ from trum_sym.inputs.drive import STARTS, Drive, Start
 from trum_sym.inputs.motor import Motor
 from trum_sym.model.cycle import cycle_sums, modal_values, response
 from trum_sym.model.kernels import call
+from trum_sym.model.levels import Levels
 from trum_sym.model.operating_point import prepare
 from trum_sym.model.rotor import solve_orbit
-from trum_sym.model.stator import Levels
+from trum_sym.paper.published import BOX
 from trum_sym.paper.readings import (
     DEFAULT,
     LEADS,
@@ -289,7 +290,9 @@ class Context:
     @cached_property
     def box(self) -> Mapping[str, Array]:
         """The default level over the paper's box, 160 to 210 N and 2800 to 3300 Hz; the last axis is its points."""
-        force, difference = np.meshgrid(np.linspace(160, 210, 6), np.linspace(2800, 3300, 6))
+        force, difference = np.meshgrid(
+            *(np.linspace(*BOX[name], 6) for name in ("prepressure", "frequency_difference"))
+        )
         return self.loaded(self.motor, force.ravel(), difference.ravel())
 
     @cached_property

@@ -12,9 +12,10 @@ from trum_sym.inputs.motor import Motor
 from trum_sym.model.cycle import modal_values, response
 from trum_sym.model.histories import surface_and_contact
 from trum_sym.model.kernels import call
+from trum_sym.model.levels import Levels
 from trum_sym.model.operating_point import prepare
 from trum_sym.model.rotor import history, solve_orbit
-from trum_sym.model.stator import Levels, solve_stator
+from trum_sym.model.stator import solve_stator
 from trum_sym.paper.findings import LOADS, ByInertia, Check, Context, Finding, by_load, falls, of_rotor
 from trum_sym.paper.readings import DEFAULT, LEADS, LEVELS, LOAD_INERTIA, MEASURED, PHASES, POINTS, RIG, ROTOR_LEVELS
 from trum_sym.paper.section_5 import ADD, ADDREDU, REDU, half_angles

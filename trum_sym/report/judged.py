@@ -9,8 +9,8 @@ from typing import Any
 from trum_sym.errors import ParameterError
 from trum_sym.inputs.drive import STARTS
 from trum_sym.inputs.motor import Motor
+from trum_sym.inputs.units import ARCSEC
 from trum_sym.paper.claims import VERDICTS, Claim, best, claims, reading_rows, readings, varied
-from trum_sym.paper.cycle import ARCSEC
 from trum_sym.paper.findings import Context
 from trum_sym.paper.readings import AXES, LEADS, LOAD_INERTIA, published
 from trum_sym.paper.tables import Table
@@ -68,19 +68,27 @@ def judge(motor: Motor, progress: bool = False) -> Judged | None:
         by_inertia=(_cells(judged), _trends(Context(motor, found))),
         readings=(
             Table(
-                "readings-best", "Readings that stand out", "By what each is the best; ties go to the one nearer to "
-                "Table 4. Claims on the speed are known for some of the readings only.", head,
-                tuple(_row(_BEST[name], record) for name, record in chosen.items()), numeric[1:],
+                "readings-best",
+                "Readings that stand out",
+                "By what each is the best; ties go to the one nearer to "
+                "Table 4. Claims on the speed are known for some of the readings only.",
+                head,
+                tuple(_row(_BEST[name], record) for name, record in chosen.items()),
+                numeric[1:],
             ),
             Table(
-                "readings-nearest", f"The {_NEAREST} readings nearest to Table 4, of {len(rows)}", caption, head,
-                rows[:_NEAREST], numeric,
+                "readings-nearest",
+                f"The {_NEAREST} readings nearest to Table 4, of {len(rows)}",
+                caption,
+                head,
+                rows[:_NEAREST],
+                numeric,
             ),
         ),
         all=Table("readings-all", f"All {len(rows)} readings", caption, head, rows, numeric),
         best=", ".join(f"{name} {nearest[name]}" for name in AXES),
         distance=nearest["distance %"],
-    )  # fmt: skip
+    )
 
 
 def _cells(judged: list[Claim]) -> Table:
