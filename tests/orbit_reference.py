@@ -447,3 +447,23 @@ class Reference:
             laps=laps,
             steps=steps,
         )
+
+
+def encoder_readings(other: Reference, period: float, count: int = 100) -> np.ndarray:
+    """What an encoder reads that averages over ``period``, from the orbit's path, whole cycles and a rest, rad/s."""
+    orbit = other.orbit()
+    grid = np.linspace(0, 1, count + 1)
+    whole, path = other.durations.copy(), [0.0]
+    edges = np.concatenate([[0], np.cumsum(whole)])
+    for share in grid[1:]:
+        region = min(int(np.searchsorted(edges[1:], share * edges[-1] * (1 - 1e-12))), 2)
+        other.durations = np.where(np.arange(3) < region, whole, 0.0)
+        other.durations[region] = share * edges[-1] - edges[region]
+        path.append(orbit.start * share * edges[-1] + other.lap(orbit.start * other.radius, 1e-9)[0][1] / other.radius)
+    other.durations = whole
+    path = np.array(path)
+
+    def angle(at):
+        return np.interp(at % 1.0, grid, path) + np.floor(at) * path[-1]
+
+    return (angle(grid[:-1] + period / other.cycle_time) - angle(grid[:-1])) / period
