@@ -34,9 +34,9 @@ from trum_sym.paper.findings import ByInertia, Context, Finding, falls, of_rotor
 from trum_sym.paper.published import ENCODER, TABLE_2
 from trum_sym.paper.readings import (
     AXES,
+    COMBINATIONS,
     DEFAULT,
     LEADS,
-    LEVELS,
     LOAD_INERTIA,
     MEASURED,
     PHASES,
@@ -85,7 +85,7 @@ def test_every_combination_of_the_open_conventions_is_there_once(found, judgemen
 def evaluated(motor, index, point):
     """The same reading through the public door."""
     start, lead, phase, level = index
-    contact, resonance, foundation, amplitude = LEVELS[level]
+    contact, resonance, foundation, amplitude = COMBINATIONS[level]
     drive = ts.Drive(
         start=STARTS[start], phase_lead=LEADS[lead], switching_phase=[*PHASES.values()][phase],
         prepressure=POINTS.prepressure[point], frequency_difference=POINTS.difference[point],
@@ -107,7 +107,7 @@ def test_readings_are_what_evaluate_gives(trum60, found):
     rng = np.random.default_rng(11)
     compared = 0
     for k in range(24):
-        level = int(rng.choice(ROTOR_LEVELS)) if k % 2 else int(rng.integers(len(LEVELS)))
+        level = int(rng.choice(ROTOR_LEVELS)) if k % 2 else int(rng.integers(len(COMBINATIONS)))
         point = 0 if k % 3 == 0 else int(rng.integers(POINTS.prepressure.size))
         index = (*(int(rng.integers(n)) for n in (3, 2, 2)), level)
         load = k % 3
@@ -217,7 +217,7 @@ def some(start, lead):
         (YES, REPRODUCED, "all 816 readings"),
         (NO, CONTRADICTED, "none of 816 readings"),
         (some(2, 1), PARTLY, "start rest, lead -1"),
-        (np.arange(len(LEVELS)) == DEFAULT, PARTLY, "any start and lead; resonance quartic (1 of 16)"),
+        (np.arange(len(COMBINATIONS)) == DEFAULT, PARTLY, "any start and lead; resonance quartic (1 of 16)"),
     ],
 )
 def test_a_verdict_follows_from_where_a_claim_holds(holds, verdict, words):
@@ -608,9 +608,9 @@ def test_a_stator_on_its_layer_is_not_linear_by_evaluate(trum60, judgements):
     shift = 100 * (half.resonance_frequency / full.resonance_frequency - 1)
     assert number(claim.computed, r"falls to ([\d.]+) %") == pytest.approx(ratio, abs=0.06)
     assert number(claim.computed, r"moves by ([+\d.]+) %") == pytest.approx(shift, abs=0.06)
-    none = LEVELS.index(("winkler", "quartic", "none", "forced"))
+    none = COMBINATIONS.index(("winkler", "quartic", "none", "forced"))
     assert claim.holds[..., none].all()
-    assert not claim.holds[..., LEVELS.index(("winkler", "quartic", "harmonic", "forced"))].any()
+    assert not claim.holds[..., COMBINATIONS.index(("winkler", "quartic", "harmonic", "forced"))].any()
 
 
 def test_the_metal_s_part_of_the_contact_by_hand(judgements):
