@@ -15,7 +15,7 @@ import casadi as ca
 import mpmath as mp
 import sympy as sp
 
-from derivations import collocation
+from derivations import collocation, driver
 from derivations.dimensions import DimensionError, dimension
 from derivations.kernels import Kernel, kernels
 from derivations.library import headers
@@ -287,12 +287,15 @@ def render() -> dict[str, str]:
         )
     files["trum_kernels.h"] = _header()
     files.update(headers(kernels(), _NOTE))
+    files.update(driver.headers(kernels(), _NOTE))
     files["trum_lanes.h"] = _lanes(files)
     files["trum_quadrature.h"] = _quadrature()
     files["trum_elementary.h"] = _elementary()
     files["trum_collocation.h"] = _collocation()
     versions = {"casadi": ca.CasadiMeta.version(), "sympy": sp.__version__}
-    files["manifest.json"] = json.dumps({"generator": versions, "kernels": manifest}, indent=1) + "\n"
+    files["manifest.json"] = (
+        json.dumps({"generator": versions, "kernels": manifest, "orbit": driver.orbit_fields()}, indent=1) + "\n"
+    )
     return dict(sorted(files.items()))
 
 

@@ -6,21 +6,21 @@
 static void trum_take_slopes(trum_lanes* l, const trum_attempt* t, const real* T_f_v, const real* K,
                              const trum_eliminated* equations, mask accepted, real (*d)[NODES]) {
   static const double A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS;
-  const real per_frequency = N_(-1) / (l->omega_n + l->Delta_omega); /* d ln (drive period) */
+  const real per_frequency = N_(-1) / (l->constants.omega_n + l->constants.Delta_omega); /* d ln (drive period) */
   trum_lap* r = &l->lap;
   real source[NODES], T_theta_E[NODES], right[NODES];
   int i, j, way;
   trum_widening(l, t, T_theta_E);
-  for (way = 0; way < WAYS; ++way) {
+  for (way = 0; way < TRUM_SLOPE_PARAMETERS_COUNT; ++way) {
     real sum_x = N_(0), sum_xx = N_(0), sum_f = N_(0), sum_theta = N_(0);
     trum_source(l, t, T_f_v, way, source);
     for (j = 0; j < NODES; ++j) {
       const real b = N_(A[EDGE][j]);
       sum_f = sum_f + b * source[j], sum_theta = sum_theta + b * (T_theta_E[j] * t->by[j].ln_E[way]);
       source[j] = l->push * source[j];
-      if (way == BY_PREPRESSURE || way == BY_FRICTION) source[j] = source[j] + t->T[j] * (l->push * t->f[j]);
-      if (way == BY_DRAG) source[j] = source[j] - t->T[j];
-      if (way == BY_DIFFERENCE || way == BY_RESONANCE)
+      if (way == TRUM_BY_PREPRESSURE || way == TRUM_BY_FRICTION) source[j] = source[j] + t->T[j] * (l->push * t->f[j]);
+      if (way == TRUM_BY_DRAG) source[j] = source[j] - t->T[j];
+      if (way == TRUM_BY_DIFFERENCE || way == TRUM_BY_RESONANCE)
         source[j] = source[j] + t->T[j] * ((l->push * t->f[j] - l->drag) * per_frequency);
     }
     d[way][0] = l->d[way];
@@ -50,7 +50,7 @@ static void trum_take(trum_lanes* l, const trum_attempt* t, mask accepted, real 
   const mask held = at_most(l->push, N_(0));
   trum_lap* r = &l->lap;
   trum_eliminated equations;
-  real S[NODES], T_f_v[NODES], K[NODES], rate[NODES], right[NODES], d[WAYS][NODES];
+  real S[NODES], T_f_v[NODES], K[NODES], rate[NODES], right[NODES], d[TRUM_SLOPE_PARAMETERS_COUNT][NODES];
   real sum_f = N_(0), sum_theta = N_(0), sum_x = N_(0), sum_xx = N_(0), sum_S = N_(0), sum_xS = N_(0);
   int i, j, k;
   for (j = 0; j < NODES; ++j) rate[j] = t->T[j] * (l->push * t->f[j] - l->drag);
@@ -71,7 +71,7 @@ static void trum_take(trum_lanes* l, const trum_attempt* t, mask accepted, real 
   trum_extremes(rate, t->x, S, d, l->slopes, accepted & no(held), r);
   for (j = 1; j < NODES; ++j) {
     r->fastest = sel(accepted, most(r->fastest, t->at[j].R_v), r->fastest);
-    r->full = sel(accepted & at_most(t->at[j].W_c, l->W_full), N_(1), r->full);
+    r->full = sel(accepted & at_most(t->at[j].W_c, l->constants.W_full), N_(1), r->full);
   }
   r->friction = sel(accepted, r->friction + sum_f, r->friction);
   r->angle = sel(accepted, r->angle + sum_theta, r->angle);

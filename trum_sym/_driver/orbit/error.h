@@ -25,8 +25,8 @@ static real trum_ratio(trum_lanes* l, const trum_attempt* t, mask tiny, real* er
     trum_stiffness(l, t, T_f_v);
     if (contact) trum_widening(l, t, T_theta_E);
     of = l->push * l->per_growth * trum_quadrature_error(T_f_v);
-    for (way = 0; way < WAYS; ++way) {
-      if (way == BY_DRAG || way == BY_FRICTION) continue;
+    for (way = 0; way < TRUM_SLOPE_PARAMETERS_COUNT; ++way) {
+      if (way == TRUM_BY_DRAG || way == TRUM_BY_FRICTION) continue;
       trum_source(l, t, T_f_v, way, G);
       of = most(of, l->per_f[way] * trum_quadrature_error(G));
       if (!contact) continue;

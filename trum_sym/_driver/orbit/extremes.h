@@ -36,7 +36,7 @@ static void trum_extremes(const real* G, const real* x, const real* S, real (*d)
       lower = needed & less_than(value, lap->low), higher = needed & less_than(lap->high, value);
       lap->low = sel(lower, value, lap->low), lap->S_low = sel(lower, S_there, lap->S_low);
       lap->high = sel(higher, value, lap->high), lap->S_high = sel(higher, S_there, lap->S_high);
-      for (way = 0; slopes && way < WAYS; ++way) {
+      for (way = 0; slopes && way < TRUM_SLOPE_PARAMETERS_COUNT; ++way) {
         real there = weight[0] * d[way][0];
         for (j = 1; j < NODES; ++j) there = there + weight[j] * d[way][j];
         lap->d_low[way] = sel(lower, there, lap->d_low[way]);
@@ -48,7 +48,7 @@ static void trum_extremes(const real* G, const real* x, const real* S, real (*d)
     const mask lower = accepted & less_than(x[EDGE], lap->low), higher = accepted & less_than(lap->high, x[EDGE]);
     lap->low = sel(lower, x[EDGE], lap->low), lap->S_low = sel(lower, S[EDGE], lap->S_low);
     lap->high = sel(higher, x[EDGE], lap->high), lap->S_high = sel(higher, S[EDGE], lap->S_high);
-    for (k = 0; slopes && k < WAYS; ++k) {
+    for (k = 0; slopes && k < TRUM_SLOPE_PARAMETERS_COUNT; ++k) {
       lap->d_low[k] = sel(lower, d[k][EDGE], lap->d_low[k]), lap->d_high[k] = sel(higher, d[k][EDGE], lap->d_high[k]);
     }
   }

@@ -4,7 +4,7 @@
 
 static void trum_keep(trum_changes* kept, const trum_changes* by, mask here) {
   int way;
-  for (way = 0; way < WAYS; ++way) {
+  for (way = 0; way < TRUM_SLOPE_PARAMETERS_COUNT; ++way) {
     kept->f[way] = sel(here, by->f[way], kept->f[way]);
     kept->ln_E[way] = sel(here, by->ln_E[way], kept->ln_E[way]);
     kept->ln_R_v[way] = sel(here, by->ln_R_v[way], kept->ln_R_v[way]);
@@ -21,7 +21,7 @@ static void trum_begin(trum_lanes* l) {
   trum_look(l, l->tau, &at);
   trum_rub(&at, l->v0 + l->x, &f, &f_v, &e[LARGER], &e[SMALLER]);
   e[SPEED] = at.R_v * at.R_v - (l->v0 + l->x) * (l->v0 + l->x);
-  e[FULL] = at.W_c * at.W_c - l->W_full * l->W_full;
+  e[FULL] = at.W_c * at.W_c - l->constants.W_full * l->constants.W_full;
   l->f = sel(l->cold, f, l->f), l->f_v = sel(l->cold, f_v, l->f_v);
   l->theta = sel(l->cold, at.theta, l->theta);
   l->cos_phi = sel(l->cold, at.cos_phi, l->cos_phi), l->sin_phi = sel(l->cold, at.sin_phi, l->sin_phi);

@@ -35,6 +35,9 @@ static real cube_root_of(real a) { return (real)cbrt((double)a); }
 static real inverse_of(real a) { return 1 / a; }
 #endif
 #include "trum_collocation.h"
+#include "trum_lane_calls.h"
+#include "trum_orbit_fields.h"
+#include "trum_plain_calls.h"
 
 #define N_ TRUM_NUMBER
 

@@ -23,8 +23,8 @@ static void trum_blank(trum_orbit_out* out, trum_slopes_out* slopes) {
   int of, way;
   out->mean = out->low = out->high = out->variance = out->start = out->level = out->error = NAN;
   out->contact = out->held = NAN, out->flags = 0;
-  for (of = 0; slopes && of < FIGURES; ++of)
-    for (way = 0; way < WAYS; ++way) slopes->of[of][way] = NAN;
+  for (of = 0; slopes && of < TRUM_SLOPE_FIGURES_COUNT; ++of)
+    for (way = 0; way < TRUM_SLOPE_PARAMETERS_COUNT; ++way) slopes->of[of][way] = NAN;
 }
 
 /* The piece of work from which on there is some: a point's rotor held, if that is wanted, then its orbit. */

@@ -2,31 +2,30 @@
 #ifndef TRUM_ORBIT_SEARCH_H
 #define TRUM_ORBIT_SEARCH_H
 
+/* A drive cycle in the numbers of the kernels. */
+static void trum_load_cycle(const trum_orbit_in* in, trum_cycle_constants* cycle, trum_free_motion* before) {
+  cycle->omega_n = (trum_real)in->omega_n, cycle->Delta_omega = (trum_real)in->Delta_omega;
+  cycle->xi = (trum_real)in->xi, cycle->psi = (trum_real)in->psi, cycle->s = (trum_real)in->s;
+  cycle->m = (trum_real)in->m, cycle->n = (trum_real)in->n;
+  cycle->W = (trum_real)in->W, cycle->D = (trum_real)in->D, cycle->k_c = (trum_real)in->k_c;
+  before->a_A = (trum_real)in->a_A, before->b_A = (trum_real)in->b_A;
+  before->a_B = (trum_real)in->a_B, before->b_B = (trum_real)in->b_B;
+}
+
 /* Slopes of the phasors at the start of the regions. */
 static void trum_load_slopes(trum_job* job) {
   const trum_orbit_in* in = job->in;
-  double arg_[trum_regions_slopes_n_arg];
-  trum_real own[trum_regions_slopes_n_arg], res_[trum_regions_slopes_n_res];
-  const trum_real* arg[trum_regions_slopes_n_arg];
-  trum_real* res[trum_regions_slopes_n_res];
+  const trum_slopes_in* by_ = job->slopes_in;
+  trum_cycle_constants cycle;
+  trum_free_motion before;
+  trum_free_motion_slopes before_slopes;
+  trum_real res_[trum_regions_slopes_n_res];
   int k, by, phase, r, part;
-  arg_[trum_regions_slopes_in_Delta_omega] = in->Delta_omega, arg_[trum_regions_slopes_in_W] = in->W;
-  arg_[trum_regions_slopes_in_a_A] = in->a_A, arg_[trum_regions_slopes_in_b_A] = in->b_A;
-  arg_[trum_regions_slopes_in_a_B] = in->a_B, arg_[trum_regions_slopes_in_b_B] = in->b_B;
-  arg_[trum_regions_slopes_in_m] = in->m, arg_[trum_regions_slopes_in_n] = in->n;
-  arg_[trum_regions_slopes_in_omega_n] = in->omega_n, arg_[trum_regions_slopes_in_psi] = in->psi;
-  arg_[trum_regions_slopes_in_s] = in->s, arg_[trum_regions_slopes_in_xi] = in->xi;
-  arg_[trum_regions_slopes_in_a_A_omega_n] = job->slopes_in->by_resonance[0];
-  arg_[trum_regions_slopes_in_b_A_omega_n] = job->slopes_in->by_resonance[1];
-  arg_[trum_regions_slopes_in_a_B_omega_n] = job->slopes_in->by_resonance[2];
-  arg_[trum_regions_slopes_in_b_B_omega_n] = job->slopes_in->by_resonance[3];
-  arg_[trum_regions_slopes_in_a_A_Delta_omega] = job->slopes_in->by_difference[0];
-  arg_[trum_regions_slopes_in_b_A_Delta_omega] = job->slopes_in->by_difference[1];
-  arg_[trum_regions_slopes_in_a_B_Delta_omega] = job->slopes_in->by_difference[2];
-  arg_[trum_regions_slopes_in_b_B_Delta_omega] = job->slopes_in->by_difference[3];
-  for (k = 0; k < trum_regions_slopes_n_arg; ++k) own[k] = (trum_real)arg_[k], arg[k] = &own[k];
-  for (k = 0; k < trum_regions_slopes_n_res; ++k) res[k] = &res_[k];
-  trum_regions_slopes(arg, res, 0, 0, 0);
+  trum_load_cycle(in, &cycle, &before);
+#define TRUM_LOAD(name, unit) before_slopes.name = (trum_real)by_->name;
+  TRUM_SLOPES_IN(TRUM_LOAD)
+#undef TRUM_LOAD
+  trum_plain_regions_slopes(&cycle, &before, &before_slopes, res_);
   for (by = k = 0; by < 2; ++by)
     for (phase = 0; phase < 2; ++phase)
       for (r = 0; r < TRUM_REGIONS; ++r)
@@ -39,17 +38,17 @@ static void trum_figures_slopes(const trum_lanes* l, int i, trum_job* job) {
   const double whole = get(&l->whole, i), growth = get(&l->S, i), pull = 1.0 - growth > 1e-14 ? 1.0 - growth : 1e-14;
   const double x = get(&r->x, i) / whole, S = get(&r->S, i) / whole, xS = get(&r->xS, i) / whole;
   int way;
-  for (way = 0; way < WAYS; ++way) {
-    double(*of)[WAYS] = job->slopes_out->of;
+  for (way = 0; way < TRUM_SLOPE_PARAMETERS_COUNT; ++way) {
+    double(*of)[TRUM_SLOPE_PARAMETERS_COUNT] = job->slopes_out->of;
     if (job->stage == HELD) {
-      if (job->sized != 1) of[OF_CONTACT][way] = get(&r->d_angle[way], i) / whole / 3.14159265358979323846;
-      if (job->sized != 2) of[OF_HELD][way] = get(&r->d_friction[way], i) / whole;
+      if (job->sized != 1) of[TRUM_OF_CONTACT][way] = get(&r->d_angle[way], i) / whole / 3.14159265358979323846;
+      if (job->sized != 2) of[TRUM_OF_HELD][way] = get(&r->d_friction[way], i) / whole;
     } else {
       const double d0 = get(&l->d[way], i) / pull, d_x = get(&r->d_x[way], i) / whole;
-      of[OF_MEAN][way] = d_x + S * d0;
-      of[OF_LOW][way] = get(&r->d_low[way], i) + get(&r->S_low, i) * d0;
-      of[OF_HIGH][way] = get(&r->d_high[way], i) + get(&r->S_high, i) * d0;
-      of[OF_VARIANCE][way] = 2.0 * (get(&r->d_xx[way], i) / whole - x * d_x + (xS - x * S) * d0);
+      of[TRUM_OF_MEAN][way] = d_x + S * d0;
+      of[TRUM_OF_LOW][way] = get(&r->d_low[way], i) + get(&r->S_low, i) * d0;
+      of[TRUM_OF_HIGH][way] = get(&r->d_high[way], i) + get(&r->S_high, i) * d0;
+      of[TRUM_OF_VARIANCE][way] = 2.0 * (get(&r->d_xx[way], i) / whole - x * d_x + (xS - x * S) * d0);
     }
   }
 }
@@ -58,7 +57,7 @@ static void trum_figures_slopes(const trum_lanes* l, int i, trum_job* job) {
 static void trum_unsized(trum_job* job) {
   int k;
   job->growth = 1e300;
-  for (k = 0; k < WAYS; ++k) job->size_f[k] = job->size_angle[k] = 1e300;
+  for (k = 0; k < TRUM_SLOPE_PARAMETERS_COUNT; ++k) job->size_f[k] = job->size_angle[k] = 1e300;
 }
 
 /* The rough level that makes one fine lap enough: Newton's step from there leaves its square. */
@@ -83,37 +82,27 @@ static int trum_set_off(trum_lanes* l, int i, trum_job* job, double known) {
 static int trum_load(trum_lanes* l, int i, trum_job* job, const trum_orbit_in* in, trum_orbit_out* out, int held,
                      double known) {
   const double period = 6.283185307179586477 / (in->omega_n + in->Delta_omega);
-  double arg_[trum_regions_n_arg];
-  trum_real own[trum_regions_n_arg], res_[trum_regions_n_res];
-  const trum_real* arg[trum_regions_n_arg];
-  trum_real* res[trum_regions_n_res];
-  int k, r, phase;
-  put(&l->omega_n, i, in->omega_n), put(&l->Delta_omega, i, in->Delta_omega), put(&l->xi, i, in->xi);
-  put(&l->s, i, in->s), put(&l->W, i, in->W), put(&l->D, i, in->D), put(&l->k_c, i, in->k_c);
-  put(&l->engagement_per_height, i, in->engagement_per_height), put(&l->W_full, i, in->W_full);
-  put(&l->drive_re, i, cos(in->psi)), put(&l->drive_im, i, sin(in->psi));
+  trum_cycle_constants cycle;
+  trum_free_motion before;
+  trum_real res_[trum_regions_n_res];
+  int r, phase;
+  put(&l->constants.omega_n, i, in->omega_n), put(&l->constants.Delta_omega, i, in->Delta_omega), put(&l->constants.xi, i, in->xi);
+  put(&l->constants.s, i, in->s), put(&l->constants.W, i, in->W), put(&l->constants.D, i, in->D), put(&l->constants.k_c, i, in->k_c);
+  put(&l->constants.engagement_per_height, i, in->engagement_per_height), put(&l->constants.W_full, i, in->W_full);
+  put(&l->constants.p_re, i, cos(in->psi)), put(&l->constants.p_im, i, sin(in->psi));
   put(&l->period, i, period), put(&l->whole, i, period * in->m);
-  arg_[trum_regions_in_Delta_omega] = in->Delta_omega, arg_[trum_regions_in_W] = in->W;
-  arg_[trum_regions_in_a_A] = in->a_A, arg_[trum_regions_in_b_A] = in->b_A;
-  arg_[trum_regions_in_a_B] = in->a_B, arg_[trum_regions_in_b_B] = in->b_B;
-  arg_[trum_regions_in_m] = in->m, arg_[trum_regions_in_n] = in->n, arg_[trum_regions_in_omega_n] = in->omega_n;
-  arg_[trum_regions_in_psi] = in->psi, arg_[trum_regions_in_s] = in->s, arg_[trum_regions_in_xi] = in->xi;
-  for (k = 0; k < trum_regions_n_arg; ++k) own[k] = (trum_real)arg_[k], arg[k] = &own[k];
-  for (k = 0; k < trum_regions_n_res; ++k) res[k] = &res_[k];
-  trum_regions(arg, res, 0, 0, 0);
+  trum_load_cycle(in, &cycle, &before);
+  trum_plain_regions(&cycle, &before, res_);
   for (r = 0; r < TRUM_REGIONS; ++r) {
     job->pulses[r] = floor(res_[trum_regions_out_time_redu + r] / period + 0.5);
     for (phase = 0; phase < 2; ++phase) {
-      trum_real to_[trum_phasor_n_arg], phasor[trum_phasor_n_res];
-      const trum_real* to[trum_phasor_n_arg];
-      trum_real* z[trum_phasor_n_res];
-      to_[trum_phasor_in_a] = res_[trum_regions_out_a_A_redu + 4 * r + 2 * phase];
-      to_[trum_phasor_in_b] = res_[trum_regions_out_a_A_redu + 4 * r + 2 * phase + 1];
-      to_[trum_phasor_in_omega_n] = (trum_real)in->omega_n, to_[trum_phasor_in_xi] = (trum_real)in->xi;
-      for (k = 0; k < trum_phasor_n_arg; ++k) to[k] = &to_[k];
-      for (k = 0; k < trum_phasor_n_res; ++k) z[k] = &phasor[k];
-      trum_phasor(to, z, 0, 0, 0);
-      job->start[r][2 * phase] = phasor[trum_phasor_out_re], job->start[r][2 * phase + 1] = phasor[trum_phasor_out_im];
+      trum_phasor_in at;
+      trum_phasor_out z;
+      at.a = res_[trum_regions_out_a_A_redu + 4 * r + 2 * phase];
+      at.b = res_[trum_regions_out_a_A_redu + 4 * r + 2 * phase + 1];
+      at.omega_n = (trum_real)in->omega_n, at.xi = (trum_real)in->xi;
+      trum_plain_phasor(&at, &z);
+      job->start[r][2 * phase] = z.re, job->start[r][2 * phase + 1] = z.im;
     }
   }
   job->in = in, job->out = out;
@@ -131,7 +120,7 @@ static int trum_load(trum_lanes* l, int i, trum_job* job, const trum_orbit_in* i
 static void trum_size(const trum_lanes* l, int i, trum_job* job, double growth) {
   int k;
   job->growth = growth;
-  for (k = 0; k < WAYS; ++k) {
+  for (k = 0; k < TRUM_SLOPE_PARAMETERS_COUNT; ++k) {
     job->size_f[k] = get(&l->lap.size_f[k], i) + 1e-250, job->size_angle[k] = get(&l->lap.size_angle[k], i) + 1e-250;
   }
 }

@@ -12,16 +12,11 @@ static void trum_limits(real bend, real* K) {
 
 /* The limit of T f_v where the rotor is as fast as all of the surface. */
 static real trum_at_root(const trum_lanes* l, const real* e, real R_v_rate, real v, real f) {
-  const real R_v = size_of(v), v_rate = l->push * f - l->drag;
+  trum_saturation at;
   real limit;
-  const real* arg[trum_friction_limit_n_arg];
-  real* res[trum_friction_limit_n_res];
-  arg[trum_friction_limit_in_R_v] = &R_v, arg[trum_friction_limit_in_R_v_rate] = &R_v_rate;
-  arg[trum_friction_limit_in_v] = &v, arg[trum_friction_limit_in_v_rate] = &v_rate;
-  arg[trum_friction_limit_in_p_larger] = &e[LARGER], arg[trum_friction_limit_in_p_smaller] = &e[SMALLER];
-  arg[trum_friction_limit_in_step] = &l->h;
-  res[trum_friction_limit_out_T_f_v] = &limit;
-  TRUM_KERNEL(trum_friction_limit)(arg, res, 0, 0, 0);
+  at.R_v = size_of(v), at.R_v_rate = R_v_rate, at.v = v, at.v_rate = l->push * f - l->drag;
+  at.p_larger = e[LARGER], at.p_smaller = e[SMALLER], at.step = l->h;
+  trum_lanes_friction_limit(&at, &limit);
   return limit;
 }
 
@@ -59,13 +54,10 @@ static void trum_widening(const trum_lanes* l, const trum_attempt* t, real* T_th
   int j;
   for (j = 0; j < NODES; ++j) T_theta_E[j] = t->T[j] * t->by[j].theta_E;
   for (j = 0; j < NODES; j += EDGE) {
+    trum_full_contact_state at;
     real limit;
-    const real* arg[trum_contact_limit_n_arg];
-    real* res[trum_contact_limit_n_res];
-    arg[trum_contact_limit_in_W_full] = &l->W_full, arg[trum_contact_limit_in_W_c_rate] = &t->by[j].W_c_rate;
-    arg[trum_contact_limit_in_step] = &l->h;
-    res[trum_contact_limit_out_T_theta_E] = &limit;
-    TRUM_KERNEL(trum_contact_limit)(arg, res, 0, 0, 0);
+    at.W_c_rate = t->by[j].W_c_rate, at.step = l->h;
+    trum_lanes_contact_limit(&l->constants, &at, &limit);
     T_theta_E[j] = sel(j == 0 ? from : to, sel(partly, limit, N_(0)), T_theta_E[j]);
   }
 }

@@ -77,7 +77,7 @@ static void trum_try(const trum_lanes* l, trum_attempt* t) {
   for (j = 1; j < NODES; ++j) {
     const real v = l->v0 + t->x[j];
     t->e[j][SPEED] = t->at[j].R_v * t->at[j].R_v - v * v;
-    t->e[j][FULL] = t->at[j].W_c * t->at[j].W_c - l->W_full * l->W_full;
+    t->e[j][FULL] = t->at[j].W_c * t->at[j].W_c - l->constants.W_full * l->constants.W_full;
     if (l->slopes) trum_change(l, l->tau + l->h * t->z[j], &t->at[j], v, &t->by[j]);
   }
   if (l->slopes) t->by[0] = l->changes;
