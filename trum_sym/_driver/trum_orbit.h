@@ -29,5 +29,5 @@
 #include "orbit/search.h"
 #include "orbit/run.h"
 
-#undef N_
+#undef REAL
 #endif

@@ -1,161 +1,186 @@
-/* Accepting a step: the sums of its lap, the sensitivities, the length of the next. */
+/* Accepting a step: it adds to its lap's integrals, carries the sensitivities along and sets the next step's length.
+ *
+ * Integrals are Lobatto's quadrature on the step's own nodes.  A new step length is the old one times the fourth root
+ * of tolerance over error (a bound on growth and shrinkage), as in any one-step method with an error estimate. */
 #ifndef TRUM_ORBIT_ACCEPT_H
 #define TRUM_ORBIT_ACCEPT_H
 
-/* The step's slopes: the derivative of the collocation, with its Jacobian K, driven by how friction changes. */
-static void trum_take_slopes(trum_lanes* l, const trum_attempt* t, const real* T_f_v, const real* K,
-                             const trum_eliminated* equations, mask accepted, real (*d)[NODES]) {
+/* Sensitivities over a step: the collocation equations differentiated by each parameter.  K is their Jacobian, the
+ * sources come from trum_sensitivity_source.  Adds to the lap's sums where the step is accepted. */
+static void trum_accept_sensitivities(trum_lanes* lanes, const trum_trial_step* trial, const real* T_f_v, const real* K,
+                                      const trum_factors* equations, mask accepted, real (*d)[NODES]) {
   static const double A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS;
-  const real per_frequency = N_(-1) / (l->constants.omega_n + l->constants.Delta_omega); /* d ln (drive period) */
-  trum_lap* r = &l->lap;
+  const real per_frequency =
+      REAL(-1) /
+      (lanes->constants.omega_n + lanes->constants.Delta_omega); /* derivative of the logarithm of the drive period */
+  trum_lap* lap = &lanes->lap;
   real source[NODES], T_theta_E[NODES], right[NODES];
-  int i, j, way;
-  trum_widening(l, t, T_theta_E);
-  for (way = 0; way < TRUM_SLOPE_PARAMETERS_COUNT; ++way) {
-    real sum_x = N_(0), sum_xx = N_(0), sum_f = N_(0), sum_theta = N_(0);
-    trum_source(l, t, T_f_v, way, source);
+  int i, j, parameter;
+  trum_half_angle_jacobian(lanes, trial, T_theta_E);
+  for (parameter = 0; parameter < PARAMETERS; ++parameter) {
+    real sum_x = REAL(0), sum_xx = REAL(0), sum_f = REAL(0), sum_theta = REAL(0);
+    trum_sensitivity_source(lanes, trial, T_f_v, parameter, source);
     for (j = 0; j < NODES; ++j) {
-      const real b = N_(A[EDGE][j]);
-      sum_f = sum_f + b * source[j], sum_theta = sum_theta + b * (T_theta_E[j] * t->by[j].ln_E[way]);
-      source[j] = l->push * source[j];
-      if (way == TRUM_BY_PREPRESSURE || way == TRUM_BY_FRICTION) source[j] = source[j] + t->T[j] * (l->push * t->f[j]);
-      if (way == TRUM_BY_DRAG) source[j] = source[j] - t->T[j];
-      if (way == TRUM_BY_DIFFERENCE || way == TRUM_BY_RESONANCE)
-        source[j] = source[j] + t->T[j] * ((l->push * t->f[j] - l->drag) * per_frequency);
+      const real b = REAL(A[LAST_NODE][j]);
+      sum_f = sum_f + b * source[j], sum_theta = sum_theta + b * (T_theta_E[j] * trial->derivatives[j].ln_E[parameter]);
+      source[j] = lanes->push * source[j];
+      if (parameter == TRUM_BY_PREPRESSURE || parameter == TRUM_BY_FRICTION)
+        source[j] = source[j] + trial->T[j] * (lanes->push * trial->f[j]);
+      if (parameter == TRUM_BY_DRAG) source[j] = source[j] - trial->T[j];
+      if (parameter == TRUM_BY_DIFFERENCE || parameter == TRUM_BY_RESONANCE)
+        source[j] = source[j] + trial->T[j] * ((lanes->push * trial->f[j] - lanes->drag) * per_frequency);
     }
-    d[way][0] = l->d[way];
+    d[parameter][0] = lanes->slopes_x[parameter];
     for (i = 1; i < NODES; ++i) {
-      right[i] = l->d[way] * (N_(1) + N_(A[i][0]) * K[0]);
-      for (j = 0; j < NODES; ++j) right[i] = right[i] + N_(A[i][j]) * source[j];
+      right[i] = lanes->slopes_x[parameter] * (REAL(1) + REAL(A[i][0]) * K[0]);
+      for (j = 0; j < NODES; ++j) right[i] = right[i] + REAL(A[i][j]) * source[j];
     }
-    trum_solve(equations, right, d[way]);
+    trum_substitute(equations, right, d[parameter]);
     for (j = 0; j < NODES; ++j) {
-      const real b = N_(A[EDGE][j]) * t->T[j];
-      sum_x = sum_x + b * d[way][j], sum_xx = sum_xx + b * (t->x[j] * d[way][j]);
+      const real b = REAL(A[LAST_NODE][j]) * trial->T[j];
+      sum_x = sum_x + b * d[parameter][j], sum_xx = sum_xx + b * (trial->x[j] * d[parameter][j]);
     }
-    r->d_x[way] = sel(accepted, r->d_x[way] + sum_x, r->d_x[way]);
-    r->d_xx[way] = sel(accepted, r->d_xx[way] + sum_xx, r->d_xx[way]);
-    r->d_friction[way] = sel(accepted, r->d_friction[way] + sum_f, r->d_friction[way]);
-    r->size_f[way] = sel(accepted, r->size_f[way] + size_of(sum_f), r->size_f[way]);
-    r->size_angle[way] = sel(accepted, r->size_angle[way] + size_of(sum_theta), r->size_angle[way]);
-    r->d_angle[way] = sel(accepted, r->d_angle[way] + sum_theta, r->d_angle[way]);
-    l->d[way] = sel(accepted, d[way][EDGE], l->d[way]);
+    lap->d_x[parameter] = where(accepted, lap->d_x[parameter] + sum_x, lap->d_x[parameter]);
+    lap->d_xx[parameter] = where(accepted, lap->d_xx[parameter] + sum_xx, lap->d_xx[parameter]);
+    lap->d_friction[parameter] = where(accepted, lap->d_friction[parameter] + sum_f, lap->d_friction[parameter]);
+    lap->sum_abs_friction[parameter] =
+        where(accepted, lap->sum_abs_friction[parameter] + absolute(sum_f), lap->sum_abs_friction[parameter]);
+    lap->sum_abs_angle[parameter] =
+        where(accepted, lap->sum_abs_angle[parameter] + absolute(sum_theta), lap->sum_abs_angle[parameter]);
+    lap->d_angle[parameter] = where(accepted, lap->d_angle[parameter] + sum_theta, lap->d_angle[parameter]);
+    lanes->slopes_x[parameter] = where(accepted, d[parameter][LAST_NODE], lanes->slopes_x[parameter]);
   }
-  trum_keep(&l->changes, &t->by[EDGE], accepted);
+  trum_select_derivatives(&lanes->derivatives, &trial->derivatives[LAST_NODE], accepted);
 }
 
-/* Accepted lanes take their step. */
-static void trum_take(trum_lanes* l, const trum_attempt* t, mask accepted, real error) {
+/* Moves the accepted lanes to the end of their step and adds the step to their laps. */
+static void trum_accept_step(trum_lanes* lanes, const trum_trial_step* trial, mask accepted, real error) {
   static const double A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS;
-  const mask held = at_most(l->push, N_(0));
-  trum_lap* r = &l->lap;
-  trum_eliminated equations;
-  real S[NODES], T_f_v[NODES], K[NODES], rate[NODES], right[NODES], d[TRUM_SLOPE_PARAMETERS_COUNT][NODES];
-  real sum_f = N_(0), sum_theta = N_(0), sum_x = N_(0), sum_xx = N_(0), sum_S = N_(0), sum_xS = N_(0);
+  const mask held = at_most(lanes->push, REAL(0));
+  trum_lap* lap = &lanes->lap;
+  trum_factors equations;
+  real S[NODES], T_f_v[NODES], K[NODES], rate[NODES], right[NODES], d[PARAMETERS][NODES];
+  real sum_f = REAL(0), sum_theta = REAL(0), sum_x = REAL(0), sum_xx = REAL(0), sum_S = REAL(0), sum_xS = REAL(0);
   int i, j, k;
-  for (j = 0; j < NODES; ++j) rate[j] = t->T[j] * (l->push * t->f[j] - l->drag);
-  trum_stiffness(l, t, T_f_v);
-  for (j = 0; j < NODES; ++j) K[j] = l->push * T_f_v[j];
-  S[0] = l->S;
-  for (i = 1; i < NODES; ++i) right[i] = l->S * (N_(1) + N_(A[i][0]) * K[0]);
-  equations = trum_eliminate(K);
-  trum_solve(&equations, right, S);
-  for (j = 1; j < NODES; ++j) S[j] = most(N_(0), least(l->S, S[j])); /* friction never drives speeds apart */
+  for (j = 0; j < NODES; ++j) rate[j] = trial->T[j] * (lanes->push * trial->f[j] - lanes->drag);
+  trum_friction_jacobian(lanes, trial, T_f_v);
+  for (j = 0; j < NODES; ++j) K[j] = lanes->push * T_f_v[j];
+  S[0] = lanes->S;
+  for (i = 1; i < NODES; ++i) right[i] = lanes->S * (REAL(1) + REAL(A[i][0]) * K[0]);
+  equations = trum_factorise(K);
+  trum_substitute(&equations, right, S);
+  for (j = 1; j < NODES; ++j)
+    S[j] = maximum(REAL(0), minimum(lanes->S, S[j])); /* exactly, S falls: friction draws two speeds together */
   for (j = 0; j < NODES; ++j) {
-    const real b = N_(A[EDGE][j]) * t->T[j];
-    sum_f = sum_f + b * t->f[j], sum_theta = sum_theta + b * (j == 0 ? l->theta : t->at[j].theta);
-    sum_x = sum_x + b * t->x[j], sum_xx = sum_xx + b * (t->x[j] * t->x[j]);
-    sum_S = sum_S + b * S[j], sum_xS = sum_xS + b * (t->x[j] * S[j]);
+    const real b = REAL(A[LAST_NODE][j]) * trial->T[j];
+    sum_f = sum_f + b * trial->f[j], sum_theta = sum_theta + b * (j == 0 ? lanes->theta : trial->at[j].theta);
+    sum_x = sum_x + b * trial->x[j], sum_xx = sum_xx + b * (trial->x[j] * trial->x[j]);
+    sum_S = sum_S + b * S[j], sum_xS = sum_xS + b * (trial->x[j] * S[j]);
   }
-  if (l->slopes) trum_take_slopes(l, t, T_f_v, K, &equations, accepted, d);
-  trum_extremes(rate, t->x, S, d, l->slopes, accepted & no(held), r);
+  if (lanes->slopes) trum_accept_sensitivities(lanes, trial, T_f_v, K, &equations, accepted, d);
+  trum_update_extremes(rate, trial->x, S, d, lanes->slopes, accepted & mask_not(held), lap);
   for (j = 1; j < NODES; ++j) {
-    r->fastest = sel(accepted, most(r->fastest, t->at[j].R_v), r->fastest);
-    r->full = sel(accepted & at_most(t->at[j].W_c, l->constants.W_full), N_(1), r->full);
+    lap->fastest = where(accepted, maximum(lap->fastest, trial->at[j].R_v), lap->fastest);
+    lap->full_contact =
+        where(accepted & at_most(trial->at[j].W_c, lanes->constants.W_full), REAL(1), lap->full_contact);
   }
-  r->friction = sel(accepted, r->friction + sum_f, r->friction);
-  r->angle = sel(accepted, r->angle + sum_theta, r->angle);
-  r->x = sel(accepted, r->x + sum_x, r->x), r->xx = sel(accepted, r->xx + sum_xx, r->xx);
-  r->S = sel(accepted, r->S + sum_S, r->S), r->xS = sel(accepted, r->xS + sum_xS, r->xS);
-  r->error = sel(accepted, r->error + error, r->error);
-  if (l->record && in_lane(accepted, 0)) trum_write(l->record, l, rate);
-  l->x = sel(accepted, t->x[EDGE], l->x), l->S = sel(accepted, S[EDGE], l->S);
-  l->f = sel(accepted, t->f[EDGE], l->f), l->f_v = sel(accepted, t->f_v[EDGE], l->f_v);
-  l->theta = sel(accepted, t->at[EDGE].theta, l->theta);
-  l->cos_phi = sel(accepted, t->at[EDGE].cos_phi, l->cos_phi);
-  l->sin_phi = sel(accepted, t->at[EDGE].sin_phi, l->sin_phi);
-  for (k = 0; k < EVENTS; ++k) l->event[k] = sel(accepted, t->e[EDGE][k], l->event[k]);
+  lap->friction = where(accepted, lap->friction + sum_f, lap->friction);
+  lap->angle = where(accepted, lap->angle + sum_theta, lap->angle);
+  lap->x = where(accepted, lap->x + sum_x, lap->x), lap->xx = where(accepted, lap->xx + sum_xx, lap->xx);
+  lap->S = where(accepted, lap->S + sum_S, lap->S), lap->xS = where(accepted, lap->xS + sum_xS, lap->xS);
+  lap->error = where(accepted, lap->error + error, lap->error);
+  if (lanes->record && mask_in_lane(accepted, 0)) trum_record_step(lanes->record, lanes, rate);
+  lanes->x = where(accepted, trial->x[LAST_NODE], lanes->x), lanes->S = where(accepted, S[LAST_NODE], lanes->S);
+  lanes->f = where(accepted, trial->f[LAST_NODE], lanes->f),
+  lanes->f_v = where(accepted, trial->f_v[LAST_NODE], lanes->f_v);
+  lanes->theta = where(accepted, trial->at[LAST_NODE].theta, lanes->theta);
+  lanes->cos_phi = where(accepted, trial->at[LAST_NODE].cos_phi, lanes->cos_phi);
+  lanes->sin_phi = where(accepted, trial->at[LAST_NODE].sin_phi, lanes->sin_phi);
+  for (k = 0; k < EVENT_COUNT; ++k) lanes->events[k] = where(accepted, trial->events[LAST_NODE][k], lanes->events[k]);
 }
 
-/* Where the square root of an event is that a plain step ends short of, in step lengths, or 2 if far. */
-static real trum_near_root(const trum_lanes* l, const trum_attempt* t, int event) {
-  const trum_places spaces = trum_space(t->z);
-  const trum_cubic c = trum_through(&spaces, t->e[0][event], t->e[1][event], t->e[2][event], t->e[EDGE][event]);
-  const mask plain = at_most(size_of(l->bend), N_(0)) & less_than(N_(0), c.e0);
-  real root = N_(1);
+/* How far an event with a square root lies ahead of a step without curvature, in lengths of the step; 2 if it is
+ * further than 1.5 or not in this region. */
+static real trum_distance_to_root(const trum_lanes* lanes, const trum_trial_step* trial, int event) {
+  const trum_node_distances spaces = trum_distances_of(trial->z);
+  const trum_cubic c = trum_interpolate(&spaces, trial->events[0][event], trial->events[1][event],
+                                        trial->events[2][event], trial->events[LAST_NODE][event]);
+  const mask plain = at_most(absolute(lanes->curvature), REAL(0)) & less_than(REAL(0), c.e0);
+  real root = REAL(1);
   int j;
   for (j = 0; j < 3; ++j) {
     const real slope = trum_cubic_slope(&c, root);
-    const mask falling = less_than(slope, N_(-1e-200));
-    root = sel(falling, root - trum_cubic_at(&c, root) * inverse_of(sel(falling, slope, N_(1))), N_(2));
-    root = most(N_(0), least(N_(2), root));
+    const mask falling = less_than(slope, REAL(-1e-200));
+    root = where(falling, root - trum_cubic_at(&c, root) * reciprocal(where(falling, slope, REAL(1))), REAL(2));
+    root = maximum(REAL(0), minimum(REAL(2), root));
   }
-  return sel(plain & less_than(N_(1), root) & less_than(root, N_(1.5)) & less_than(l->h * root, l->left), root, N_(2));
+  return where(
+      plain & less_than(REAL(1), root) & less_than(root, REAL(1.5)) & less_than(lanes->h * root, lanes->time_left),
+      root, REAL(2));
 }
 
-/* A step with slopes that ends short of a square root is better aimed at it than made shorter or taken: slopes feel it
- * from afar. */
-static mask trum_feel(const trum_lanes* l, const trum_attempt* t, mask accepted, mask shrink, trum_plan* p) {
-  const mask unseen = accepted & no(less_than(N_(trum_feels) * l->period, l->h));
-  const mask held = at_most(l->push, N_(0)), missed = shrink & less_than(N_(0), l->bend);
-  const real speed = sel(held, N_(2), trum_near_root(l, t, SPEED)), full = trum_near_root(l, t, FULL);
-  const real root = least(speed, full);
-  const mask near_root = (shrink | unseen) & less_than(root, N_(2));
-  p->h = sel(near_root, l->h * root, sel(missed, least(p->h, N_(0.5) * l->h), p->h));
-  p->target = sel(near_root, sel(less_than(full, speed), N_(FULL), N_(SPEED)), p->target);
-  p->bend = sel(near_root, N_(1), p->bend);
+/* With slopes: a step that ends shortly before a square root, and is too inaccurate or too short to be measured, is
+ * extended to end at the root, since the sensitivities' integrands grow without bound towards it.  Returns the lanes
+ * whose step is extended. */
+static mask trum_extend_to_root(const trum_lanes* lanes, const trum_trial_step* trial, mask accepted, mask shrink,
+                                trum_next_step* next) {
+  const mask slopes_unresolved =
+      accepted & mask_not(less_than(REAL(trum_min_step_for_slopes) * lanes->period, lanes->h));
+  const mask held = at_most(lanes->push, REAL(0)), overshot = shrink & less_than(REAL(0), lanes->curvature);
+  const real speed = where(held, REAL(2), trum_distance_to_root(lanes, trial, EVENT_SATURATION)),
+             full = trum_distance_to_root(lanes, trial, EVENT_FULL_CONTACT);
+  const real root = minimum(speed, full);
+  const mask near_root = (shrink | slopes_unresolved) & less_than(root, REAL(2));
+  next->h = where(near_root, lanes->h * root, where(overshot, minimum(next->h, REAL(0.5) * lanes->h), next->h));
+  next->target_event = where(near_root, where(less_than(full, speed), REAL(EVENT_FULL_CONTACT), REAL(EVENT_SATURATION)),
+                             next->target_event);
+  next->curvature = where(near_root, REAL(1), next->curvature);
   return near_root;
 }
 
-/* Tries a step on all lanes; returns those which took it. */
-static mask trum_step(trum_lanes* l) {
-  const mask tiny = at_most(l->h, N_(trum_shortest) * l->period);
-  trum_attempt t;
-  trum_plan p;
+/* One attempt at a step on all lanes: collocation, events, error.  Returns the lanes whose step was accepted. */
+static mask trum_advance_step(trum_lanes* lanes) {
+  const mask minimal = at_most(lanes->h, REAL(trum_min_step) * lanes->period);
+  trum_trial_step trial;
+  trum_next_step next;
   real ratio, error, factor;
   mask wrong, accepted, shrink;
   int k;
-  trum_try(l, &t);
-  p = trum_aim(l, &t, tiny);
-  ratio = trum_ratio(l, &t, tiny, &error);
-  wrong = no(at_most(ratio, N_(1))) & no(tiny);
-  factor = N_(trum_margin) * inverse_of(root_of(root_of(most(ratio, N_(1e-5)))));
-  factor = least(N_(trum_grows), most(N_(0.15), factor));
-  accepted = l->active & no(p.redo) & no(wrong), shrink = wrong & no(p.redo);
-  p.h = sel(shrink, l->h * factor, p.h), l->natural = sel(shrink, p.h, l->natural);
-  p.target = sel(shrink, N_(-1), p.target);
-  p.bend = sel(shrink & less_than(N_(0), p.bend), N_(0), p.bend);
-  if (l->slopes) accepted = accepted & no(trum_feel(l, &t, accepted, shrink, &p));
-  l->tries = sel(p.redo, l->tries + N_(1), sel(accepted, N_(0), l->tries));
-  if (any(accepted)) {
-    const real longest = N_(trum_longest) * l->period, grown = least(longest, l->h * factor);
-    const mask finished = accepted & at_most(l->left, l->h * N_(1.0000001)), cut = finished | at_most(N_(0), l->target);
-    trum_take(l, &t, accepted, error);
-    /* a step that an event or a region's end has cut short says nothing against the length before */
-    l->natural = sel(accepted, sel(cut, least(longest, most(l->natural, grown)), grown), l->natural);
-    l->tau = sel(accepted, l->tau + l->h, l->tau);
-    l->left = sel(accepted, sel(finished, N_(0), l->left - l->h), l->left);
-    p.h = sel(accepted, l->natural, p.h);
-    p.bend = sel(accepted, N_(0), p.bend);
-    for (k = 0; k < EVENTS; ++k) {
-      const mask mine = p.hit & trum_same(l->target, N_(k));
-      l->fresh[k] = sel_mask(accepted, mine, l->fresh[k]);
-      if (k == SPEED || k == FULL) p.bend = sel(accepted & mine, N_(-1), p.bend);
+  trum_solve_collocation(lanes, &trial);
+  next = trum_adjust_to_events(lanes, &trial, minimal);
+  ratio = trum_error_ratio(lanes, &trial, minimal, &error);
+  wrong = mask_not(at_most(ratio, REAL(1))) & mask_not(minimal);
+  factor = REAL(trum_step_safety) * reciprocal(square_root(square_root(maximum(ratio, REAL(1e-5)))));
+  factor = minimum(REAL(trum_step_growth), maximum(REAL(0.15), factor));
+  accepted = lanes->active & mask_not(next.retry) & mask_not(wrong), shrink = wrong & mask_not(next.retry);
+  next.h = where(shrink, lanes->h * factor, next.h), lanes->step_size = where(shrink, next.h, lanes->step_size);
+  next.target_event = where(shrink, REAL(-1), next.target_event);
+  next.curvature = where(shrink & less_than(REAL(0), next.curvature), REAL(0), next.curvature);
+  if (lanes->slopes) accepted = accepted & mask_not(trum_extend_to_root(lanes, &trial, accepted, shrink, &next));
+  lanes->retries = where(next.retry, lanes->retries + REAL(1), where(accepted, REAL(0), lanes->retries));
+  if (any_lane(accepted)) {
+    const real longest = REAL(trum_max_step) * lanes->period, grown = minimum(longest, lanes->h * factor);
+    const mask finished = accepted & at_most(lanes->time_left, lanes->h * REAL(1.0000001)),
+               cut_short = finished | at_most(REAL(0), lanes->target_event);
+    trum_accept_step(lanes, &trial, accepted, error);
+    /* a step cut short by an event or a region's end does not make the next one shorter */
+    lanes->step_size =
+        where(accepted, where(cut_short, minimum(longest, maximum(lanes->step_size, grown)), grown), lanes->step_size);
+    lanes->tau = where(accepted, lanes->tau + lanes->h, lanes->tau);
+    lanes->time_left = where(accepted, where(finished, REAL(0), lanes->time_left - lanes->h), lanes->time_left);
+    next.h = where(accepted, lanes->step_size, next.h);
+    next.curvature = where(accepted, REAL(0), next.curvature);
+    for (k = 0; k < EVENT_COUNT; ++k) {
+      const mask is_this = next.at_target & trum_is_event(lanes->target_event, REAL(k));
+      lanes->at_event[k] = where_mask(accepted, is_this, lanes->at_event[k]);
+      if (k == EVENT_SATURATION || k == EVENT_FULL_CONTACT)
+        next.curvature = where(accepted & is_this, REAL(-1), next.curvature);
     }
-    p.target = sel(accepted, N_(-1), p.target);
+    next.target_event = where(accepted, REAL(-1), next.target_event);
   }
-  l->h = least(p.h, l->left), l->bend = p.bend, l->target = p.target;
-  l->patience = l->patience - N_(1);
+  lanes->h = minimum(next.h, lanes->time_left), lanes->curvature = next.curvature,
+  lanes->target_event = next.target_event;
+  lanes->steps_left = lanes->steps_left - REAL(1);
   return accepted;
 }
 

@@ -1,82 +1,92 @@
-/* Where the next step ends: at an event if there is one, and whether time runs as a square next to it. */
+/* Steps and events: a step ends at the first event that it meets.
+ *
+ * Time in a step is t = h s (1 + c (1 - s)) for s from 0 to 1.  With curvature c = 1 time runs as a square before the
+ * step's end, with c = -1 after its start: a square root of time there is smooth in s. */
 #ifndef TRUM_ORBIT_AIM_H
 #define TRUM_ORBIT_AIM_H
 
-/* What comes next for every lane: its step, and how that bends towards an event or away from one. */
+/* The next attempt of every lane: length, curvature and the event that it is to end at (-1: none). */
 typedef struct {
-  real h, bend, target;
-  mask redo, hit; /* the step is to be tried anew; it ends at the event that it was aimed at */
-} trum_plan;
+  real h, curvature, target_event;
+  mask retry, at_target; /* repeat the step; it has ended at its target */
+} trum_next_step;
 
-/* How near to an event is at it; nearer where slopes are wanted.  A rotor that is held is as fast as the surface where
- * that stands still, which it touches and does not cross: no step gets as near as slopes want. */
-static real trum_nearness(const trum_lanes* l, real which, real of_slopes) {
-  const mask speed = trum_same(which, N_(SPEED)), full = trum_same(which, N_(FULL));
-  const real nearness = sel(speed | full, l->event_error, l->kink_error);
-  return sel(speed & at_most(l->push, N_(0)), nearness, least(nearness, of_slopes));
+/* The distance at which a step counts as having reached an event: smaller with slopes (slope_tolerance).  A held rotor
+ * is as fast as the surface only where the surface stands still, without crossing: there the larger one holds. */
+static real trum_event_tolerance(const trum_lanes* lanes, real event, real of_slopes) {
+  const mask speed = trum_is_event(event, REAL(EVENT_SATURATION)),
+             full = trum_is_event(event, REAL(EVENT_FULL_CONTACT));
+  const real nearness = where(speed | full, lanes->root_tolerance, lanes->kink_tolerance);
+  return where(speed & at_most(lanes->push, REAL(0)), nearness, minimum(nearness, of_slopes));
 }
 
-/* Steps end at events.  One that meets an event is aimed at it; one that was aimed there is corrected until it hits. */
-static trum_plan trum_aim(trum_lanes* l, trum_attempt* t, mask tiny) {
-  const mask aimed = at_most(N_(0), l->target), startled = less_than(l->bend, N_(0));
-  const mask patient = less_than(l->tries, N_(10)) & no(tiny); /* no step is tried for ever */
-  trum_plan p;
-  trum_cubic cubic[EVENTS];
-  real place, which, tolerance;
-  mask meets, singular, distant, late, off_target = is(0);
+/* Shortens a step that meets an event so that it ends there, and corrects one that should have ended there, until the
+ * distance is within tolerance. */
+static trum_next_step trum_adjust_to_events(trum_lanes* lanes, trum_trial_step* trial, mask minimal) {
+  const mask aimed = at_most(REAL(0), lanes->target_event), starts_at_root = less_than(lanes->curvature, REAL(0));
+  const mask may_retry = less_than(lanes->retries, REAL(10)) & mask_not(minimal); /* a bound on repetitions */
+  trum_next_step next;
+  trum_cubic cubic[EVENT_COUNT];
+  real location, event, tolerance;
+  mask meets_event, is_root, ahead, at_start, misses = mask_all(0);
   int j, k;
-  p.h = l->h, p.bend = l->bend, p.target = l->target, p.hit = is(0);
-  trum_first_event(l, t->z, t->e, cubic, &place, &which);
-  meets = patient & less_than(place, N_(1.5));
-  if (any(aimed)) {
-    real root = N_(1), missed = N_(0);
+  next.h = lanes->h, next.curvature = lanes->curvature, next.target_event = lanes->target_event,
+  next.at_target = mask_all(0);
+  trum_locate_first_event(lanes, trial->z, trial->events, cubic, &location, &event);
+  meets_event = may_retry & less_than(location, REAL(1.5));
+  if (any_lane(aimed)) {
+    real root = REAL(1), distance = REAL(0);
     trum_cubic q = cubic[0];
-    for (k = 0; k < EVENTS; ++k) {
-      const mask mine = trum_same(l->target, N_(k));
-      q.e0 = sel(mine, cubic[k].e0, q.e0), q.d1 = sel(mine, cubic[k].d1, q.d1);
-      q.d2 = sel(mine, cubic[k].d2, q.d2), q.d3 = sel(mine, cubic[k].d3, q.d3);
-      missed = sel(mine, size_of(t->e[EDGE][k]), missed);
+    for (k = 0; k < EVENT_COUNT; ++k) {
+      const mask is_this = trum_is_event(lanes->target_event, REAL(k));
+      q.e0 = where(is_this, cubic[k].e0, q.e0), q.d1 = where(is_this, cubic[k].d1, q.d1);
+      q.d2 = where(is_this, cubic[k].d2, q.d2), q.d3 = where(is_this, cubic[k].d3, q.d3);
+      distance = where(is_this, absolute(trial->events[LAST_NODE][k]), distance);
     }
-    for (j = 0; j < 3; ++j) { /* it may lie beyond the step's end */
+    for (j = 0; j < 3; ++j) { /* Newton; the event may lie beyond the step's end */
       const real slope = trum_cubic_slope(&q, root);
-      const mask steep = less_than(N_(1e-200), size_of(slope));
-      root = sel(steep, root - trum_cubic_at(&q, root) * inverse_of(sel(steep, slope, N_(1))), root);
-      root = most(N_(1), least(N_(1.25), root));
+      const mask usable = less_than(REAL(1e-200), absolute(slope));
+      root = where(usable, root - trum_cubic_at(&q, root) * reciprocal(where(usable, slope, REAL(1))), root);
+      root = maximum(REAL(1), minimum(REAL(1.25), root));
     }
-    root = sel(trum_same(which, l->target), place, root);
-    singular = trum_same(l->target, N_(SPEED)) | trum_same(l->target, N_(FULL));
-    missed = size_of(root - N_(1)) * l->h * sel(singular, N_(1), missed);
-    tolerance = trum_nearness(l, l->target, l->ends);
-    p.hit = aimed & less_than(root, N_(1.24)); /* else it turned out to be none */
-    off_target = p.hit & patient & less_than(tolerance, missed);
-    p.hit = p.hit & no(off_target);
-    /* another event on the way comes first */
-    meets = meets & no((p.hit | off_target) & trum_same(which, l->target));
-    p.h = sel(off_target, l->h * root, p.h);
+    root = where(trum_is_event(event, lanes->target_event), location, root);
+    is_root = trum_is_event(lanes->target_event, REAL(EVENT_SATURATION)) |
+              trum_is_event(lanes->target_event, REAL(EVENT_FULL_CONTACT));
+    distance = absolute(root - REAL(1)) * lanes->h * where(is_root, REAL(1), distance);
+    tolerance = trum_event_tolerance(lanes, lanes->target_event, lanes->slope_end_tolerance);
+    next.at_target = aimed & less_than(root, REAL(1.24)); /* else there is no event after all */
+    misses = next.at_target & may_retry & less_than(tolerance, distance);
+    next.at_target = next.at_target & mask_not(misses);
+    /* another event before the target comes first */
+    meets_event = meets_event & mask_not((next.at_target | misses) & trum_is_event(event, lanes->target_event));
+    next.h = where(misses, lanes->h * root, next.h);
   }
-  singular = trum_same(which, N_(SPEED)) | trum_same(which, N_(FULL));
-  tolerance = trum_nearness(l, which, l->begins);
-  { /* what a kink weighs is its distance times the pressure there */
-    const real weight = sel(trum_same(which, N_(LARGER)), size_of(t->e[0][LARGER]), size_of(t->e[0][SMALLER]));
-    distant = meets & less_than(tolerance, place * l->h * sel(singular, N_(1), weight));
+  is_root = trum_is_event(event, REAL(EVENT_SATURATION)) | trum_is_event(event, REAL(EVENT_FULL_CONTACT));
+  tolerance = trum_event_tolerance(lanes, event, lanes->slope_start_tolerance);
+  { /* the error of passing a kink is in proportion to its distance times the pressure there */
+    const real weight =
+        where(trum_is_event(event, REAL(EVENT_LARGER_PRESSURE)), absolute(trial->events[0][EVENT_LARGER_PRESSURE]),
+              absolute(trial->events[0][EVENT_SMALLER_PRESSURE]));
+    ahead = meets_event & less_than(tolerance, location * lanes->h * where(is_root, REAL(1), weight));
   }
-  late = meets & no(distant);
-  { /* towards it; a step cannot bend at both ends, so one that begins at a square root goes half the way */
-    const mask half = distant & startled & singular;
-    p.h = sel(distant, l->h * place * sel(half, N_(0.5), N_(1)), p.h);
-    p.target = sel(distant, sel(half, N_(-1), which), p.target);
-    p.bend = sel(distant & no(startled), sel(singular, N_(1), N_(0)), p.bend);
+  at_start = meets_event & mask_not(ahead);
+  { /* a step has curvature at one end only, so one that begins at a square root goes half the way to the next */
+    const mask half = ahead & starts_at_root & is_root;
+    next.h = where(ahead, lanes->h * location * where(half, REAL(0.5), REAL(1)), next.h);
+    next.target_event = where(ahead, where(half, REAL(-1), event), next.target_event);
+    next.curvature = where(ahead & mask_not(starts_at_root), where(is_root, REAL(1), REAL(0)), next.curvature);
   }
-  p.redo = distant | off_target;
-  for (k = 0; k < EVENTS; ++k) { /* an event at the very start was passed unseen: begin at it */
-    const mask mine = late & trum_same(which, N_(k)) & no(l->fresh[k]);
-    l->fresh[k] = l->fresh[k] | mine;
-    p.redo = p.redo | mine;
-    if (k == SPEED || k == FULL) p.bend = sel(mine, N_(-1), p.bend);
-    /* with slopes a kink at the start leaves the aim where it is: the step may be bent to it */
-    if (!l->slopes || k == SPEED || k == FULL) p.target = sel(mine, N_(-1), p.target);
+  next.retry = ahead | misses;
+  for (k = 0; k < EVENT_COUNT; ++k) { /* an event within tolerance of the step's start: the step begins at it */
+    const mask is_this = at_start & trum_is_event(event, REAL(k)) & mask_not(lanes->at_event[k]);
+    lanes->at_event[k] = lanes->at_event[k] | is_this;
+    next.retry = next.retry | is_this;
+    if (k == EVENT_SATURATION || k == EVENT_FULL_CONTACT) next.curvature = where(is_this, REAL(-1), next.curvature);
+    /* with slopes a kink at the start leaves the target: the step may be curved towards it */
+    if (!lanes->slopes || k == EVENT_SATURATION || k == EVENT_FULL_CONTACT)
+      next.target_event = where(is_this, REAL(-1), next.target_event);
   }
-  return p;
+  return next;
 }
 
 #endif

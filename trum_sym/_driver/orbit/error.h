@@ -1,51 +1,60 @@
-/* A step's error over the error that it may have. */
+/* The error of a step: estimate over tolerance.
+ *
+ * The lap's result depends on the integral of f (and of theta while the rotor is held), so its quadrature error is what
+ * is controlled; with slopes also that of the sensitivities' integrands. */
 #ifndef TRUM_ORBIT_ERROR_H
 #define TRUM_ORBIT_ERROR_H
 
-/* A step's error over what it may be, and in integral f. */
-static real trum_ratio(trum_lanes* l, const trum_attempt* t, mask tiny, real* error) {
-  const mask held = at_most(l->push, N_(0));
-  real G[NODES], ratio, cosine = l->cos_phi, sine = l->sin_phi;
-  mask number, blind = is(0);
+/* Error over tolerance of a step, and in *error its error in the integral of f.  Marks lanes whose step cannot be
+ * evaluated as failed. */
+static real trum_error_ratio(trum_lanes* lanes, const trum_trial_step* trial, mask minimal, real* error) {
+  const mask held = at_most(lanes->push, REAL(0));
+  real G[NODES], ratio, cosine = lanes->cos_phi, sine = lanes->sin_phi;
+  mask finite, phase_unresolved = mask_all(0);
   int j;
-  for (j = 0; j < NODES; ++j) G[j] = t->T[j] * t->f[j];
+  for (j = 0; j < NODES; ++j) G[j] = trial->T[j] * trial->f[j];
   *error = trum_quadrature_error(G);
-  if (any(held & l->active)) { /* a held lap also measures the contact */
-    G[0] = t->T[0] * l->theta;
-    for (j = 1; j < NODES; ++j) G[j] = t->T[j] * t->at[j].theta;
-    *error = sel(l->contact, N_(0), *error);
-    *error = sel(held, most(*error, N_(0.31830988618379067154) * trum_quadrature_error(G)), *error);
+  if (any_lane(held & lanes->active)) { /* a lap of the held rotor also integrates theta */
+    G[0] = trial->T[0] * lanes->theta;
+    for (j = 1; j < NODES; ++j) G[j] = trial->T[j] * trial->at[j].theta;
+    *error = where(lanes->contact_only, REAL(0), *error);
+    *error = where(held, maximum(*error, REAL(0.31830988618379067154) * trum_quadrature_error(G)), *error);
   }
-  ratio = *error * l->per_allowed;
-  if (l->slopes) {
-    const mask felt = less_than(N_(trum_feels) * l->period, l->h);
-    const int contact = any(held & l->active); /* a moving lap's is not asked for */
-    real T_f_v[NODES], T_theta_E[NODES], of;
-    int way;
-    trum_stiffness(l, t, T_f_v);
-    if (contact) trum_widening(l, t, T_theta_E);
-    of = l->push * l->per_growth * trum_quadrature_error(T_f_v);
-    for (way = 0; way < TRUM_SLOPE_PARAMETERS_COUNT; ++way) {
-      if (way == TRUM_BY_DRAG || way == TRUM_BY_FRICTION) continue;
-      trum_source(l, t, T_f_v, way, G);
-      of = most(of, l->per_f[way] * trum_quadrature_error(G));
+  ratio = *error * lanes->inverse_step_tolerance;
+  if (lanes->slopes) {
+    const mask resolved = less_than(REAL(trum_min_step_for_slopes) * lanes->period, lanes->h);
+    const int contact = any_lane(held & lanes->active); /* not wanted of a free rotor */
+    real T_f_v[NODES], T_theta_E[NODES], slope_ratio;
+    int parameter;
+    trum_friction_jacobian(lanes, trial, T_f_v);
+    if (contact) trum_half_angle_jacobian(lanes, trial, T_theta_E);
+    slope_ratio = lanes->push * lanes->inverse_growth_tolerance * trum_quadrature_error(T_f_v);
+    for (parameter = 0; parameter < PARAMETERS; ++parameter) {
+      if (parameter == TRUM_BY_DRAG || parameter == TRUM_BY_FRICTION) continue;
+      trum_sensitivity_source(lanes, trial, T_f_v, parameter, G);
+      slope_ratio = maximum(slope_ratio, lanes->inverse_friction_tolerance[parameter] * trum_quadrature_error(G));
       if (!contact) continue;
-      for (j = 0; j < NODES; ++j) G[j] = T_theta_E[j] * t->by[j].ln_E[way];
-      of = sel(held, most(of, l->per_angle[way] * trum_quadrature_error(G)), of);
+      for (j = 0; j < NODES; ++j) G[j] = T_theta_E[j] * trial->derivatives[j].ln_E[parameter];
+      slope_ratio =
+          where(held, maximum(slope_ratio, lanes->inverse_angle_tolerance[parameter] * trum_quadrature_error(G)),
+                slope_ratio);
     }
-    ratio = sel(felt & less_than(of, N_(1e30)), most(ratio, of), ratio);
+    ratio = where(resolved & less_than(slope_ratio, REAL(1e30)), maximum(ratio, slope_ratio), ratio);
   }
-  number = less_than(ratio, N_(1e30));
-  ratio = sel(number & no(t->open), least(ratio, N_(1e6)), N_(1e6));
-  l->lost = l->lost | (l->active & no(number) & tiny);
-  /* near a standing wave the surface's speed turns fast; the steps must see it turn, unless all of it touches */
+  finite = less_than(ratio, REAL(1e30));
+  ratio = where(finite & mask_not(trial->not_converged), minimum(ratio, REAL(1e6)), REAL(1e6));
+  lanes->failed = lanes->failed | (lanes->active & mask_not(finite) & minimal);
+  /* near a standing wave the surface's phase turns fast: the nodes must resolve it, unless the whole wave touches */
   for (j = 1; j < NODES; ++j) {
-    const real along = cosine * t->at[j].cos_phi + sine * t->at[j].sin_phi;
-    blind = blind | (less_than(along, N_(trum_cosine)) & less_than(N_(0), most(t->e[j][FULL], t->e[j - 1][FULL])));
-    cosine = t->at[j].cos_phi, sine = t->at[j].sin_phi;
+    const real along = cosine * trial->at[j].cos_phi + sine * trial->at[j].sin_phi;
+    phase_unresolved =
+        phase_unresolved |
+        (less_than(along, REAL(trum_min_phase_cosine)) &
+         less_than(REAL(0), maximum(trial->events[j][EVENT_FULL_CONTACT], trial->events[j - 1][EVENT_FULL_CONTACT])));
+    cosine = trial->at[j].cos_phi, sine = trial->at[j].sin_phi;
   }
-  blind = blind & less_than(N_(trum_sees) * l->period, l->h);
-  return sel(blind, most(ratio, N_(40)), ratio);
+  phase_unresolved = phase_unresolved & less_than(REAL(trum_min_step_for_phase) * lanes->period, lanes->h);
+  return where(phase_unresolved, maximum(ratio, REAL(40)), ratio);
 }
 
 #endif

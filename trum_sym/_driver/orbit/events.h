@@ -1,7 +1,8 @@
 /* Events: instants where the right-hand side is not smooth, located on cubics through the nodes of a step.
  *
- * The rotor as fast as the surface's fastest point (square root in time), a point of equal speed at the edge of the
- * contact (kink), the whole wave in contact (square root of the half-angle). */
+ * Saturation: the rotor as fast as the surface's fastest point, R_v^2 = v^2; f has a square root in time.  Edges: one
+ * of the two points as fast as the rotor crosses the edge of the contact, its pressure is zero; f has a kink.  Full
+ * contact: W_c = W_full, the whole wave begins to touch; the half-angle has a square root. */
 #ifndef TRUM_ORBIT_EVENTS_H
 #define TRUM_ORBIT_EVENTS_H
 
@@ -10,20 +11,20 @@ typedef struct {
   real e0, d1, d2, d3, z1, z2;
 } trum_cubic;
 
-/* Reciprocals of the distances of the nodes, which all cubics of a step share. */
+/* Reciprocals of the distances between the nodes, the same for all cubics of a step. */
 typedef struct {
   real z1, z2, of_01, of_12, of_23, of_02, of_13;
-} trum_places;
+} trum_node_distances;
 
-static trum_places trum_space(const real* z) {
-  trum_places s;
+static trum_node_distances trum_distances_of(const real* z) {
+  trum_node_distances s;
   s.z1 = z[1], s.z2 = z[2];
-  s.of_01 = inverse_of(z[1]), s.of_12 = inverse_of(z[2] - z[1]), s.of_23 = inverse_of(N_(1) - z[2]);
-  s.of_02 = inverse_of(z[2]), s.of_13 = inverse_of(N_(1) - z[1]);
+  s.of_01 = reciprocal(z[1]), s.of_12 = reciprocal(z[2] - z[1]), s.of_23 = reciprocal(REAL(1) - z[2]);
+  s.of_02 = reciprocal(z[2]), s.of_13 = reciprocal(REAL(1) - z[1]);
   return s;
 }
 
-static trum_cubic trum_through(const trum_places* s, real e0, real e1, real e2, real e3) {
+static trum_cubic trum_interpolate(const trum_node_distances* s, real e0, real e1, real e2, real e3) {
   trum_cubic c;
   const real d01 = (e1 - e0) * s->of_01, d12 = (e2 - e1) * s->of_12, d23 = (e3 - e2) * s->of_23;
   const real d012 = (d12 - d01) * s->of_02, d123 = (d23 - d12) * s->of_13;
@@ -40,52 +41,54 @@ static real trum_cubic_slope(const trum_cubic* c, real z) {
   return c->d1 + (z - c->z1) * inner + z * (inner + (z - c->z1) * c->d3);
 }
 
-/* Where the step first meets an event: its place, 2 if none, and which.  Saturated friction has no edges to cross. */
-static void trum_first_event(const trum_lanes* l, const real* z, real (*e)[EVENTS], trum_cubic* cubic, real* place,
-                             real* which) {
-  const trum_places spaces = trum_space(z);
-  const mask saturated = at_most(sel(l->fresh[SPEED], e[1][SPEED], e[0][SPEED]), N_(0));
+/* The first event in a step: its location in lengths of the step (2 if there is none) and its number.  Where friction
+ * is saturated no point is as fast as the rotor, so there are no edges to cross. */
+static void trum_locate_first_event(const trum_lanes* lanes, const real* z, real (*e)[EVENT_COUNT], trum_cubic* cubic,
+                                    real* location, real* event) {
+  const trum_node_distances spaces = trum_distances_of(z);
+  const mask saturated =
+      at_most(where(lanes->at_event[EVENT_SATURATION], e[1][EVENT_SATURATION], e[0][EVENT_SATURATION]), REAL(0));
   int k, j;
-  *place = N_(2), *which = N_(-1);
-  for (k = 0; k < EVENTS; ++k) {
-    const mask fresh = l->fresh[k], positive = less_than(N_(0), sel(fresh, e[1][k], e[0][k]));
-    const trum_cubic c = cubic[k] = trum_through(&spaces, e[0][k], e[1][k], e[2][k], e[EDGE][k]);
-    mask found = is(0);
-    real from = N_(0), to = N_(0), root;
+  *location = REAL(2), *event = REAL(-1);
+  for (k = 0; k < EVENT_COUNT; ++k) {
+    const mask fresh = lanes->at_event[k], positive = less_than(REAL(0), where(fresh, e[1][k], e[0][k]));
+    const trum_cubic c = cubic[k] = trum_interpolate(&spaces, e[0][k], e[1][k], e[2][k], e[LAST_NODE][k]);
+    mask found = mask_all(0);
+    real from = REAL(0), to = REAL(0), root;
     for (j = 1; j < NODES; ++j) {
-      const mask crossed = no(found) & (less_than(N_(0), e[j][k]) ^ positive);
-      from = sel(crossed, z[j - 1], from), to = sel(crossed, z[j], to), found = found | crossed;
+      const mask crossed = mask_not(found) & (less_than(REAL(0), e[j][k]) ^ positive);
+      from = where(crossed, z[j - 1], from), to = where(crossed, z[j], to), found = found | crossed;
     }
-    { /* it may cross and turn back between two nodes, where the cubic is lowest (highest, if it begins negative) */
-      const real side = sel(positive, N_(1), N_(-1));
+    { /* a double crossing between two nodes: look at the cubic's minimum (maximum, if it begins negative) */
+      const real side = where(positive, REAL(1), REAL(-1));
       const real c3 = side * c.d3, c2 = side * (c.d2 - (c.z1 + c.z2) * c.d3);
-      const real c1 = side * (c.d1 - c.z1 * (c.d2 - c.z2 * c.d3)), square = c2 * c2 - N_(3) * c1 * c3;
-      const real below = c2 + root_of(most(square, N_(0)));
-      const mask bowl = less_than(N_(0), square) & less_than(N_(1e-300), size_of(below));
-      const real lowest = sel(bowl, -c1 * inverse_of(sel(bowl, below, N_(1))), N_(-1));
-      const real begin = sel(fresh, z[1], N_(0));
-      const mask inside = bowl & less_than(begin, lowest) & less_than(lowest, sel(found, to, N_(1)));
-      const mask crossed = inside & at_most(side * trum_cubic_at(&c, lowest), N_(0));
-      from = sel(crossed, begin, from), to = sel(crossed, lowest, to), found = found | crossed;
+      const real c1 = side * (c.d1 - c.z1 * (c.d2 - c.z2 * c.d3)), square = c2 * c2 - REAL(3) * c1 * c3;
+      const real below = c2 + square_root(maximum(square, REAL(0)));
+      const mask has_extremum = less_than(REAL(0), square) & less_than(REAL(1e-300), absolute(below));
+      const real lowest = where(has_extremum, -c1 * reciprocal(where(has_extremum, below, REAL(1))), REAL(-1));
+      const real begin = where(fresh, z[1], REAL(0));
+      const mask between = has_extremum & less_than(begin, lowest) & less_than(lowest, where(found, to, REAL(1)));
+      const mask crossed = between & at_most(side * trum_cubic_at(&c, lowest), REAL(0));
+      from = where(crossed, begin, from), to = where(crossed, lowest, to), found = found | crossed;
     }
-    if (k == LARGER || k == SMALLER) found = found & no(saturated);
-    if (k != FULL) found = found & no(l->contact);
-    if (!any(found & l->active)) continue;
+    if (k == EVENT_LARGER_PRESSURE || k == EVENT_SMALLER_PRESSURE) found = found & mask_not(saturated);
+    if (k != EVENT_FULL_CONTACT) found = found & mask_not(lanes->contact_only);
+    if (!any_lane(found & lanes->active)) continue;
     {
       const real at_from = trum_cubic_at(&c, from), at_to = trum_cubic_at(&c, to);
-      const mask bracket = less_than(at_from * at_to, N_(0));
-      root = from + (to - from) * (at_from * inverse_of(sel(bracket, at_from - at_to, N_(1))));
-      root = sel(bracket, root, from);
+      const mask bracket = less_than(at_from * at_to, REAL(0));
+      root = from + (to - from) * (at_from * reciprocal(where(bracket, at_from - at_to, REAL(1))));
+      root = where(bracket, root, from);
     }
     for (j = 0; j < 3; ++j) {
       const real slope = trum_cubic_slope(&c, root);
-      const mask steep = less_than(N_(1e-200), size_of(slope));
-      root = sel(steep, root - trum_cubic_at(&c, root) * inverse_of(sel(steep, slope, N_(1))), root);
-      root = most(from, least(to, root));
+      const mask usable = less_than(REAL(1e-200), absolute(slope));
+      root = where(usable, root - trum_cubic_at(&c, root) * reciprocal(where(usable, slope, REAL(1))), root);
+      root = maximum(from, minimum(to, root));
     }
     {
-      const mask earlier = found & less_than(root, *place);
-      *place = sel(earlier, root, *place), *which = sel(earlier, N_(k), *which);
+      const mask earlier = found & less_than(root, *location);
+      *location = where(earlier, root, *location), *event = where(earlier, REAL(k), *event);
     }
   }
 }

@@ -2,16 +2,16 @@
 #ifndef TRUM_ORBIT_HISTORY_H
 #define TRUM_ORBIT_HISTORY_H
 
-/* Writes what falls into lane 0's step: speed and distance are polynomials of the step's parameter. */
-static void trum_write(trum_record* r, const trum_lanes* l, const real* rate) {
+/* Writes the times that fall into lane 0's step; speed and distance are polynomials in the step's parameter. */
+static void trum_record_step(trum_record* r, const trum_lanes* lanes, const real* rate) {
   static const double P[NODES][NODES] = TRUM_COLLOCATION_POWERS;
-  const double h = get(&l->h, 0), bend = get(&l->bend, 0), v0 = get(&l->v0, 0);
+  const double h = lane_value(&lanes->h, 0), bend = lane_value(&lanes->curvature, 0), v0 = lane_value(&lanes->v0, 0);
   double q[NODES + 1], travelled = 0.0;
   int k, j;
-  q[0] = v0 + get(&l->x, 0);
+  q[0] = v0 + lane_value(&lanes->x, 0);
   for (k = 0; k < NODES; ++k) {
     q[k + 1] = 0.0;
-    for (j = 0; j < NODES; ++j) q[k + 1] += P[k][j] * get(&rate[j], 0) / (k + 1);
+    for (j = 0; j < NODES; ++j) q[k + 1] += P[k][j] * lane_value(&rate[j], 0) / (k + 1);
   }
   for (;;) {
     const double time = r->spacing * (double)(r->written + 1);

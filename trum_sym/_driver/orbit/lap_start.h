@@ -1,40 +1,42 @@
-/* What the first step of a lap needs to know of its start. */
+/* The right-hand side at a lap's start; from then on every step begins with its predecessor's last node. */
 #ifndef TRUM_ORBIT_LAP_START_H
 #define TRUM_ORBIT_LAP_START_H
 
-static void trum_keep(trum_changes* kept, const trum_changes* by, mask here) {
-  int way;
-  for (way = 0; way < TRUM_SLOPE_PARAMETERS_COUNT; ++way) {
-    kept->f[way] = sel(here, by->f[way], kept->f[way]);
-    kept->ln_E[way] = sel(here, by->ln_E[way], kept->ln_E[way]);
-    kept->ln_R_v[way] = sel(here, by->ln_R_v[way], kept->ln_R_v[way]);
+static void trum_select_derivatives(trum_derivatives* kept, const trum_derivatives* by, mask here) {
+  int parameter;
+  for (parameter = 0; parameter < PARAMETERS; ++parameter) {
+    kept->f[parameter] = where(here, by->f[parameter], kept->f[parameter]);
+    kept->ln_E[parameter] = where(here, by->ln_E[parameter], kept->ln_E[parameter]);
+    kept->ln_R_v[parameter] = where(here, by->ln_R_v[parameter], kept->ln_R_v[parameter]);
   }
-  kept->theta_E = sel(here, by->theta_E, kept->theta_E);
-  kept->R_v_rate = sel(here, by->R_v_rate, kept->R_v_rate), kept->W_c_rate = sel(here, by->W_c_rate, kept->W_c_rate);
+  kept->theta_E = where(here, by->theta_E, kept->theta_E);
+  kept->R_v_rate = where(here, by->R_v_rate, kept->R_v_rate),
+  kept->W_c_rate = where(here, by->W_c_rate, kept->W_c_rate);
 }
 
-/* What the first step of a lap needs to know of its start. */
-static void trum_begin(trum_lanes* l) {
+/* Evaluates surface, friction and events where a lap starts. */
+static void trum_evaluate_lap_start(trum_lanes* lanes) {
   trum_surface at;
-  real f, f_v, e[EVENTS];
+  real f, f_v, e[EVENT_COUNT];
   int k;
-  trum_look(l, l->tau, &at);
-  trum_rub(&at, l->v0 + l->x, &f, &f_v, &e[LARGER], &e[SMALLER]);
-  e[SPEED] = at.R_v * at.R_v - (l->v0 + l->x) * (l->v0 + l->x);
-  e[FULL] = at.W_c * at.W_c - l->constants.W_full * l->constants.W_full;
-  l->f = sel(l->cold, f, l->f), l->f_v = sel(l->cold, f_v, l->f_v);
-  l->theta = sel(l->cold, at.theta, l->theta);
-  l->cos_phi = sel(l->cold, at.cos_phi, l->cos_phi), l->sin_phi = sel(l->cold, at.sin_phi, l->sin_phi);
-  if (l->slopes) {
-    trum_changes by;
-    trum_change(l, l->tau, &at, l->v0 + l->x, &by);
-    trum_keep(&l->changes, &by, l->cold);
+  trum_evaluate_surface(lanes, lanes->tau, &at);
+  trum_evaluate_friction(&at, lanes->v0 + lanes->x, &f, &f_v, &e[EVENT_LARGER_PRESSURE], &e[EVENT_SMALLER_PRESSURE]);
+  e[EVENT_SATURATION] = at.R_v * at.R_v - (lanes->v0 + lanes->x) * (lanes->v0 + lanes->x);
+  e[EVENT_FULL_CONTACT] = at.W_c * at.W_c - lanes->constants.W_full * lanes->constants.W_full;
+  lanes->f = where(lanes->at_lap_start, f, lanes->f), lanes->f_v = where(lanes->at_lap_start, f_v, lanes->f_v);
+  lanes->theta = where(lanes->at_lap_start, at.theta, lanes->theta);
+  lanes->cos_phi = where(lanes->at_lap_start, at.cos_phi, lanes->cos_phi),
+  lanes->sin_phi = where(lanes->at_lap_start, at.sin_phi, lanes->sin_phi);
+  if (lanes->slopes) {
+    trum_derivatives by;
+    trum_evaluate_derivatives(lanes, lanes->tau, &at, lanes->v0 + lanes->x, &by);
+    trum_select_derivatives(&lanes->derivatives, &by, lanes->at_lap_start);
   }
-  for (k = 0; k < EVENTS; ++k) {
-    l->event[k] = sel(l->cold, e[k], l->event[k]);
-    l->fresh[k] = l->fresh[k] & no(l->cold);
+  for (k = 0; k < EVENT_COUNT; ++k) {
+    lanes->events[k] = where(lanes->at_lap_start, e[k], lanes->events[k]);
+    lanes->at_event[k] = lanes->at_event[k] & mask_not(lanes->at_lap_start);
   }
-  l->cold = is(0);
+  lanes->at_lap_start = mask_all(0);
 }
 
 #endif

@@ -13,9 +13,9 @@ static void trum_load_cycle(const trum_orbit_in* in, trum_cycle_constants* cycle
 }
 
 /* Slopes of the phasors at the start of the regions. */
-static void trum_load_slopes(trum_job* job) {
-  const trum_orbit_in* in = job->in;
-  const trum_slopes_in* by_ = job->slopes_in;
+static void trum_load_region_slopes(trum_search* search) {
+  const trum_orbit_in* in = search->in;
+  const trum_slopes_in* by_ = search->slopes_in;
   trum_cycle_constants cycle;
   trum_free_motion before;
   trum_free_motion_slopes before_slopes;
@@ -29,72 +29,81 @@ static void trum_load_slopes(trum_job* job) {
   for (by = k = 0; by < 2; ++by)
     for (phase = 0; phase < 2; ++phase)
       for (r = 0; r < TRUM_REGIONS; ++r)
-        for (part = 0; part < 2; ++part) job->slopes[by][r][2 * phase + part] = res_[k++];
+        for (part = 0; part < 2; ++part) search->region_slopes[by][r][2 * phase + part] = res_[k++];
 }
 
 /* Slopes of the figures, when the orbit is found: d0 is that of the start speed which the lap reproduces. */
-static void trum_figures_slopes(const trum_lanes* l, int i, trum_job* job) {
-  const trum_lap* r = &l->lap;
-  const double whole = get(&l->whole, i), growth = get(&l->S, i), pull = 1.0 - growth > 1e-14 ? 1.0 - growth : 1e-14;
-  const double x = get(&r->x, i) / whole, S = get(&r->S, i) / whole, xS = get(&r->xS, i) / whole;
-  int way;
-  for (way = 0; way < TRUM_SLOPE_PARAMETERS_COUNT; ++way) {
-    double(*of)[TRUM_SLOPE_PARAMETERS_COUNT] = job->slopes_out->of;
-    if (job->stage == HELD) {
-      if (job->sized != 1) of[TRUM_OF_CONTACT][way] = get(&r->d_angle[way], i) / whole / 3.14159265358979323846;
-      if (job->sized != 2) of[TRUM_OF_HELD][way] = get(&r->d_friction[way], i) / whole;
+static void trum_store_slopes(const trum_lanes* lanes, int i, trum_search* search) {
+  const trum_lap* lap = &lanes->lap;
+  const double whole = lane_value(&lanes->cycle_time, i), growth = lane_value(&lanes->S, i),
+               pull = 1.0 - growth > 1e-14 ? 1.0 - growth : 1e-14;
+  const double x = lane_value(&lap->x, i) / whole, S = lane_value(&lap->S, i) / whole,
+               xS = lane_value(&lap->xS, i) / whole;
+  int parameter;
+  for (parameter = 0; parameter < PARAMETERS; ++parameter) {
+    double(*of)[PARAMETERS] = search->slopes_out->of;
+    if (search->stage == STAGE_HELD) {
+      if (search->held_laps != 1)
+        of[TRUM_OF_CONTACT][parameter] = lane_value(&lap->d_angle[parameter], i) / whole / 3.14159265358979323846;
+      if (search->held_laps != 2) of[TRUM_OF_HELD][parameter] = lane_value(&lap->d_friction[parameter], i) / whole;
     } else {
-      const double d0 = get(&l->d[way], i) / pull, d_x = get(&r->d_x[way], i) / whole;
-      of[TRUM_OF_MEAN][way] = d_x + S * d0;
-      of[TRUM_OF_LOW][way] = get(&r->d_low[way], i) + get(&r->S_low, i) * d0;
-      of[TRUM_OF_HIGH][way] = get(&r->d_high[way], i) + get(&r->S_high, i) * d0;
-      of[TRUM_OF_VARIANCE][way] = 2.0 * (get(&r->d_xx[way], i) / whole - x * d_x + (xS - x * S) * d0);
+      const double d0 = lane_value(&lanes->slopes_x[parameter], i) / pull,
+                   d_x = lane_value(&lap->d_x[parameter], i) / whole;
+      of[TRUM_OF_MEAN][parameter] = d_x + S * d0;
+      of[TRUM_OF_LOW][parameter] = lane_value(&lap->d_low[parameter], i) + lane_value(&lap->S_low, i) * d0;
+      of[TRUM_OF_HIGH][parameter] = lane_value(&lap->d_high[parameter], i) + lane_value(&lap->S_high, i) * d0;
+      of[TRUM_OF_VARIANCE][parameter] =
+          2.0 * (lane_value(&lap->d_xx[parameter], i) / whole - x * d_x + (xS - x * S) * d0);
     }
   }
 }
 
 /* The next lap's slopes are not looked after: nothing is known of their size. */
-static void trum_unsized(trum_job* job) {
+static void trum_reset_slope_scales(trum_search* search) {
   int k;
-  job->growth = 1e300;
-  for (k = 0; k < TRUM_SLOPE_PARAMETERS_COUNT; ++k) job->size_f[k] = job->size_angle[k] = 1e300;
+  search->growth_scale = 1e300;
+  for (k = 0; k < PARAMETERS; ++k) search->friction_scale[k] = search->angle_scale[k] = 1e300;
 }
 
 /* The rough level that makes one fine lap enough: Newton's step from there leaves its square. */
-static double trum_rough(double tolerance) { return trum_level * 0.1 * sqrt(tolerance); }
+static double trum_rough_level(double tolerance) { return trum_step_share * 0.1 * sqrt(tolerance); }
 
-/* A point's search for its orbit begins from rest, or from where it is known to begin; 0 if no speed balances the load. */
-static int trum_set_off(trum_lanes* l, int i, trum_job* job, double known) {
-  const trum_orbit_in* in = job->in;
+/* A point's search for its orbit begins from rest, or from where it is known to begin; 0 if no speed balances the load.
+ */
+static int trum_start_search(trum_lanes* lanes, int i, trum_search* search, double known) {
+  const trum_orbit_in* in = search->in;
   if (!(in->push > fabs(in->drag))) {
-    job->out->flags += trum_runaway;
+    search->out->flags += trum_runaway;
     return 0;
   }
-  job->stage = ROUGH, job->level = trum_level * trum_coarse;
-  job->scale = 0.1 * in->D * in->k_c * in->W * (in->omega_n + in->Delta_omega);
-  if (!isnan(known)) job->v0 = known, job->laps = 1;
-  trum_start_lap(l, i, job);
+  search->stage = STAGE_ROUGH, search->level = trum_step_share * trum_first_lap_tolerance;
+  search->speed_scale = 0.1 * in->D * in->k_c * in->W * (in->omega_n + in->Delta_omega);
+  if (!isnan(known)) search->start_speed = known, search->laps = 1;
+  trum_start_lap(lanes, i, search);
   return 1;
 }
 
 /* Puts a piece of a point's work into a lane: its rotor held, or the search for its orbit, from where that begins if it
  * is known.  0 if there is nothing to do. */
-static int trum_load(trum_lanes* l, int i, trum_job* job, const trum_orbit_in* in, trum_orbit_out* out, int held,
-                     double known) {
+static int trum_load_task(trum_lanes* lanes, int i, trum_search* search, const trum_orbit_in* in, trum_orbit_out* out,
+                          int held, double known) {
   const double period = 6.283185307179586477 / (in->omega_n + in->Delta_omega);
   trum_cycle_constants cycle;
   trum_free_motion before;
   trum_real res_[trum_regions_n_res];
   int r, phase;
-  put(&l->constants.omega_n, i, in->omega_n), put(&l->constants.Delta_omega, i, in->Delta_omega), put(&l->constants.xi, i, in->xi);
-  put(&l->constants.s, i, in->s), put(&l->constants.W, i, in->W), put(&l->constants.D, i, in->D), put(&l->constants.k_c, i, in->k_c);
-  put(&l->constants.engagement_per_height, i, in->engagement_per_height), put(&l->constants.W_full, i, in->W_full);
-  put(&l->constants.p_re, i, cos(in->psi)), put(&l->constants.p_im, i, sin(in->psi));
-  put(&l->period, i, period), put(&l->whole, i, period * in->m);
+  set_lane(&lanes->constants.omega_n, i, in->omega_n), set_lane(&lanes->constants.Delta_omega, i, in->Delta_omega),
+      set_lane(&lanes->constants.xi, i, in->xi);
+  set_lane(&lanes->constants.s, i, in->s), set_lane(&lanes->constants.W, i, in->W),
+      set_lane(&lanes->constants.D, i, in->D), set_lane(&lanes->constants.k_c, i, in->k_c);
+  set_lane(&lanes->constants.engagement_per_height, i, in->engagement_per_height),
+      set_lane(&lanes->constants.W_full, i, in->W_full);
+  set_lane(&lanes->constants.p_re, i, cos(in->psi)), set_lane(&lanes->constants.p_im, i, sin(in->psi));
+  set_lane(&lanes->period, i, period), set_lane(&lanes->cycle_time, i, period * in->m);
   trum_load_cycle(in, &cycle, &before);
   trum_plain_regions(&cycle, &before, res_);
   for (r = 0; r < TRUM_REGIONS; ++r) {
-    job->pulses[r] = floor(res_[trum_regions_out_time_redu + r] / period + 0.5);
+    search->pulses[r] = floor(res_[trum_regions_out_time_redu + r] / period + 0.5);
     for (phase = 0; phase < 2; ++phase) {
       trum_phasor_in at;
       trum_phasor_out z;
@@ -102,138 +111,159 @@ static int trum_load(trum_lanes* l, int i, trum_job* job, const trum_orbit_in* i
       at.b = res_[trum_regions_out_a_A_redu + 4 * r + 2 * phase + 1];
       at.omega_n = (trum_real)in->omega_n, at.xi = (trum_real)in->xi;
       trum_plain_phasor(&at, &z);
-      job->start[r][2 * phase] = z.re, job->start[r][2 * phase + 1] = z.im;
+      search->region_start[r][2 * phase] = z.re, search->region_start[r][2 * phase + 1] = z.im;
     }
   }
-  job->in = in, job->out = out;
-  job->laps = job->finer = job->halves = 0, job->last_away = job->last_noise = 0.0, job->keeps = 1.0;
-  job->stage = HELD, job->v0 = 0.0, job->low = -HUGE_VAL, job->high = HUGE_VAL;
-  job->scale = 0.0, job->level = trum_level * in->tolerance;
-  job->sized = 0, trum_unsized(job);
-  if (l->slopes) trum_load_slopes(job);
-  if (!held) return trum_set_off(l, i, job, known);
-  trum_start_lap(l, i, job);
+  search->in = in, search->out = out;
+  search->laps = search->refinements = search->bisect_next = 0, search->last_newton_step = search->last_lap_error = 0.0,
+  search->contraction = 1.0;
+  search->stage = STAGE_HELD, search->start_speed = 0.0, search->bracket_low = -HUGE_VAL,
+  search->bracket_high = HUGE_VAL;
+  search->speed_scale = 0.0, search->level = trum_step_share * in->tolerance;
+  search->held_laps = 0, trum_reset_slope_scales(search);
+  if (lanes->slopes) trum_load_region_slopes(search);
+  if (!held) return trum_start_search(lanes, i, search, known);
+  trum_start_lap(lanes, i, search);
   return 1;
 }
 
 /* Errors of the next lap's slopes are measured by what this one has added up. */
-static void trum_size(const trum_lanes* l, int i, trum_job* job, double growth) {
+static void trum_update_slope_scales(const trum_lanes* lanes, int i, trum_search* search, double growth) {
   int k;
-  job->growth = growth;
-  for (k = 0; k < TRUM_SLOPE_PARAMETERS_COUNT; ++k) {
-    job->size_f[k] = get(&l->lap.size_f[k], i) + 1e-250, job->size_angle[k] = get(&l->lap.size_angle[k], i) + 1e-250;
+  search->growth_scale = growth;
+  for (k = 0; k < PARAMETERS; ++k) {
+    search->friction_scale[k] = lane_value(&lanes->lap.sum_abs_friction[k], i) + 1e-250,
+    search->angle_scale[k] = lane_value(&lanes->lap.sum_abs_angle[k], i) + 1e-250;
   }
 }
 
 /* A lap is over: the next one, or 0 when the point is done.  Gain falls as the start rises: Newton in a bracket. */
-static int trum_judge(trum_lanes* l, int i, trum_job* job) {
-  const trum_orbit_in* in = job->in;
-  trum_orbit_out* out = job->out;
-  const trum_lap* r = &l->lap;
-  const double whole = get(&l->whole, i);
-  const int lost = in_lane(l->lost, i);
-  if (job->stage == HELD) {
-    out->contact = lost ? NAN : get(&r->angle, i) / whole / 3.14159265358979323846;
-    out->held = lost ? NAN : get(&r->friction, i) / whole;
-    if (l->slopes && !lost) trum_figures_slopes(l, i, job);
-    if (l->slopes && !lost && job->sized < 2) { /* once more for the friction, and for the contact by itself */
-      if (!job->sized) trum_size(l, i, job, 1e300);
-      ++job->sized;
-      trum_start_lap(l, i, job);
+static int trum_finish_lap(trum_lanes* lanes, int i, trum_search* search) {
+  const trum_orbit_in* in = search->in;
+  trum_orbit_out* out = search->out;
+  const trum_lap* lap = &lanes->lap;
+  const double whole = lane_value(&lanes->cycle_time, i);
+  const int lost = mask_in_lane(lanes->failed, i);
+  if (search->stage == STAGE_HELD) {
+    out->contact = lost ? NAN : lane_value(&lap->angle, i) / whole / 3.14159265358979323846;
+    out->held = lost ? NAN : lane_value(&lap->friction, i) / whole;
+    if (lanes->slopes && !lost) trum_store_slopes(lanes, i, search);
+    if (lanes->slopes && !lost &&
+        search->held_laps < 2) { /* once more for the friction, and for the contact by itself */
+      if (!search->held_laps) trum_update_slope_scales(lanes, i, search, 1e300);
+      ++search->held_laps;
+      trum_start_lap(lanes, i, search);
       return 1;
     }
-    if (get(&r->full, i) > 0.0) out->flags += trum_full_contact;
+    if (lane_value(&lap->full_contact, i) > 0.0) out->flags += trum_full_contact;
     return 0;
   }
   if (lost) { /* steps that are too bold chatter where the rotor is as fast as a line of contact */
-    const double fine = trum_level * in->tolerance;
-    if (++job->finer > 3) return 0;
-    job->level = job->level > fine ? fine : 0.1 * job->level, ++job->laps;
-    trum_start_lap(l, i, job);
+    const double fine = trum_step_share * in->tolerance;
+    if (++search->refinements > 3) return 0;
+    search->level = search->level > fine ? fine : 0.1 * search->level, ++search->laps;
+    trum_start_lap(lanes, i, search);
     return 1;
   }
   {
-    const double gain = get(&l->x, i), growth = get(&l->S, i), pull = 1.0 - growth > 1e-14 ? 1.0 - growth : 1e-14;
-    const double low = get(&r->low, i), high = get(&r->high, i), bound = 1.5 * get(&r->fastest, i);
-    const double top = fabs(job->v0 + low) > fabs(job->v0 + high) ? fabs(job->v0 + low) : fabs(job->v0 + high);
-    const double fine = trum_level * in->tolerance;
-    const int accurate = job->level <= fine * 1.0001, last = ++job->laps >= trum_most_laps;
+    const double gain = lane_value(&lanes->x, i), growth = lane_value(&lanes->S, i),
+                 pull = 1.0 - growth > 1e-14 ? 1.0 - growth : 1e-14;
+    const double low = lane_value(&lap->low, i), high = lane_value(&lap->high, i),
+                 bound = 1.5 * lane_value(&lap->fastest, i);
+    const double top = fabs(search->start_speed + low) > fabs(search->start_speed + high)
+                           ? fabs(search->start_speed + low)
+                           : fabs(search->start_speed + high);
+    const double fine = trum_step_share * in->tolerance;
+    const int accurate = search->level <= fine * 1.0001, last = ++search->laps >= trum_max_laps;
     /* a Newton step this small leaves an error of its square: the figures' derivatives take it along, slopes do not */
-    const double nearly = top * (l->slopes && job->stage == FINE ? in->tolerance : sqrt(0.1 * in->tolerance));
-    const int coarse = job->laps == 1 && !accurate;
-    const double missed = get(&r->error, i) * in->push, noise = missed / pull, was = job->level * job->scale;
-    double next = job->v0 + gain / pull, away, left;
+    const double nearly =
+        top * (lanes->slopes && search->stage == STAGE_FINE ? in->tolerance : sqrt(0.1 * in->tolerance));
+    const int coarse = search->laps == 1 && !accurate;
+    const double missed = lane_value(&lap->error, i) * in->push, noise = missed / pull,
+                 was = search->level * search->speed_scale;
+    double next = search->start_speed + gain / pull, away, left;
     int inside, pinned, close;
     if (!coarse || fabs(gain) > 10.0 * missed) {
-      if (gain > 0.0) job->low = job->v0, job->gain_low = gain;
-      else job->high = job->v0, job->gain_high = gain;
+      if (gain > 0.0) search->bracket_low = search->start_speed, search->gain_low = gain;
+      else search->bracket_high = search->start_speed, search->gain_high = gain;
     }
     next = next > bound ? bound : next < -bound ? -bound : next;
     /* Newton's step is not taken out of the bracket, nor if it is not getting shorter: it may go round in circles */
-    inside = next > job->low && next < job->high && fabs(next - job->v0) <= 0.5 * job->last_away;
-    if (!inside && job->low > -HUGE_VAL && job->high < HUGE_VAL) {
-      const double share = job->halves ? 0.5 : job->gain_low / (job->gain_low - job->gain_high);
-      next = job->low + share * (job->high - job->low), job->halves = !job->halves;
+    inside = next > search->bracket_low && next < search->bracket_high &&
+             fabs(next - search->start_speed) <= 0.5 * search->last_newton_step;
+    if (!inside && search->bracket_low > -HUGE_VAL && search->bracket_high < HUGE_VAL) {
+      const double share = search->bisect_next ? 0.5 : search->gain_low / (search->gain_low - search->gain_high);
+      next = search->bracket_low + share * (search->bracket_high - search->bracket_low),
+      search->bisect_next = !search->bisect_next;
     }
-    away = next - job->v0;
-    pinned = !coarse && (fabs(away) <= noise || job->high - job->low <= 1e-15 * bound);
-    /* what Newton's step leaves is its square, or what a lap keeps of it, and of the steps' errors a part: most cancel */
+    away = next - search->start_speed;
+    pinned = !coarse && (fabs(away) <= noise || search->bracket_high - search->bracket_low <= 1e-15 * bound);
+    /* what Newton's step leaves is its square, or what a lap keeps of it, and of the steps' errors a part: most cancel
+     */
     left = fabs(away) * (growth < fabs(away) / top ? growth : fabs(away) / top) + 0.3 * noise;
-    if (job->last_away > 10.0 * job->last_noise) job->keeps = fabs(away) < job->last_away ? fabs(away) / job->last_away : 1.0;
-    job->last_away = fabs(away), job->last_noise = noise;
-    close = accurate ? fabs(away) <= nearly && fabs(away) * job->keeps <= in->tolerance * top : left <= nearly;
+    if (search->last_newton_step > 10.0 * search->last_lap_error)
+      search->contraction = fabs(away) < search->last_newton_step ? fabs(away) / search->last_newton_step : 1.0;
+    search->last_newton_step = fabs(away), search->last_lap_error = noise;
+    close = accurate ? fabs(away) <= nearly && fabs(away) * search->contraction <= in->tolerance * top : left <= nearly;
     close = close || pinned;
-    if (l->slopes) trum_size(l, i, job, pull);
+    if (lanes->slopes) trum_update_slope_scales(lanes, i, search, pull);
     /* the less a lap pulls speeds together, the more an error of a step weighs */
-    job->scale = top * (pull > 1e-3 ? pull : 1e-3 * (in->push * whole < top ? pull + in->push * whole / top : 1.0));
-    if (l->slopes && job->stage == ROUGH) { /* the orbit is known, and now its slopes' size is */
-      job->stage = FINE, job->level = fine, job->low = -HUGE_VAL, job->high = HUGE_VAL;
-      trum_start_lap(l, i, job);
+    search->speed_scale =
+        top * (pull > 1e-3 ? pull : 1e-3 * (in->push * whole < top ? pull + in->push * whole / top : 1.0));
+    if (lanes->slopes && search->stage == STAGE_ROUGH) { /* the orbit is known, and now its slopes' size is */
+      search->stage = STAGE_FINE, search->level = fine, search->bracket_low = -HUGE_VAL,
+      search->bracket_high = HUGE_VAL;
+      trum_start_lap(lanes, i, search);
       return 1;
     }
-    if (close && accurate && noise > in->tolerance * top && !last && ++job->finer <= 3) {
+    if (close && accurate && noise > in->tolerance * top && !last && ++search->refinements <= 3) {
       const double excess = in->tolerance * top / noise;
-      job->level *= 0.3 * (excess > 0.01 ? excess : 0.01);
+      search->level *= 0.3 * (excess > 0.01 ? excess : 0.01);
     } else if (close && (accurate || last)) {
-      const double mean = get(&r->x, i) / whole, mean_S = get(&r->S, i) / whole;
-      const double square = get(&r->xx, i) / whole, mean_xS = get(&r->xS, i) / whole;
+      const double mean = lane_value(&lap->x, i) / whole, mean_S = lane_value(&lap->S, i) / whole;
+      const double square = lane_value(&lap->xx, i) / whole, mean_xS = lane_value(&lap->xS, i) / whole;
       const double variance = square - mean * mean + 2.0 * away * (mean_xS - mean * mean_S);
-      if (l->slopes) trum_figures_slopes(l, i, job);
-      out->mean = job->v0 + mean + away * mean_S;
-      out->low = job->v0 + low + away * get(&r->S_low, i), out->high = job->v0 + high + away * get(&r->S_high, i);
+      if (lanes->slopes) trum_store_slopes(lanes, i, search);
+      out->mean = search->start_speed + mean + away * mean_S;
+      out->low = search->start_speed + low + away * lane_value(&lap->S_low, i),
+      out->high = search->start_speed + high + away * lane_value(&lap->S_high, i);
       /* Newton's last change leaves the order of nearly equal speeds open */
       out->low = out->low < out->mean ? out->low : out->mean, out->high = out->high > out->mean ? out->high : out->mean;
       out->variance = variance > 0.0 ? variance : 0.0;
-      out->start = next, out->level = job->level, out->error = noise / top;
+      out->start = next, out->level = search->level, out->error = noise / top;
       if (noise <= in->tolerance * top) out->flags += trum_converged;
       return 0;
     }
     if (last) { /* the best there is, and not flagged as converged */
-      out->mean = job->v0 + get(&r->x, i) / whole, out->low = job->v0 + low, out->high = job->v0 + high;
-      out->variance = get(&r->xx, i) / whole - (get(&r->x, i) / whole) * (get(&r->x, i) / whole);
-      out->start = job->v0, out->level = job->level, out->error = fabs(away) / top;
+      out->mean = search->start_speed + lane_value(&lap->x, i) / whole, out->low = search->start_speed + low,
+      out->high = search->start_speed + high;
+      out->variance =
+          lane_value(&lap->xx, i) / whole - (lane_value(&lap->x, i) / whole) * (lane_value(&lap->x, i) / whole);
+      out->start = search->start_speed, out->level = search->level, out->error = fabs(away) / top;
       return 0;
     }
     if (close) {
       /* the steps' errors add up to what follows the level's power 3/4 */
-      const double ratio = fine * job->scale / was, expected = noise * sqrt(ratio) * sqrt(sqrt(ratio));
+      const double ratio = fine * search->speed_scale / was, expected = noise * sqrt(ratio) * sqrt(sqrt(ratio));
       const double excess = in->tolerance * top / expected;
-      job->level = excess < 1.0 ? fine * 0.5 * (excess > 0.01 ? excess : 0.01) : fine;
-      job->stage = FINE, job->low = -HUGE_VAL, job->high = HUGE_VAL;
+      search->level = excess < 1.0 ? fine * 0.5 * (excess > 0.01 ? excess : 0.01) : fine;
+      search->stage = STAGE_FINE, search->bracket_low = -HUGE_VAL, search->bracket_high = HUGE_VAL;
     } else if (coarse) {
-      job->level = trum_rough(in->tolerance);
+      search->level = trum_rough_level(in->tolerance);
     }
-    job->v0 = next;
+    search->start_speed = next;
   }
-  trum_start_lap(l, i, job);
+  trum_start_lap(lanes, i, search);
   return 1;
 }
 
-static void trum_clear(trum_lanes* l, int hertz, int slopes) {
+static void trum_initialise_lanes(trum_lanes* lanes, int hertz, int slopes) {
   int k;
-  l->active = l->cold = l->lost = l->contact = is(0), l->hertz = hertz, l->slopes = slopes, l->record = 0;
-  for (k = 0; k < EVENTS; ++k) l->fresh[k] = is(0), l->event[k] = TRUM_NUMBER(0);
-  l->tau = l->left = l->h = l->natural = l->bend = l->target = l->tries = l->patience = TRUM_NUMBER(0);
+  lanes->active = lanes->at_lap_start = lanes->failed = lanes->contact_only = mask_all(0), lanes->hertz = hertz,
+  lanes->slopes = slopes, lanes->record = 0;
+  for (k = 0; k < EVENT_COUNT; ++k) lanes->at_event[k] = mask_all(0), lanes->events[k] = TRUM_NUMBER(0);
+  lanes->tau = lanes->time_left = lanes->h = lanes->step_size = lanes->curvature = lanes->target_event =
+      lanes->retries = lanes->steps_left = TRUM_NUMBER(0);
 }
 
 #endif

@@ -1,86 +1,92 @@
-/* A collocation step: Newton on the nodes after the first, and the estimate of its quadrature error. */
+/* A step by collocation at Lobatto's four nodes (order 6), solved by Newton with the friction's own derivative. */
 #ifndef TRUM_ORBIT_STEP_H
 #define TRUM_ORBIT_STEP_H
 
-/* The error of a step's integral, from how fast its integrand's Legendre coefficients fall. */
+/* An estimate of a step's quadrature error, from the decay of its integrand's Legendre coefficients. */
 static real trum_quadrature_error(const real* G) {
   static const double L[NODES][NODES] = TRUM_COLLOCATION_LEGENDRE;
-  real l[NODES], whole, second, third;
+  real size[NODES], whole, second, third;
   int k, j;
   for (k = 0; k < NODES; ++k) {
-    l[k] = N_(L[k][0]) * G[0];
-    for (j = 1; j < NODES; ++j) l[k] = l[k] + N_(L[k][j]) * G[j];
-    l[k] = size_of(l[k]);
+    size[k] = REAL(L[k][0]) * G[0];
+    for (j = 1; j < NODES; ++j) size[k] = size[k] + REAL(L[k][j]) * G[j];
+    size[k] = absolute(size[k]);
   }
-  whole = l[0] + l[1] + N_(1e-37);
-  second = l[2] / whole, third = cube_root_of(l[3] / whole + N_(1e-37));
-  return N_(trum_estimate) * most(l[2] * second * root_of(second), l[3] * third * third);
+  whole = size[0] + size[1] + REAL(1e-37);
+  second = size[2] / whole, third = cube_root(size[3] / whole + REAL(1e-37));
+  return REAL(trum_quadrature_share) * maximum(size[2] * second * square_root(second), size[3] * third * third);
 }
 
-/* A step that is tried: the nodes' places and rates of time, and what is there. */
+/* An attempt at a step: location z and rate of time T of the nodes, and the solution there. */
 typedef struct {
-  trum_surface at[NODES]; /* not at the first node */
-  real z[NODES], T[NODES], x[NODES], f[NODES], f_v[NODES], e[NODES][EVENTS];
-  trum_changes by[NODES]; /* if slopes are wanted */
-  mask open;              /* Newton has not closed */
-} trum_attempt;
+  trum_surface at[NODES]; /* from the second node on */
+  real z[NODES], T[NODES], x[NODES], f[NODES], f_v[NODES], events[NODES][EVENT_COUNT];
+  trum_derivatives derivatives[NODES]; /* if slopes are wanted */
+  mask not_converged;                  /* Newton has not converged */
+} trum_trial_step;
 
-static mask trum_same(real a, real b) { return at_most(size_of(a - b), N_(0.25)); }
+static mask trum_is_event(real a, real b) { return at_most(absolute(a - b), REAL(0.25)); }
 
-/* Collocation: x_i = x_0 + sum_j A_ij T_j (push f(x_j) - drag), by Newton on the three nodes after the first. */
-static void trum_try(const trum_lanes* l, trum_attempt* t) {
+/* Solves x_i = x_0 + sum_j A_ij T_j (push f(x_j) - drag) for the three nodes after the first. */
+static void trum_solve_collocation(const trum_lanes* lanes, trum_trial_step* trial) {
   static const double A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS, c[NODES] = TRUM_COLLOCATION_POINTS;
-  trum_eliminated equations;
+  trum_factors equations;
   real G[NODES], right[NODES], y[NODES];
   int i, j, k, tries;
   for (j = 0; j < NODES; ++j) {
-    const real sigma = N_(c[j]);
-    t->z[j] = sigma * (N_(1) + l->bend * (N_(1) - sigma));
-    t->T[j] = l->h * (N_(1) + l->bend * (N_(1) - N_(2) * sigma));
+    const real sigma = REAL(c[j]);
+    trial->z[j] = sigma * (REAL(1) + lanes->curvature * (REAL(1) - sigma));
+    trial->T[j] = lanes->h * (REAL(1) + lanes->curvature * (REAL(1) - REAL(2) * sigma));
   }
-  t->open = l->active;
-  t->x[0] = l->x, t->f[0] = l->f, t->f_v[0] = l->f_v;
-  for (k = 0; k < EVENTS; ++k) t->e[0][k] = l->event[k];
-  G[0] = t->T[0] * (l->push * t->f[0] - l->drag);
+  trial->not_converged = lanes->active;
+  trial->x[0] = lanes->x, trial->f[0] = lanes->f, trial->f_v[0] = lanes->f_v;
+  for (k = 0; k < EVENT_COUNT; ++k) trial->events[0][k] = lanes->events[k];
+  G[0] = trial->T[0] * (lanes->push * trial->f[0] - lanes->drag);
   for (j = 1; j < NODES; ++j) {
-    trum_look(l, l->tau + l->h * t->z[j], &t->at[j]);
-    t->x[j] = l->x + l->h * t->z[j] * (l->push * l->f - l->drag);
-    t->f[j] = l->f, t->f_v[j] = N_(0), t->e[j][LARGER] = N_(0), t->e[j][SMALLER] = N_(0);
+    trum_evaluate_surface(lanes, lanes->tau + lanes->h * trial->z[j], &trial->at[j]);
+    trial->x[j] = lanes->x + lanes->h * trial->z[j] * (lanes->push * lanes->f - lanes->drag);
+    trial->f[j] = lanes->f, trial->f_v[j] = REAL(0), trial->events[j][EVENT_LARGER_PRESSURE] = REAL(0),
+    trial->events[j][EVENT_SMALLER_PRESSURE] = REAL(0);
   }
-  for (tries = 0; tries < 12 && any(t->open); ++tries) {
-    real change = N_(0), slope[NODES];
-    slope[0] = N_(0);
+  for (tries = 0; tries < 12 && any_lane(trial->not_converged); ++tries) {
+    real change = REAL(0), slope[NODES];
+    slope[0] = REAL(0);
     for (j = 1; j < NODES; ++j) {
       real f, f_v, larger, smaller;
-      trum_rub(&t->at[j], l->v0 + t->x[j], &f, &f_v, &larger, &smaller);
-      t->f[j] = sel(t->open, f, t->f[j]), t->f_v[j] = sel(t->open, f_v, t->f_v[j]);
-      t->e[j][LARGER] = sel(t->open, larger, t->e[j][LARGER]);
-      t->e[j][SMALLER] = sel(t->open, smaller, t->e[j][SMALLER]);
-      G[j] = t->T[j] * (l->push * t->f[j] - l->drag);
-      slope[j] = t->T[j] * (l->push * t->f_v[j]);
+      trum_evaluate_friction(&trial->at[j], lanes->v0 + trial->x[j], &f, &f_v, &larger, &smaller);
+      trial->f[j] = where(trial->not_converged, f, trial->f[j]),
+      trial->f_v[j] = where(trial->not_converged, f_v, trial->f_v[j]);
+      trial->events[j][EVENT_LARGER_PRESSURE] =
+          where(trial->not_converged, larger, trial->events[j][EVENT_LARGER_PRESSURE]);
+      trial->events[j][EVENT_SMALLER_PRESSURE] =
+          where(trial->not_converged, smaller, trial->events[j][EVENT_SMALLER_PRESSURE]);
+      G[j] = trial->T[j] * (lanes->push * trial->f[j] - lanes->drag);
+      slope[j] = trial->T[j] * (lanes->push * trial->f_v[j]);
     }
     for (i = 1; i < NODES; ++i) {
-      right[i] = l->x - t->x[i];
-      for (j = 0; j < NODES; ++j) right[i] = right[i] + N_(A[i][j]) * G[j];
+      right[i] = lanes->x - trial->x[i];
+      for (j = 0; j < NODES; ++j) right[i] = right[i] + REAL(A[i][j]) * G[j];
     }
-    equations = trum_eliminate(slope);
-    trum_solve(&equations, right, y);
-    for (j = 1; j < NODES; ++j) { /* friction bounds how far the speed can get */
-      const real drift = l->x - l->h * t->z[j] * l->drag, reach = l->h * t->z[j] * l->push;
-      const real next = most(drift - reach, least(drift + reach, t->x[j] + y[j]));
-      change = most(change, size_of(next - t->x[j]));
-      t->f[j] = sel(t->open, t->f[j] + t->f_v[j] * (next - t->x[j]), t->f[j]);
-      t->x[j] = sel(t->open, next, t->x[j]);
+    equations = trum_factorise(slope);
+    trum_substitute(&equations, right, y);
+    for (j = 1; j < NODES; ++j) { /* |f| <= 1 bounds the change of speed */
+      const real drift = lanes->x - lanes->h * trial->z[j] * lanes->drag, reach = lanes->h * trial->z[j] * lanes->push;
+      const real next = maximum(drift - reach, minimum(drift + reach, trial->x[j] + y[j]));
+      change = maximum(change, absolute(next - trial->x[j]));
+      trial->f[j] = where(trial->not_converged, trial->f[j] + trial->f_v[j] * (next - trial->x[j]), trial->f[j]);
+      trial->x[j] = where(trial->not_converged, next, trial->x[j]);
     }
-    t->open = t->open & no(at_most(change, l->newton_error));
+    trial->not_converged = trial->not_converged & mask_not(at_most(change, lanes->newton_tolerance));
   }
   for (j = 1; j < NODES; ++j) {
-    const real v = l->v0 + t->x[j];
-    t->e[j][SPEED] = t->at[j].R_v * t->at[j].R_v - v * v;
-    t->e[j][FULL] = t->at[j].W_c * t->at[j].W_c - l->constants.W_full * l->constants.W_full;
-    if (l->slopes) trum_change(l, l->tau + l->h * t->z[j], &t->at[j], v, &t->by[j]);
+    const real v = lanes->v0 + trial->x[j];
+    trial->events[j][EVENT_SATURATION] = trial->at[j].R_v * trial->at[j].R_v - v * v;
+    trial->events[j][EVENT_FULL_CONTACT] =
+        trial->at[j].W_c * trial->at[j].W_c - lanes->constants.W_full * lanes->constants.W_full;
+    if (lanes->slopes)
+      trum_evaluate_derivatives(lanes, lanes->tau + lanes->h * trial->z[j], &trial->at[j], v, &trial->derivatives[j]);
   }
-  if (l->slopes) t->by[0] = l->changes;
+  if (lanes->slopes) trial->derivatives[0] = lanes->derivatives;
 }
 
 #endif
