@@ -7,26 +7,30 @@
  * The rim's speed obeys v' = push f(v, t) - drag, and f falls as v rises.  Where v(t) meets the surface's fastest
  * point, f has a square root in time; where a point of equal speed crosses the edge of the contact, f has a kink.
  * Steps end at those events, and next to a square root the time in a step runs as the square of its parameter,
- * where everything is smooth again.  Between events a step is collocation at Lobatto's nodes. */
+ * where everything is smooth again.  Between events a step is collocation at Lobatto's nodes.  The speed at which a lap
+ * of the drive cycle ends where it began is found by shooting: Newton on the start speed.
+ *
+ * One concern a header, in the order in which they need each other; orbit/types.h has a glossary. */
 #ifndef TRUM_ORBIT_H
 #define TRUM_ORBIT_H
 #include "orbit/number.h"
 #include "orbit/types.h"
 #include "orbit/constants.h"
 #include "orbit/surface.h"
-#include "orbit/friction_slopes.h"
+#include "orbit/derivatives.h"
 #include "orbit/collocation.h"
 #include "orbit/events.h"
 #include "orbit/extremes.h"
 #include "orbit/lap_start.h"
 #include "orbit/history.h"
 #include "orbit/step.h"
-#include "orbit/aim.h"
+#include "orbit/event_steps.h"
 #include "orbit/sensitivities.h"
 #include "orbit/error.h"
 #include "orbit/accept.h"
 #include "orbit/lap.h"
-#include "orbit/search.h"
+#include "orbit/task.h"
+#include "orbit/shooting.h"
 #include "orbit/run.h"
 
 #undef REAL

@@ -10,6 +10,7 @@ typedef struct {
   real first, second, third, t_1, t_2, t_21, M_01, M_02, M_12;
 } trum_factors;
 
+/* Eliminates the matrix for K = T df/dx at the nodes. */
 static trum_factors trum_factorise(const real* K) {
   static const double A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS;
   trum_factors e;
@@ -28,6 +29,7 @@ static trum_factors trum_factorise(const real* K) {
   return e;
 }
 
+/* Solves for y[1] to y[3]. */
 static void trum_substitute(const trum_factors* e, const real* right, real* y) {
   const real b_1 = right[2] - e->t_1 * right[1], b_2 = right[3] - e->t_2 * right[1];
   y[3] = (b_2 - e->t_21 * b_1) * e->third;

@@ -16,6 +16,7 @@ typedef struct {
   real z1, z2, of_01, of_12, of_23, of_02, of_13;
 } trum_node_distances;
 
+/* Distances of the nodes at 0, z[1], z[2], 1. */
 static trum_node_distances trum_distances_of(const real* z) {
   trum_node_distances s;
   s.z1 = z[1], s.z2 = z[2];
@@ -24,6 +25,7 @@ static trum_node_distances trum_distances_of(const real* z) {
   return s;
 }
 
+/* The cubic through values at the nodes, by divided differences. */
 static trum_cubic trum_interpolate(const trum_node_distances* s, real e0, real e1, real e2, real e3) {
   trum_cubic c;
   const real d01 = (e1 - e0) * s->of_01, d12 = (e2 - e1) * s->of_12, d23 = (e3 - e2) * s->of_23;
@@ -32,10 +34,12 @@ static trum_cubic trum_interpolate(const trum_node_distances* s, real e0, real e
   return c;
 }
 
+/* A cubic's value at z. */
 static real trum_cubic_at(const trum_cubic* c, real z) {
   return c->e0 + z * (c->d1 + (z - c->z1) * (c->d2 + (z - c->z2) * c->d3));
 }
 
+/* Its derivative at z. */
 static real trum_cubic_slope(const trum_cubic* c, real z) {
   const real inner = c->d2 + (z - c->z2) * c->d3;
   return c->d1 + (z - c->z1) * inner + z * (inner + (z - c->z1) * c->d3);
@@ -45,14 +49,15 @@ static real trum_cubic_slope(const trum_cubic* c, real z) {
  * is saturated no point is as fast as the rotor, so there are no edges to cross. */
 static void trum_locate_first_event(const trum_lanes* lanes, const real* z, real (*e)[EVENT_COUNT], trum_cubic* cubic,
                                     real* location, real* event) {
-  const trum_node_distances spaces = trum_distances_of(z);
+  const trum_node_distances distances = trum_distances_of(z);
   const mask saturated =
-      at_most(where(lanes->at_event[EVENT_SATURATION], e[1][EVENT_SATURATION], e[0][EVENT_SATURATION]), REAL(0));
+      at_most(where(lanes->start.at_event[EVENT_SATURATION], e[1][EVENT_SATURATION], e[0][EVENT_SATURATION]), REAL(0));
   int k, j;
   *location = REAL(2), *event = REAL(-1);
   for (k = 0; k < EVENT_COUNT; ++k) {
-    const mask fresh = lanes->at_event[k], positive = less_than(REAL(0), where(fresh, e[1][k], e[0][k]));
-    const trum_cubic c = cubic[k] = trum_interpolate(&spaces, e[0][k], e[1][k], e[2][k], e[LAST_NODE][k]);
+    const mask starts_here = lanes->start.at_event[k],
+               positive = less_than(REAL(0), where(starts_here, e[1][k], e[0][k]));
+    const trum_cubic c = cubic[k] = trum_interpolate(&distances, e[0][k], e[1][k], e[2][k], e[LAST_NODE][k]);
     mask found = mask_all(0);
     real from = REAL(0), to = REAL(0), root;
     for (j = 1; j < NODES; ++j) {
@@ -66,14 +71,14 @@ static void trum_locate_first_event(const trum_lanes* lanes, const real* z, real
       const real below = c2 + square_root(maximum(square, REAL(0)));
       const mask has_extremum = less_than(REAL(0), square) & less_than(REAL(1e-300), absolute(below));
       const real lowest = where(has_extremum, -c1 * reciprocal(where(has_extremum, below, REAL(1))), REAL(-1));
-      const real begin = where(fresh, z[1], REAL(0));
+      const real begin = where(starts_here, z[1], REAL(0));
       const mask between = has_extremum & less_than(begin, lowest) & less_than(lowest, where(found, to, REAL(1)));
       const mask crossed = between & at_most(side * trum_cubic_at(&c, lowest), REAL(0));
       from = where(crossed, begin, from), to = where(crossed, lowest, to), found = found | crossed;
     }
     if (k == EVENT_LARGER_PRESSURE || k == EVENT_SMALLER_PRESSURE) found = found & mask_not(saturated);
-    if (k != EVENT_FULL_CONTACT) found = found & mask_not(lanes->contact_only);
-    if (!any_lane(found & lanes->active)) continue;
+    if (k != EVENT_FULL_CONTACT) found = found & mask_not(lanes->status.contact_only);
+    if (!any_lane(found & lanes->status.active)) continue;
     {
       const real at_from = trum_cubic_at(&c, from), at_to = trum_cubic_at(&c, to);
       const mask bracket = less_than(at_from * at_to, REAL(0));

@@ -49,12 +49,12 @@ static void trum_update_extremes(const real* G, const real* x, const real* S, re
     }
   }
   {
-    const mask lower = accepted & less_than(x[LAST_NODE], lap->low),
-               higher = accepted & less_than(lap->high, x[LAST_NODE]);
+    const mask lower = accepted & less_than(x[LAST_NODE], lap->low);
+    const mask higher = accepted & less_than(lap->high, x[LAST_NODE]);
     lap->low = where(lower, x[LAST_NODE], lap->low), lap->S_low = where(lower, S[LAST_NODE], lap->S_low);
     lap->high = where(higher, x[LAST_NODE], lap->high), lap->S_high = where(higher, S[LAST_NODE], lap->S_high);
     for (k = 0; slopes && k < PARAMETERS; ++k) {
-      lap->d_low[k] = where(lower, d[k][LAST_NODE], lap->d_low[k]),
+      lap->d_low[k] = where(lower, d[k][LAST_NODE], lap->d_low[k]);
       lap->d_high[k] = where(higher, d[k][LAST_NODE], lap->d_high[k]);
     }
   }

@@ -10,15 +10,17 @@
 static void trum_advance_lanes(trum_lanes* lanes, trum_search* searches, int* busy) {
   mask ended;
   int i;
-  if (any_lane(lanes->at_lap_start)) trum_evaluate_lap_start(lanes);
-  lanes->failed = lanes->failed | (lanes->active & less_than(lanes->steps_left, TRUM_NUMBER(0)));
-  ended = lanes->active & ((trum_advance_step(lanes) & at_most(lanes->time_left, TRUM_NUMBER(0))) | lanes->failed);
+  if (any_lane(lanes->status.at_lap_start)) trum_evaluate_lap_start(lanes);
+  lanes->status.failed =
+      lanes->status.failed | (lanes->status.active & less_than(lanes->step.steps_left, TRUM_NUMBER(0)));
+  ended = lanes->status.active &
+          ((trum_advance_step(lanes) & at_most(lanes->step.time_left, TRUM_NUMBER(0))) | lanes->status.failed);
   if (!any_lane(ended)) return;
   for (i = 0; i < TRUM_LANES; ++i) {
     if (!mask_in_lane(ended, i)) continue;
-    if (!mask_in_lane(lanes->failed, i) && trum_enter_next_region(lanes, i, &searches[i])) continue;
+    if (!mask_in_lane(lanes->status.failed, i) && trum_enter_next_region(lanes, i, &searches[i])) continue;
     busy[i] = trum_finish_lap(lanes, i, &searches[i]);
-    if (!busy[i]) set_lane_mask(&lanes->active, i, 0);
+    if (!busy[i]) set_lane_mask(&lanes->status.active, i, 0);
   }
 }
 
@@ -60,7 +62,7 @@ static void trum_run_tasks(const trum_orbit_in* in, trum_orbit_out* out, const t
         busy[i] = trum_load_task(&lanes, i, &searches[i], &in[point], to_scratch ? &own[i] : &out[point],
                                  !has_task || next % 2 == 0, slopes_in ? out[point].start : NAN);
         busy[i] = busy[i] && has_task, used[i] = 1, next += has_task;
-        if (!busy[i]) set_lane_mask(&lanes.active, i, 0);
+        if (!busy[i]) set_lane_mask(&lanes.status.active, i, 0);
       }
       remaining += busy[i];
     }
@@ -93,20 +95,20 @@ static void trum_history(const trum_orbit_in* in, const trum_orbit_out* orbit, d
   trum_initialise_lanes(&lanes, in->hertz > 0.5, 0);
   for (i = 0; i < TRUM_LANES; ++i) {
     trum_load_task(&lanes, i, &searches[i], in, &unused, 1, NAN);
-    if (i > 0) set_lane_mask(&lanes.active, i, 0);
+    if (i > 0) set_lane_mask(&lanes.status.active, i, 0);
   }
   searches[0].stage = STAGE_FINE, searches[0].level = orbit->level, searches[0].start_speed = orbit->start;
-  searches[0].speed_scale = fabs(orbit->low) > fabs(orbit->high) ? fabs(orbit->low) : fabs(orbit->high);
+  searches[0].scales.speed = fabs(orbit->low) > fabs(orbit->high) ? fabs(orbit->low) : fabs(orbit->high);
   trum_start_lap(&lanes, 0, &searches[0]);
   record.speed = speed, record.distance = distance, record.count = count, record.written = 0;
-  record.spacing = lane_value(&lanes.cycle_time, 0) / (double)count, record.since = record.travelled = 0.0;
+  record.spacing = lane_value(&lanes.equation.cycle_time, 0) / (double)count, record.since = record.travelled = 0.0;
   lanes.record = &record;
   for (;;) {
     mask accepted;
-    if (any_lane(lanes.at_lap_start)) trum_evaluate_lap_start(&lanes);
+    if (any_lane(lanes.status.at_lap_start)) trum_evaluate_lap_start(&lanes);
     accepted = trum_advance_step(&lanes);
-    if (mask_in_lane(lanes.failed, 0) || lane_value(&lanes.steps_left, 0) < 0.0) break;
-    if (mask_in_lane(accepted, 0) && lane_value(&lanes.time_left, 0) <= 0.0 &&
+    if (mask_in_lane(lanes.status.failed, 0) || lane_value(&lanes.step.steps_left, 0) < 0.0) break;
+    if (mask_in_lane(accepted, 0) && lane_value(&lanes.step.time_left, 0) <= 0.0 &&
         !trum_enter_next_region(&lanes, 0, &searches[0]))
       break;
   }

@@ -25,6 +25,7 @@ typedef struct {
   mask not_converged;                  /* Newton has not converged */
 } trum_trial_step;
 
+/* Whether two event numbers are the same. */
 static mask trum_is_event(real a, real b) { return at_most(absolute(a - b), REAL(0.25)); }
 
 /* Solves x_i = x_0 + sum_j A_ij T_j (push f(x_j) - drag) for the three nodes after the first. */
@@ -35,17 +36,18 @@ static void trum_solve_collocation(const trum_lanes* lanes, trum_trial_step* tri
   int i, j, k, tries;
   for (j = 0; j < NODES; ++j) {
     const real sigma = REAL(c[j]);
-    trial->z[j] = sigma * (REAL(1) + lanes->curvature * (REAL(1) - sigma));
-    trial->T[j] = lanes->h * (REAL(1) + lanes->curvature * (REAL(1) - REAL(2) * sigma));
+    trial->z[j] = sigma * (REAL(1) + lanes->step.curvature * (REAL(1) - sigma));
+    trial->T[j] = lanes->step.h * (REAL(1) + lanes->step.curvature * (REAL(1) - REAL(2) * sigma));
   }
-  trial->not_converged = lanes->active;
-  trial->x[0] = lanes->x, trial->f[0] = lanes->f, trial->f_v[0] = lanes->f_v;
-  for (k = 0; k < EVENT_COUNT; ++k) trial->events[0][k] = lanes->events[k];
-  G[0] = trial->T[0] * (lanes->push * trial->f[0] - lanes->drag);
+  trial->not_converged = lanes->status.active;
+  trial->x[0] = lanes->start.x, trial->f[0] = lanes->start.f, trial->f_v[0] = lanes->start.f_v;
+  for (k = 0; k < EVENT_COUNT; ++k) trial->events[0][k] = lanes->start.events[k];
+  G[0] = trial->T[0] * (lanes->equation.push * trial->f[0] - lanes->equation.drag);
   for (j = 1; j < NODES; ++j) {
-    trum_evaluate_surface(lanes, lanes->tau + lanes->h * trial->z[j], &trial->at[j]);
-    trial->x[j] = lanes->x + lanes->h * trial->z[j] * (lanes->push * lanes->f - lanes->drag);
-    trial->f[j] = lanes->f, trial->f_v[j] = REAL(0), trial->events[j][EVENT_LARGER_PRESSURE] = REAL(0),
+    trum_evaluate_surface(lanes, lanes->step.tau + lanes->step.h * trial->z[j], &trial->at[j]);
+    trial->x[j] =
+        lanes->start.x + lanes->step.h * trial->z[j] * (lanes->equation.push * lanes->start.f - lanes->equation.drag);
+    trial->f[j] = lanes->start.f, trial->f_v[j] = REAL(0), trial->events[j][EVENT_LARGER_PRESSURE] = REAL(0);
     trial->events[j][EVENT_SMALLER_PRESSURE] = REAL(0);
   }
   for (tries = 0; tries < 12 && any_lane(trial->not_converged); ++tries) {
@@ -53,40 +55,42 @@ static void trum_solve_collocation(const trum_lanes* lanes, trum_trial_step* tri
     slope[0] = REAL(0);
     for (j = 1; j < NODES; ++j) {
       real f, f_v, larger, smaller;
-      trum_evaluate_friction(&trial->at[j], lanes->v0 + trial->x[j], &f, &f_v, &larger, &smaller);
-      trial->f[j] = where(trial->not_converged, f, trial->f[j]),
+      trum_evaluate_friction(&trial->at[j], lanes->equation.v0 + trial->x[j], &f, &f_v, &larger, &smaller);
+      trial->f[j] = where(trial->not_converged, f, trial->f[j]);
       trial->f_v[j] = where(trial->not_converged, f_v, trial->f_v[j]);
       trial->events[j][EVENT_LARGER_PRESSURE] =
           where(trial->not_converged, larger, trial->events[j][EVENT_LARGER_PRESSURE]);
       trial->events[j][EVENT_SMALLER_PRESSURE] =
           where(trial->not_converged, smaller, trial->events[j][EVENT_SMALLER_PRESSURE]);
-      G[j] = trial->T[j] * (lanes->push * trial->f[j] - lanes->drag);
-      slope[j] = trial->T[j] * (lanes->push * trial->f_v[j]);
+      G[j] = trial->T[j] * (lanes->equation.push * trial->f[j] - lanes->equation.drag);
+      slope[j] = trial->T[j] * (lanes->equation.push * trial->f_v[j]);
     }
     for (i = 1; i < NODES; ++i) {
-      right[i] = lanes->x - trial->x[i];
+      right[i] = lanes->start.x - trial->x[i];
       for (j = 0; j < NODES; ++j) right[i] = right[i] + REAL(A[i][j]) * G[j];
     }
     equations = trum_factorise(slope);
     trum_substitute(&equations, right, y);
     for (j = 1; j < NODES; ++j) { /* |f| <= 1 bounds the change of speed */
-      const real drift = lanes->x - lanes->h * trial->z[j] * lanes->drag, reach = lanes->h * trial->z[j] * lanes->push;
+      const real drift = lanes->start.x - lanes->step.h * trial->z[j] * lanes->equation.drag;
+      const real reach = lanes->step.h * trial->z[j] * lanes->equation.push;
       const real next = maximum(drift - reach, minimum(drift + reach, trial->x[j] + y[j]));
       change = maximum(change, absolute(next - trial->x[j]));
       trial->f[j] = where(trial->not_converged, trial->f[j] + trial->f_v[j] * (next - trial->x[j]), trial->f[j]);
       trial->x[j] = where(trial->not_converged, next, trial->x[j]);
     }
-    trial->not_converged = trial->not_converged & mask_not(at_most(change, lanes->newton_tolerance));
+    trial->not_converged = trial->not_converged & mask_not(at_most(change, lanes->tolerances.newton));
   }
   for (j = 1; j < NODES; ++j) {
-    const real v = lanes->v0 + trial->x[j];
+    const real v = lanes->equation.v0 + trial->x[j];
     trial->events[j][EVENT_SATURATION] = trial->at[j].R_v * trial->at[j].R_v - v * v;
     trial->events[j][EVENT_FULL_CONTACT] =
         trial->at[j].W_c * trial->at[j].W_c - lanes->constants.W_full * lanes->constants.W_full;
     if (lanes->slopes)
-      trum_evaluate_derivatives(lanes, lanes->tau + lanes->h * trial->z[j], &trial->at[j], v, &trial->derivatives[j]);
+      trum_evaluate_derivatives(lanes, lanes->step.tau + lanes->step.h * trial->z[j], &trial->at[j], v,
+                                &trial->derivatives[j]);
   }
-  if (lanes->slopes) trial->derivatives[0] = lanes->derivatives;
+  if (lanes->slopes) trial->derivatives[0] = lanes->sensitivity.derivatives;
 }
 
 #endif

@@ -5,6 +5,7 @@
 #ifndef TRUM_ORBIT_SURFACE_H
 #define TRUM_ORBIT_SURFACE_H
 
+/* The rotation of free motion and drive in a time tau after the region's start. */
 static void trum_rotate_phasors(const trum_lanes* lanes, real tau, trum_phasors* turn) {
   trum_lanes_rotation(&lanes->constants, turn, tau);
 }
@@ -22,6 +23,7 @@ static void trum_evaluate_wave_and_contact(const trum_lanes* lanes, const trum_p
   }
 }
 
+/* Surface and contact at a time tau after the region's start. */
 static void trum_evaluate_surface(const trum_lanes* lanes, real tau, trum_surface* at) {
   trum_phasors turn;
   trum_rotate_phasors(lanes, tau, &turn);

@@ -1,6 +1,6 @@
 /* Derivatives of friction, contact and surface speed by the parameters that the sensitivities are by. */
-#ifndef TRUM_ORBIT_FRICTION_SLOPES_H
-#define TRUM_ORBIT_FRICTION_SLOPES_H
+#ifndef TRUM_ORBIT_DERIVATIVES_H
+#define TRUM_ORBIT_DERIVATIVES_H
 
 /* a, or 0 where the surface stands still and a is not finite: such an instant contributes nothing. */
 static real trum_finite_or_zero(real a) { return where(less_than(absolute(a), REAL(1e100)), a, REAL(0)); }
