@@ -15,9 +15,10 @@ import pytest
 from lazily import lazily
 
 import trum_sym as ts
-from trum_sym.model.kernels import call
+from trum_sym.model.kernels import SLOPE_FIGURES, SLOPE_PARAMETERS, call, expect, signature
 
 sp = lazily("sympy")
+driver = lazily("derivations.codegen.driver")
 emit = lazily("derivations.codegen.emit")
 nomenclature = lazily("derivations.nomenclature")
 
@@ -219,3 +220,35 @@ def test_compiled_kernel_agrees_with_its_expression_at_50_digits(name):
             for name, value in values.items():
                 size = max(abs(v) for other, v in values.items() if kernel.units[other] == kernel.units[name])
                 assert abs(ours[name] - value) <= 1e-12 * size, name
+
+
+def test_a_call_whose_structs_lack_an_argument_or_have_it_twice_is_not_generated():
+    kernel = next(kernel for kernel in kernels() if kernel.name == "trum_filling")
+    layer = driver.Struct("layer", "layer", ("W_c", "engagement", "fullness"), "a layer")
+    height = driver.Struct("height", "height", ("engagement_per_height", "W_c"), "twice")
+    for structs, name in (((layer,), "engagement_per_height is in 0"), ((layer, height), "W_c is in 2")):
+        call = driver.Call("trum_filling", tuple(struct.name for struct in structs))
+        with pytest.raises(ValueError, match=name):
+            driver.called(call, kernel, structs, "", "double", "{}")
+
+
+def test_the_manifest_lists_the_drivers_fields_in_its_order(files):
+    orbit = json.loads(files["manifest.json"])["orbit"]
+    for kernel, (inputs, outputs) in {
+        "rotor_orbit": (["orbit_in"], ["orbit_out"]),
+        "rotor_slopes": (["orbit_in", "slopes_in"], ["orbit_out"]),
+        "rotor_history": (["orbit_in", "history_in"], []),
+        "cycle_sums": (["cycle_sums_in"], ["cycle_sums_out"]),
+        "cycle_response": (["cycle_response_in"], ["cycle_response_out"]),
+        "contact_half_angle": (["half_angle_in"], []),
+    }.items():
+        for names, lists in zip(signature(kernel), (inputs, outputs), strict=True):
+            listed = [field["name"] for name in lists for field in orbit[name]]
+            assert names[: len(listed)] == listed, kernel
+    assert [field["name"] for field in orbit["slope_figures"]] == list(SLOPE_FIGURES)
+    assert [field["name"] for field in orbit["slope_parameters"]] == list(SLOPE_PARAMETERS)
+
+
+def test_compiled_kernels_of_another_version_are_refused_by_name():
+    with pytest.raises(ImportError, match=r"an orbit's inputs differ by drag, load; install"):
+        expect("an orbit's inputs", ("push", "load"), ("push", "drag"))
