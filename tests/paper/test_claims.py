@@ -282,6 +282,19 @@ def test_a_measured_claim_that_one_end_of_the_load_s_inertia_refutes_is_not_repr
     assert row.cells[0][0] == "-++-"
 
 
+def test_a_cell_tells_some_from_all_and_none():
+    """One level or one corner that fails, or that alone holds, makes it open and undecided."""
+    holds, corners = np.ones((3, 3, 2, 2, 2), bool), np.ones((3, 3, 2, 2, 4), bool)
+    holds[1, 0, 0, 0, 1] = False  # a level at the weight's inertia
+    corners[2, 1, 0, 1, 3] = False  # a corner at the greatest
+    holds[:, 2], corners[:, 2] = False, False
+    corners[2, 2, 1, 0, 0] = True
+    levels = (DEFAULT, DEFAULT + 1)
+    (row,) = varied([judged(ONE, of_rotor(ByInertia(holds, corners, holds[0], corners[0], True), "", levels))])
+    assert row.cells == (("++o+", "++++"), ("+++o", "++++"), ("----", "---o"))
+    assert row.decided == 3
+
+
 def test_every_claim_on_the_measured_rotor_is_judged_as_measured(judgements):
     for claim in judgements.values():
         if claim.rotor is not None:
