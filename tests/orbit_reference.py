@@ -76,7 +76,7 @@ def _half_angle(y):
 
 
 @njit(cache=True)
-def _modal(p, y, gates, tau):
+def modal(p, y, gates, tau):
     """w_A, w_B, w_A', w_B' at a time after the region's start; y holds the states there."""
     omega, xi, omega_q, psi, s, W = p[0], p[1], p[2], p[3], p[4], p[5]
     omega_d = omega * math.sqrt(1 - xi * xi)
@@ -162,7 +162,7 @@ def surface(p, w, v):
 @njit(cache=True)
 def rate(p, y, gates, tau, v0, x, out):
     """d/dt of the state x = (v - v0, its integral, its square's, work, heat); p[10] push, p[11] drag."""
-    w = _modal(p, y, gates, tau)
+    w = modal(p, y, gates, tau)
     net, work, heat = surface(p, w, v0 + x[0])
     out[0] = p[10] * net - p[11]
     out[1] = x[0]
@@ -221,7 +221,7 @@ def _event(p, y, gates, tau, v, kind):
     where it is not.  1: growth of the wave; where it begins to grow anew the crest may sweep past in no time.  A plain
     travelling wave does not grow, up to rounding: hence the threshold.
     """
-    w = _modal(p, y, gates, tau)
+    w = modal(p, y, gates, tau)
     if kind == 1:
         return w[0] * w[2] + w[1] * w[3] - 1e-6 * p[5] ** 2 * p[0]
     fastest = p[6] * math.hypot(w[2], w[3])

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from orbit_reference import Reference, encoder_readings
+import scipy
+from lazily import lazily
 from reference import integrate_regions, reference_measures, steady_state
-from scipy import stats
 
 import trum_sym as ts
 from trum_sym.paper import section_5, section_6, sections_1_to_4, sections_7_to_9
@@ -34,9 +34,9 @@ from trum_sym.paper.findings import ByInertia, Context, Finding, falls, of_rotor
 from trum_sym.paper.published import ENCODER, TABLE_2
 from trum_sym.paper.readings import (
     AXES,
+    COMBINATIONS,
     DEFAULT,
     LEADS,
-    LEVELS,
     LOAD_INERTIA,
     MEASURED,
     PHASES,
@@ -45,6 +45,7 @@ from trum_sym.paper.readings import (
 )
 from trum_sym.paper.trends import Trend, inertias, trends
 
+orbit_reference = lazily("orbit_reference")
 ROOT = Path(__file__).parents[2]
 STARTS = ("periodic", "steady", "rest")
 NUMBERS = (3, 6, 7, 10, 11, 13, 14, 16, 17, 18, 19, 20, 21, 22, 23, "25b", "26b", "27b", 29, 30, 31, 32)
@@ -84,7 +85,7 @@ def test_every_combination_of_the_open_conventions_is_there_once(found, judgemen
 def evaluated(motor, index, point):
     """The same reading through the public door."""
     start, lead, phase, level = index
-    contact, resonance, foundation, amplitude = LEVELS[level]
+    contact, resonance, foundation, amplitude = COMBINATIONS[level]
     drive = ts.Drive(
         start=STARTS[start], phase_lead=LEADS[lead], switching_phase=[*PHASES.values()][phase],
         prepressure=POINTS.prepressure[point], frequency_difference=POINTS.difference[point],
@@ -106,7 +107,7 @@ def test_readings_are_what_evaluate_gives(trum60, found):
     rng = np.random.default_rng(11)
     compared = 0
     for k in range(24):
-        level = int(rng.choice(ROTOR_LEVELS)) if k % 2 else int(rng.integers(len(LEVELS)))
+        level = int(rng.choice(ROTOR_LEVELS)) if k % 2 else int(rng.integers(len(COMBINATIONS)))
         point = 0 if k % 3 == 0 else int(rng.integers(POINTS.prepressure.size))
         index = (*(int(rng.integers(n)) for n in (3, 2, 2)), level)
         load = k % 3
@@ -148,8 +149,8 @@ def test_a_loaded_motor_s_speed_and_what_an_encoder_reads_by_an_independent_orbi
         frequency_difference=POINTS.difference[point],
     )  # fmt: skip
     motor = trum60.with_values({"rotor_inertia": J + 0.3 * 0.030 / 9.80665})
-    other = Reference(motor, drive, ts.evaluate(motor, drive, tolerance=1e-6))
-    orbit, reads = other.orbit(), encoder_readings(other, ENCODER)
+    other = orbit_reference.Reference(motor, drive, ts.evaluate(motor, drive, tolerance=1e-6))
+    orbit, reads = other.orbit(), orbit_reference.encoder_readings(other, ENCODER)
     at = (1, start, lead, 0, DEFAULT, point)
     assert found.loaded["mean_speed"][at] == pytest.approx(orbit.mean, rel=0, abs=2e-4 * orbit.largest)
     assert reads.mean() == pytest.approx(orbit.mean, rel=1e-4)
@@ -216,7 +217,7 @@ def some(start, lead):
         (YES, REPRODUCED, "all 816 readings"),
         (NO, CONTRADICTED, "none of 816 readings"),
         (some(2, 1), PARTLY, "start rest, lead -1"),
-        (np.arange(len(LEVELS)) == DEFAULT, PARTLY, "any start and lead; resonance quartic (1 of 16)"),
+        (np.arange(len(COMBINATIONS)) == DEFAULT, PARTLY, "any start and lead; resonance quartic (1 of 16)"),
     ],
 )
 def test_a_verdict_follows_from_where_a_claim_holds(holds, verdict, words):
@@ -335,7 +336,7 @@ def test_what_speaks_of_the_rotor_says_that_it_rests_on_assumptions(judgements):
 def test_rank_correlation_is_spearman_s():
     rng = np.random.default_rng(2)
     a, b = rng.normal(size=(2, 5, 36))
-    expected = [stats.spearmanr(x, y).statistic for x, y in zip(a, b, strict=True)]
+    expected = [scipy.stats.spearmanr(x, y).statistic for x, y in zip(a, b, strict=True)]
     assert rank_correlation(a, b) == pytest.approx(expected, rel=1e-12)
     a[0, 3] = np.nan
     assert np.isnan(rank_correlation(a, b)[0])
@@ -415,7 +416,7 @@ def test_beats_and_periods_by_hand(judgements):
 
 def test_the_fit_of_table_2_by_another_regression(judgements):
     force, size = np.array([*TABLE_2]), np.array([*TABLE_2.values()])
-    line = stats.linregress(np.log(force), np.log(size / 12.6e-6))
+    line = scipy.stats.linregress(np.log(force), np.log(size / 12.6e-6))
     assert number(judgements["fit"].computed, r"C_f = ([\d.]+)") == pytest.approx(np.exp(line.intercept), abs=1e-3)
     assert number(judgements["fit"].computed, r"exponent ([\d.]+)") == pytest.approx(-line.slope, abs=1e-4)
 
@@ -433,7 +434,7 @@ def test_speed_and_determinant_over_the_box_by_evaluate(trum60, judgements):
     force, difference = np.meshgrid(np.linspace(160, 210, 6), np.linspace(2800, 3300, 6))
     drive = ts.Drive(start="steady", phase_lead=-1, prepressure=force.ravel(), frequency_difference=difference.ravel())
     point = ts.evaluate(trum60, drive, tolerance=1e-5)
-    expected = stats.spearmanr(point.mean_speed, point.q_average).statistic
+    expected = scipy.stats.spearmanr(point.mean_speed, point.q_average).statistic
     assert number(judgements["box-speed"].computed, r"steady -1: ([+\-\d.]+)") == pytest.approx(expected, abs=0.01)
 
 
@@ -448,7 +449,7 @@ def test_the_encoder_turns_the_volatility_s_trends_without_a_load(trum60, judgem
         shown = judgements[name].computed.split("; of the speed itself")
         for text, period, expected in zip(reversed(shown), (None, 2e-3), (own, read), strict=True):
             point = ts.evaluate(trum60, drive, sampling_period=period, tolerance=1e-5)
-            found = stats.spearmanr(point.speed_volatility, point.q_volatility).statistic
+            found = scipy.stats.spearmanr(point.speed_volatility, point.q_volatility).statistic
             assert found == pytest.approx(expected, abs=0.01)
             assert number(text, r"rest -1: ([+\-\d.]+)") == pytest.approx(expected, abs=0.011)
 
@@ -460,13 +461,13 @@ def test_the_load_s_inertia_turns_the_speed_s_trend_from_rest(trum60, followed):
     turns = []
     for inertia, stated in zip(LOAD_INERTIA, trend.at_ends, strict=True):
         point = ts.evaluate(trum60.with_values({"rotor_inertia": J + inertia}), drive, tolerance=1e-5)
-        turns.append(stats.spearmanr(point.mean_speed, point.q_average).statistic)
+        turns.append(scipy.stats.spearmanr(point.mean_speed, point.q_average).statistic)
         assert stated == pytest.approx(turns[-1], abs=1e-9)
     assert turns == pytest.approx([-0.83, 1.0, 1.0], abs=0.01)
     low = inertias()[np.flatnonzero(inertias() == trend.follows_from)[0] - 1]
     for inertia, together_ in ((low, False), (trend.follows_from, True)):
         point = ts.evaluate(trum60.with_values({"rotor_inertia": J + inertia}), drive, tolerance=1e-5)
-        assert (stats.spearmanr(point.mean_speed, point.q_average).statistic >= 0.9) == together_
+        assert (scipy.stats.spearmanr(point.mean_speed, point.q_average).statistic >= 0.9) == together_
 
 
 def test_a_trend_follows_from_the_last_failure_on():
@@ -626,9 +627,9 @@ def test_a_stator_on_its_layer_is_not_linear_by_evaluate(trum60, judgements):
     shift = 100 * (half.resonance_frequency / full.resonance_frequency - 1)
     assert number(claim.computed, r"falls to ([\d.]+) %") == pytest.approx(ratio, abs=0.06)
     assert number(claim.computed, r"moves by ([+\d.]+) %") == pytest.approx(shift, abs=0.06)
-    none = LEVELS.index(("winkler", "quartic", "none", "forced"))
+    none = COMBINATIONS.index(("winkler", "quartic", "none", "forced"))
     assert claim.holds[..., none].all()
-    assert not claim.holds[..., LEVELS.index(("winkler", "quartic", "harmonic", "forced"))].any()
+    assert not claim.holds[..., COMBINATIONS.index(("winkler", "quartic", "harmonic", "forced"))].any()
 
 
 def test_the_metal_s_part_of_the_contact_by_hand(judgements):

@@ -11,7 +11,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from orbit_reference import GATES, Reference, _modal, encoder_readings, half_angle, surface
+from lazily import lazily
 
 import trum_sym as ts
 from trum_sym import plots
@@ -21,6 +21,7 @@ from trum_sym.plots.motion import SECTION_5
 from trum_sym.plots.transfer import MODELS
 from trum_sym.report.catalogue import PICTURES
 
+orbit_reference = lazily("orbit_reference")
 SPEED = 1e6 * ARCSEC
 
 
@@ -34,7 +35,7 @@ def reference(drive, frequency=None, inertia=0.0):
     motor = motor.with_values({"rotor_inertia": 4.5e-6 + inertia})
     if frequency is not None:
         motor = motor.with_values({"resonance_frequency": frequency})
-    return Reference(motor, drive, ts.evaluate(motor, drive, tolerance=1e-6))
+    return orbit_reference.Reference(motor, drive, ts.evaluate(motor, drive, tolerance=1e-6))
 
 
 def states(other, times):
@@ -43,7 +44,9 @@ def states(other, times):
     columns = []
     for time in np.asarray(times):
         region = min(int(np.searchsorted(edges[1:], time * (1 + 1e-12), side="right")), 2)
-        columns.append(_modal(other.p, other.states[region], GATES[region], time - edges[region]))
+        columns.append(
+            orbit_reference.modal(other.p, other.states[region], orbit_reference.GATES[region], time - edges[region])
+        )
     return np.array(columns).T
 
 
@@ -66,7 +69,7 @@ def vectors(other, times, region):
     tau = np.asarray(times) - start
     eigenvalue = omega * (-xi + 1j * np.sqrt(1 - xi**2))
     found = []
-    for i, gate in enumerate(GATES[region]):
+    for i, gate in enumerate(orbit_reference.GATES[region]):
         drive = gate * W * np.exp(1j * (omega_q * tau + psi + i * s * np.pi / 2))
         at = gate * W * np.exp(1j * (psi + i * s * np.pi / 2))
         a, b = other.states[region][2 * i] - at.real, other.states[region][2 * i + 1] - (1j * omega_q * at).real
@@ -266,7 +269,7 @@ def test_the_contact_zone_carries_the_prepressures_friction_within_its_edges():
     _, share = data(lower, 0)
     other = reference(ts.Drive())
     w = states(other, 1e-3 * time[:-1])
-    angles = np.array([half_angle(other.p, height) for height in np.hypot(w[0], w[1])])
+    angles = np.array([orbit_reference.half_angle(other.p, height) for height in np.hypot(w[0], w[1])])
     assert theta[:-1] == pytest.approx(angles, rel=1e-6)
     assert share == pytest.approx(theta / np.pi)
     rows = np.asarray(mesh.get_coordinates())[:, 0, 1]
@@ -278,7 +281,7 @@ def test_the_contact_zone_carries_the_prepressures_friction_within_its_edges():
     total = crests * np.sum(np.abs(traction), axis=0) * (u[1] - u[0]) / k
     assert np.median(total) == pytest.approx(0.25 * 180, rel=0.03)
     _, speed, _ = plots.cycle.solve(None, None).rotor(len(time) - 1)
-    net = [surface(other.p, w[:, i], speed[i] * other.radius)[0] for i in range(len(time) - 1)]
+    net = [orbit_reference.surface(other.p, w[:, i], speed[i] * other.radius)[0] for i in range(len(time) - 1)]
     ours = crests * np.sum(traction, axis=0) * (u[1] - u[0]) / k / 45
     assert ours[:-1] == pytest.approx(np.array(net), abs=0.12)
     assert np.corrcoef(ours[:-1], net)[0, 1] > 0.998
@@ -365,7 +368,7 @@ def test_figs_30_31_average_over_the_encoder_and_carry_the_weight_and_31_is_at_3
 @cache
 def windows(drive, inertia=0.0):
     """Readings of a 2 ms encoder from the independent orbit's path, rad/s."""
-    return encoder_readings(reference(drive, inertia=inertia), 2e-3)
+    return orbit_reference.encoder_readings(reference(drive, inertia=inertia), 2e-3)
 
 
 def test_fig_32_is_table_5():
@@ -489,7 +492,9 @@ def test_torque_against_speed_falls_and_passes_the_independent_orbits():
     for start, lead in (("periodic", 1), ("steady", -1), ("rest", -1)):
         other = reference(ts.Drive(start=start, phase_lead=lead))
         w = states(other, np.linspace(0, other.cycle_time, 2000, endpoint=False) + 1e-12)
-        held.append(other.radius * 45 * np.mean([surface(other.p, w[:, i], 0.0)[0] for i in range(2000)]))
+        held.append(
+            other.radius * 45 * np.mean([orbit_reference.surface(other.p, w[:, i], 0.0)[0] for i in range(2000)])
+        )
     assert stalls == pytest.approx(held, abs=3e-3)
 
 

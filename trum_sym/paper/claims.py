@@ -16,7 +16,7 @@ from trum_sym.inputs.drive import STARTS
 from trum_sym.inputs.motor import Motor
 from trum_sym.paper import section_5, section_6, sections_1_to_4, sections_7_to_9
 from trum_sym.paper.findings import ByInertia, Context, Finding, Truth
-from trum_sym.paper.readings import AXES, LEADS, LEVELS, Readings
+from trum_sym.paper.readings import AXES, COMBINATIONS, LEADS, Readings
 from trum_sym.paper.readings import readings as compute_readings
 
 __all__ = [
@@ -94,8 +94,8 @@ class Claim:
 
 def judged(statement: Statement, finding: Finding) -> Claim:
     """The verdict that a finding gives."""
-    levels = tuple(range(len(LEVELS))) if finding.levels is None else finding.levels
-    shape = (*_SHAPE, len(LEVELS))
+    levels = tuple(range(len(COMBINATIONS))) if finding.levels is None else finding.levels
+    shape = (*_SHAPE, len(COMBINATIONS))
     known, holds = np.zeros(shape, bool), np.zeros(shape, bool)
     known[..., levels] = True
     holds[..., levels] = np.broadcast_to(np.asarray(finding.holds, bool), (*_SHAPE, len(levels)))
@@ -239,7 +239,7 @@ def _of_levels(holds: Truth, levels: tuple[int, ...]) -> str:
     for axis, name in enumerate(AXES[3:]):
         counts: dict[str, list[bool]] = {}
         for truth, level in zip(holds, levels, strict=True):
-            counts.setdefault(LEVELS[level][axis], []).append(bool(truth))
+            counts.setdefault(COMBINATIONS[level][axis], []).append(bool(truth))
         pure = sum(len(found) for found in counts.values() if all(found) or not any(found))
         parts = [
             f"{name} {word}" + ("" if all(found) else f" ({sum(found)} of {len(found)})")

@@ -34,9 +34,9 @@ from trum_sym.paper.published import ENCODER, TABLE_5
 
 __all__ = [
     "AXES",
+    "COMBINATIONS",
     "DEFAULT",
     "LEADS",
-    "LEVELS",
     "LOAD_INERTIA",
     "PHASES",
     "POINTS",
@@ -56,7 +56,7 @@ LEADS = (1.0, -1.0)
 PHASES = {"A at its crest at t1 (eqs. 18, 23)": 0.0, "B at its crest at t1 (eq. 10)": math.pi / 2}
 """Switching phases that the text writes down; half a turn more changes the sign of both phases and nothing else."""
 
-LEVELS = tuple(
+COMBINATIONS = tuple(
     (contact, resonance, foundation, amplitude)
     for contact in CONTACTS
     for resonance in (*RESONANCES, MEASURED)
@@ -64,9 +64,11 @@ LEVELS = tuple(
     for amplitude in AMPLITUDES
 )
 AXES = ("start", "phase lead", "switching phase", "contact", "resonance", "foundation", "amplitude")
-ROTOR_LEVELS = tuple(i for i, level in enumerate(LEVELS) if level[1:3] in (("quartic", "harmonic"), (MEASURED, "any")))
+ROTOR_LEVELS = tuple(
+    i for i, level in enumerate(COMBINATIONS) if level[1:3] in (("quartic", "harmonic"), (MEASURED, "any"))
+)
 """The levels at which the rotor is computed at every drive; at Table 3's it is at all levels."""
-DEFAULT = LEVELS.index(("winkler", "quartic", "harmonic", "measured"))
+DEFAULT = COMBINATIONS.index(("winkler", "quartic", "harmonic", "measured"))
 TABLE_4 = ("q_average", "q_volatility", "mean_speed", "speed_volatility")
 
 _DIFFERENCES = np.arange(2800.0, 3301.0, 100.0)
@@ -129,8 +131,8 @@ def published(motor: Motor) -> dict[str, float]:
 
 
 def axis_words() -> dict[str, tuple[str, ...]]:
-    """The conventions by axis, in words; the last four come in the combinations of ``LEVELS``."""
-    of_levels = {name: tuple(dict.fromkeys(level[i] for level in LEVELS)) for i, name in enumerate(AXES[3:])}
+    """The conventions by axis, in words; the last four come in the combinations of ``COMBINATIONS``."""
+    of_levels = {name: tuple(dict.fromkeys(level[i] for level in COMBINATIONS)) for i, name in enumerate(AXES[3:])}
     return {
         "start": STARTS,
         "phase lead": tuple(f"{s:+.0f}" for s in LEADS),
@@ -141,7 +143,7 @@ def axis_words() -> dict[str, tuple[str, ...]]:
 
 @dataclass(frozen=True)
 class Readings:
-    """Figures of all readings by start, phase lead, switching phase, level of ``LEVELS`` and point of ``POINTS``.
+    """Figures of all readings by start, phase lead, switching phase, level of ``COMBINATIONS`` and point of ``POINTS``.
 
     Attributes
     ----------
@@ -182,7 +184,7 @@ class Readings:
         start, lead, phase, level = index
         words = axis_words()
         outer = [words[name][i] for name, i in zip(AXES, (start, lead, phase), strict=False)]
-        return dict(zip(AXES, [*outer, *LEVELS[level]], strict=True))
+        return dict(zip(AXES, [*outer, *COMBINATIONS[level]], strict=True))
 
     def rows(self) -> list[dict[str, Any]]:
         """One record a reading, nearest first: its conventions, Table 4's figures, their differences in percent.
@@ -212,9 +214,9 @@ def _levels(motor: Motor, measured: float) -> tuple[Array, Array, Mapping[str, A
     prepressures it moves as the default model does.
     """
     drive = Drive(prepressure=POINTS.prepressure, frequency_difference=POINTS.difference)
-    resonance, amplitude = np.empty((2, len(LEVELS), POINTS.prepressure.size))
+    resonance, amplitude = np.empty((2, len(COMBINATIONS), POINTS.prepressure.size))
     values: Mapping[str, Any] = {}
-    for i, (contact, level, foundation, size) in enumerate(LEVELS):
+    for i, (contact, level, foundation, size) in enumerate(COMBINATIONS):
         model = ("quartic", "harmonic") if level == MEASURED else (level, foundation)
         stator = solve_stator(motor, drive, Levels(contact, *model, size))  # type: ignore[arg-type]
         resonance[i], amplitude[i] = np.asarray(stator.omega_n) / (2 * np.pi), stator.W
@@ -274,7 +276,7 @@ def _rotor(values: dict[str, Any], symbols: Mapping[str, Any], cycle_time: Array
     shape = (LOAD_INERTIA.size, *inner)
     inertia = {**symbols, "J": symbols["J"] + LOAD_INERTIA.reshape(-1, *(1,) * len(inner))}
     by_law = {law: orbit_values(values, inertia, law, _TOLERANCE) for law in CONTACTS}
-    hertz = np.array([level[0] == "hertz" for level in LEVELS])[:, None]
+    hertz = np.array([level[0] == "hertz" for level in COMBINATIONS])[:, None]
     mixed = {name: np.where(hertz, by_law["hertz"][name], by_law["winkler"][name]) for name in ("W_full", "hertz")}
     arguments = {**by_law["winkler"], **mixed, "held": 0.0}
     wanted = np.zeros(shape, bool)

@@ -17,7 +17,17 @@ from trum_sym.model.operating_point import prepare
 from trum_sym.model.rotor import history, solve_orbit
 from trum_sym.model.stator import solve_stator
 from trum_sym.paper.findings import LOADS, ByInertia, Check, Context, Finding, by_load, falls, of_rotor
-from trum_sym.paper.readings import DEFAULT, LEADS, LEVELS, LOAD_INERTIA, MEASURED, PHASES, POINTS, RIG, ROTOR_LEVELS
+from trum_sym.paper.readings import (
+    COMBINATIONS,
+    DEFAULT,
+    LEADS,
+    LOAD_INERTIA,
+    MEASURED,
+    PHASES,
+    POINTS,
+    RIG,
+    ROTOR_LEVELS,
+)
 from trum_sym.paper.section_5 import ADD, ADDREDU, REDU, half_angles
 
 __all__ = ["CHECKS"]
@@ -26,7 +36,7 @@ _PULSES = (20, 14)  # m and n of Table 3
 _SECTION_5 = (100, 55)
 _STEADY: Start = "steady"
 _NEAR = 0.05
-_FORCED = LEVELS.index(("winkler", "quartic", "harmonic", "forced"))
+_FORCED = COMBINATIONS.index(("winkler", "quartic", "harmonic", "forced"))
 
 
 def _cells(values: Array, form: str) -> str:
@@ -98,7 +108,7 @@ def _teeth_amplitude(c: Context) -> Finding:
 
 
 def _affects(c: Context) -> Finding:
-    levels = tuple(i for i, level in enumerate(LEVELS) if level[1] != MEASURED)
+    levels = tuple(i for i, level in enumerate(COMBINATIONS) if level[1] != MEASURED)
     curves = c.readings.resonance_frequency[list(levels), POINTS.figure_23]
     change = curves[:, -1] / curves[:, 0] - 1
     one = 100 * change[levels.index(DEFAULT)]
@@ -112,11 +122,11 @@ def _affects(c: Context) -> Finding:
 
 def _linear_stator(c: Context) -> Finding:
     """What half of the voltage makes of amplitude and resonance under 180 N."""
-    levels = tuple(i for i, level in enumerate(LEVELS) if level[1] != MEASURED)
+    levels = tuple(i for i, level in enumerate(COMBINATIONS) if level[1] != MEASURED)
     halved = {name: 0.5 * float(getattr(c.motor, name).value) for name in ("voltage", "free_amplitude")}
     ratio, shift = np.empty((2, len(levels)))
     for i, index in enumerate(levels):
-        full, half = (solve_stator(motor, Drive(), Levels(*LEVELS[index]))  # type: ignore[arg-type]
+        full, half = (solve_stator(motor, Drive(), Levels(*COMBINATIONS[index]))  # type: ignore[arg-type]
                       for motor in (c.motor, c.motor.with_values(halved)))  # fmt: skip
         ratio[i] = np.asarray(half.W) / np.asarray(full.W)
         shift[i] = np.asarray(half.omega_n) / np.asarray(full.omega_n) - 1
@@ -134,7 +144,7 @@ def _linear_stator(c: Context) -> Finding:
 
 
 def _amplitude_falls(c: Context) -> Finding:
-    levels = tuple(i for i, level in enumerate(LEVELS) if level[1] != MEASURED)
+    levels = tuple(i for i, level in enumerate(COMBINATIONS) if level[1] != MEASURED)
     curves = 1e6 * c.readings.amplitude[list(levels), POINTS.figure_23]
     one, forced = curves[levels.index(DEFAULT)], curves[levels.index(_FORCED)]
     return Finding(

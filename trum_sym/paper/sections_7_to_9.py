@@ -31,7 +31,7 @@ from trum_sym.paper.findings import (
     spans,
 )
 from trum_sym.paper.published import TABLE_2
-from trum_sym.paper.readings import DEFAULT, LEADS, LEVELS, LOAD_INERTIA, POINTS, RIG, ROTOR_LEVELS
+from trum_sym.paper.readings import COMBINATIONS, DEFAULT, LEADS, LOAD_INERTIA, POINTS, RIG, ROTOR_LEVELS
 from trum_sym.paper.section_6 import consistent, predicts
 
 __all__ = ["CHECKS"]
@@ -88,16 +88,16 @@ def _free_amplitude(c: Context) -> Finding:
 
 
 def _resonance(c: Context) -> Finding:
-    levels = tuple(i for i, level in enumerate(LEVELS) if level[1] in ("quartic", "eq6", "printed", "euler"))
+    levels = tuple(i for i, level in enumerate(COMBINATIONS) if level[1] in ("quartic", "eq6", "printed", "euler"))
     off = c.readings.resonance_frequency[:, POINTS.table_3] / c.readings.paper["resonance_frequency"] - 1
     plain = {
-        f"{level} {foundation}": 100 * off[LEVELS.index(("winkler", level, foundation, "measured"))]
+        f"{level} {foundation}": 100 * off[COMBINATIONS.index(("winkler", level, foundation, "measured"))]
         for level in ("printed", "eq6", "quartic")
         for foundation in ("harmonic", "printed")
     }
     listed = ", ".join(f"{name} {value:+.1f} %" for name, value in plain.items())
-    near = [f"{LEVELS[i][1]}/{LEVELS[i][2]}/{LEVELS[i][3]}" for i in levels if abs(off[i]) < 0.02]
-    as_printed = [i for i in levels if LEVELS[i][1] == "printed"]
+    near = [f"{COMBINATIONS[i][1]}/{COMBINATIONS[i][2]}/{COMBINATIONS[i][3]}" for i in levels if abs(off[i]) < 0.02]
+    as_printed = [i for i in levels if COMBINATIONS[i][1] == "printed"]
     return Finding(
         np.abs(off[list(levels)]) < 0.02,
         f"against the one measured value in the text, 39703 Hz, at 180 N (level and foundation): {listed}; eq. (6) "
@@ -230,7 +230,7 @@ def _table_4_rotor(name: str, label: str, scale: float) -> Check:
             )
             missing += f"; within their plausible ranges the figure passes through the printed one ({where})"
         by = ByInertia(near[0], near[1], near[2][0], near[3][0], measured=True)
-        return of_rotor(by, words, tuple(range(len(LEVELS))), undecidable=missing if between.any() else None)
+        return of_rotor(by, words, tuple(range(len(COMBINATIONS))), undecidable=missing if between.any() else None)
 
     return check
 
@@ -253,7 +253,7 @@ def _range(c: Context) -> Finding:
         f"the encoder's readings (2 ms) span at least twice their standard deviation, in arcsec/s {LOADS}: "
         f"{by_load(least[:, :, :, 0, DEFAULT], '.3g')}; over all readings {smallest} at least, above 400 it is "
         "excluded; friction and contact radius assumed",
-        tuple(range(len(LEVELS))),
+        tuple(range(len(COMBINATIONS))),
     )
 
 
@@ -266,7 +266,7 @@ def _higher(c: Context) -> Finding:
 
 
 def _with_prepressure(c: Context) -> Finding:
-    levels = tuple(i for i, level in enumerate(LEVELS) if level[1] != "39703 Hz" and level[2] != "none")
+    levels = tuple(i for i, level in enumerate(COMBINATIONS) if level[1] != "39703 Hz" and level[2] != "none")
     curves = c.readings.resonance_frequency[list(levels), POINTS.figure_23]
     one = c.readings.resonance_frequency[DEFAULT, POINTS.figure_23]
     return Finding(
