@@ -6,6 +6,7 @@ method of order 8.  It shares no formula with the kernels behind the figures.
 
 from __future__ import annotations
 
+import importlib
 from functools import cache
 
 import numpy as np
@@ -520,8 +521,7 @@ def test_the_maps_hold_independent_orbits_and_the_line_is_zero_speed():
 
 
 def test_the_scatter_of_the_page_has_what_the_encoder_reads_of_a_motor_with_its_weight(monkeypatch):
-    from trum_sym.plots import maps
-
+    maps = importlib.import_module("trum_sym.plots.maps")  # the package has a function of this name
     seen = []
     evaluate = maps.evaluate
     monkeypatch.setattr(maps, "evaluate", lambda *a, **k: seen.append((a, k)) or evaluate(*a, **k))
