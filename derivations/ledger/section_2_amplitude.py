@@ -10,7 +10,7 @@ import sympy as sp
 from scipy import stats
 
 from derivations import amplitude
-from derivations.ledger.judge import agrees, evaluate, identical, largest, points, vanishes, worse
+from derivations.ledger.judge import agrees, evaluate, figure, identical, largest, points, vanishes, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
 from derivations.ledger.operating import at_point, operating_point
 from derivations.ledger.section_2_composite import resolved
@@ -127,10 +127,10 @@ def _effect_7() -> str:
     arm = (q["h_e"] + q["h_p"] / 2 - q["D"]) / (q["D"] / 2)
     mass = (q["rho"] * q["A"] + q["rho"] * q["I_z"] * q["beta"] ** 2) / (q["A_p"] * q["rho_p"])
     return (
-        f"At the drive frequency printed {mp.nstr(micro['printed'], 4)} um, derived {mp.nstr(micro['right'], 4)} um; "
-        f"at resonance printed {mp.nstr(micro['printed, resonance'], 4)} um, derived "
-        f"{mp.nstr(micro['right, resonance'], 4)} um; measured 12.6 um. The whole modal mass is {mp.nstr(mass, 4)} "
-        f"times the ceramic's, the lever arm {mp.nstr(arm, 4)} times D/2. d31 is negative: as printed W_max would be "
+        f"At the drive frequency printed {figure(micro['printed'], 4)} um, derived {figure(micro['right'], 4)} um; "
+        f"at resonance printed {figure(micro['printed, resonance'], 4)} um, derived "
+        f"{figure(micro['right, resonance'], 4)} um; measured 12.6 um. The whole modal mass is {figure(mass, 4)} "
+        f"times the ceramic's, the lever arm {figure(arm, 4)} times D/2. d31 is negative: as printed W_max would be "
         "negative."
     )
 
@@ -198,8 +198,8 @@ def _effect_8() -> str:
     q = operating_point()
     equal = q["C_f"] ** (1 / q["varsigma"])
     return (
-        f"At 180 N {mp.nstr(q['W'] * 10**6, 4)} um, measured 5.5 um. It holds for 100 to 220 N only: below "
-        f"{mp.nstr(equal, 4)} N it exceeds the free amplitude, and it has no limit for F_c -> 0."
+        f"At 180 N {figure(q['W'] * 10**6, 4)} um, measured 5.5 um. It holds for 100 to 220 N only: below "
+        f"{figure(equal, 4)} N it exceeds the free amplitude, and it has no limit for F_c -> 0."
     )
 
 

@@ -9,9 +9,19 @@ import sympy as sp
 
 from derivations import phases, supplement
 from derivations.ledger.exact import REGIONS, Cycle, at_table_3
-from derivations.ledger.judge import largest, worse
+from derivations.ledger.judge import figure, largest, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, Picture, evidence, step
-from derivations.ledger.regions import anywhere, by_region, context, row_value, rows, with_rows, worst
+from derivations.ledger.regions import (
+    anywhere,
+    by_region,
+    context,
+    largest_in,
+    over_time,
+    row_value,
+    rows,
+    with_rows,
+    worst,
+)
 from derivations.nomenclature import sym
 
 __all__ = ["ENTRIES", "EQ9", "EQ10", "LIMIT", "corrected_10", "shares"]
@@ -184,15 +194,19 @@ def _derive_10() -> Derivation:
 
 
 def _effect_9() -> str:
-    cycle = at_table_3()
-    found = {r: largest(_response_error(EQ9["w_A"], "A")(cycle, r, u) for u in cycle.times(r, 8)) for r in REGIONS}
+    cycle, row = at_table_3(), EQ9["w_A"]
+    sizes = []
+    for region in REGIONS:
+        printed = over_time(row, region)
+        off = largest_in(region, lambda h, printed=printed: printed(h) - h.w_A)
+        sizes.append(f"{figure(100 * off / float(cycle['W']), 3)} % in T_{region}")
     names = [context(cycle, r, u) for r, u in zip(REGIONS, cycle.durations(), strict=True)]
     plain = abs(mp.pi / 2 - names[0]["varphi_Aredu"])
     return (
-        f"At the operating point off by {shares(found)} of W. phi_Aredu = pi/2, which (19) and (23) use, is off by "
-        f"{mp.nstr(plain, 3)} rad. The amplitude A_ABaddredu is no constant: at t_3 it is "
-        f"{mp.nstr(names[1]['A_ABaddredu'] / cycle['W'], 4)} W_maxf, at t_4 "
-        f"{mp.nstr(names[2]['A_ABaddredu'] / cycle['W'], 4)}."
+        f"At Table 3, from a steady start, off by at most {', '.join(sizes)}, of W. phi_Aredu = pi/2, which (19) and "
+        f"(23) use, is off by {figure(plain, 3)} rad. The amplitude A_ABaddredu is no constant: at t_3 it is "
+        f"{figure(names[1]['A_ABaddredu'] / cycle['W'], 4)} W_maxf, at t_4 "
+        f"{figure(names[2]['A_ABaddredu'] / cycle['W'], 4)}."
     )
 
 
@@ -200,9 +214,9 @@ def _effect_10() -> str:
     cycle = at_table_3()
     ratio = cycle["omega_q"] / cycle["omega_n"] - 1
     return (
-        "Row 1 as printed puts B in phase with A: the speed determinant would be 0 at t_1 instead of its maximum. Row "
-        f"2 starts {mp.nstr(100 * ratio, 3)} % too low in velocity and amplitude, "
-        f"{mp.nstr(10**6 * cycle['W'] * ratio, 3)} um."
+        "Row 1 as printed puts B in phase with A: the determinant would be 0 at t_1 instead of D k_c W^2 omega_q. Row "
+        f"2 starts with an amplitude and a velocity from which {figure(100 * ratio, 3)} % of W are missing, "
+        f"{figure(10**6 * cycle['W'] * ratio, 3)} um."
     )
 
 
