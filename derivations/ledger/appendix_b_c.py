@@ -10,7 +10,8 @@ import numpy as np
 import sympy as sp
 
 from derivations import ellipse
-from derivations.ledger.history import STARTS, region_edges, values
+from derivations.ledger.exact import at_table_3
+from derivations.ledger.history import STARTS, values
 from derivations.ledger.judge import Point, agrees, evaluate, figure, identical, points, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, Picture, evidence, step
 from derivations.ledger.section_6 import cycle_totals
@@ -217,16 +218,16 @@ def _judge_a13(forms: Forms) -> Iterator[Evidence]:
 
 
 def _effect_a13() -> str:
-    p = values()
-    end = region_edges()[1]
-    angle = (p["omega_q"] - p["omega_n"]) * end
-    decayed = p["W"] * math.exp(-p["xi"] * p["omega_n"] * end)
-    area = math.pi * p["D"] * p["k_c"]
+    p, cycle = values(), at_table_3()
+    end = cycle.durations()[0]
+    a, b = (cycle.vector(phase, "redu", end) for phase in "AB")
+    area = math.pi * p["D"] * p["k_c"] * 1e12
     return (
-        f"Drawn as an ellipse it has no area. The path encloses pi D k_c W^2 = {figure(area * p['W'] ** 2 * 1e12)} "
+        f"Drawn as an ellipse it has no area. The path encloses pi D k_c W^2 = {figure(area * p['W'] ** 2)} "
         "um^2 in the steady wave of Table 3; at the end of T_redu, after a steady start, phase lead +1, W_a has fallen "
-        f"to {figure(1e6 * decayed)} um and the phases have drifted by {figure(angle, 3)} rad, so it encloses "
-        f"{figure(area * p['W'] * decayed * abs(math.cos(angle)) * 1e12)} um^2."
+        f"to {figure(1e6 * abs(a))} um and the drive has run ahead of the free motion by "
+        f"{figure((cycle['omega_q'] - cycle['omega_n']) * end, 3)} rad, so it encloses "
+        f"{figure(area * abs(mp.im(mp.conj(a) * b)))} um^2."
     )
 
 

@@ -17,6 +17,7 @@ import mpmath as mp
 import sympy as sp
 
 from derivations.dimensions import DimensionError, dimension
+from derivations.ledger.figures import Figure, recorded
 from trum_sym.units import Dimension, parse_unit
 
 __all__ = [
@@ -194,6 +195,7 @@ class Result:
     corrected: tuple[Evidence, ...]
     problems: tuple[str, ...]
     effect: str
+    figures: tuple[Figure, ...] = ()
 
     @property
     def confirmed(self) -> bool:
@@ -266,4 +268,6 @@ def _confirm(entry: Entry) -> Result:
         problems += _passing(printed, _REQUIRED.get(entry.verdict, set()))
     if not derivation.steps:
         problems.append("has no derivation")
-    return Result(entry, derivation, printed, corrected, tuple(problems), entry.effect())
+    with recorded() as figures:
+        effect = entry.effect()
+    return Result(entry, derivation, printed, corrected, tuple(problems), effect, tuple(figures))

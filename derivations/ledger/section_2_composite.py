@@ -74,14 +74,16 @@ def _effect_1() -> str:
     middle = p["h_e"] + p["h_p"] / 2
     arm = (middle - p["D"]) / (middle - layers["D"]) - 1
     forced = [at_point(amplitude.forced(), {**p, "D": axis}) for axis in (p["D"], layers["D"])]
+    softer = _hertz({**p, "E": layers["E"] * layers["I_z"] / p["I_z"]})
     return (
-        f"D = {figure(1000 * p['D'], 5)} mm. The metal below the teeth and the ceramic, each with its own modulus, have "
-        f"their axis at {figure(1000 * layers['D'], 5)} mm: eq. 1 is {figure(100 * (p['D'] / layers['D'] - 1), 3)} % "
+        f"D = {figure(1000 * p['D'], 5)} mm. The metal below the teeth and the ceramic, each with its own modulus, "
+        f"have their axis at {figure(1000 * layers['D'], 5)} mm: eq. 1 is {figure(100 * (p['D'] / layers['D'] - 1), 3)} % "
         f"off. Down the line D multiplies the surface's tangential displacement and speed, so these are as much too "
         f"small; the ceramic's arm of eq. 7 is {figure(100 * arm, 3)} % too long, and with it the amplitude forced at "
         f"the drive frequency: {figure(1e6 * forced[0], 4)} um, {figure(1e6 * forced[1], 4)} um with the layers' axis. "
-        f"With the layers' bending stiffness too the resonance is {figure(_hertz(layers) / 1000, 4)} kHz instead of "
-        f"{figure(_hertz(p) / 1000, 4)} kHz; measured 39.703 kHz."
+        f"With the layers' bending stiffness the resonance is {figure(softer / 1000, 4)} kHz instead of "
+        f"{figure(_hertz(p) / 1000, 4)} kHz, with their axis for the rotary inertia too "
+        f"{figure(_hertz(layers) / 1000, 4)} kHz; measured 39.703 kHz."
     )
 
 

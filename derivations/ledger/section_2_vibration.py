@@ -278,10 +278,10 @@ def _judge_kdx(forms: Forms) -> Iterator[Evidence]:
 
 def _effect_kdx() -> str:
     q = operating_point()
-    share = q["n_j"] * 2 * q["theta"] / q["k_c"] / q["l_s"]
+    smeared = at_point(contact.foundation()["smeared"], q)
     return (
-        f"k_dx = {figure(q['k_dx'], 4)} N/m in all. Spread over the circumference it is "
-        f"{figure(share * q['k_N'], 4)} N/m^2, its fundamental harmonic {figure(q['k_f'], 4)} N/m^2."
+        f"k_dx = {figure(q['k_dx'], 4)} N/m in all at Table 3. Spread over the circumference 2 pi R it is "
+        f"{figure(smeared, 4)} N/m^2, its fundamental harmonic {figure(q['k_f'], 4)} N/m^2."
     )
 
 

@@ -349,7 +349,7 @@ def _effect_15() -> str:
     lengths = ", ".join(figure(1000 * v, 4) for v in cycle.durations())
     return (
         f"At 3000 Hz T_redu = {figure(1000 * beat, 4)} ms; T_addredu and T_add are the same, printed "
-        f"{figure(2000 * beat, 4)} ms, 100 % too long, and no number. With 14 of 20 pulses the regions last {lengths} "
+        f"{figure(2000 * beat, 4)} ms, {figure(100 * (2000 * beat / (1000 * beat) - 1))} % too long, and no number. With 14 of 20 pulses the regions last {lengths} "
         "ms: no region holds a whole beat."
     )
 

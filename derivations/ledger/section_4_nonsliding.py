@@ -19,7 +19,7 @@ from derivations.ledger.judge import evaluate, figure, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
 from derivations.nomenclature import sym
 
-__all__ = ["ENTRIES"]
+__all__ = ["ENTRIES", "EQ35"]
 
 D, k_c, W, F_c, n_j, mu, theta, x, p = sym("D k_c W F_c n_j mu theta x p")
 M_a, M_b, N_a, N_b, Psi_v, v_xp, v_xx = sym("M_a M_b N_a N_b Psi_v v_xp v_xx")
@@ -217,7 +217,7 @@ def _rows_35() -> sp.Expr:
     )  # fmt: skip
 
 
-_EQ35: Forms = {"x_p": _rows_35()}
+EQ35: Forms = {"x_p": _rows_35()}
 
 
 def _derive_35() -> Derivation:
@@ -329,7 +329,7 @@ def _cuts_35() -> list[Quantity]:
 
 
 def _effect_35() -> str:
-    printed = _EQ35["x_p"]
+    printed = EQ35["x_p"]
     parts, single = [], 0.0
     for form in (printed, printed.subs(x_px + 2 * sp.pi, x_px + 2 * sp.pi / k_c)):
         found = shares(_kind_35(form), Lap(), _cuts_35())
@@ -363,7 +363,7 @@ ENTRIES = (
                "one of two solutions.",
     ),
     Entry(
-        id="35", section="4.2.2", title="The only nonsliding point", place=_PLACE, printed=_EQ35, units={"x_p": "m"},
+        id="35", section="4.2.2", title="The only nonsliding point", place=_PLACE, printed=EQ35, units={"x_p": "m"},
         verdict="erratum", judge=_judge_35, derive=_derive_35, effect=_effect_35, known=transfer.DIMENSIONS,
         repair=lambda _: _derive_35().forms, found_by=("dimension", "domain", "numeric"),
         reason="Adds 2 pi to a length, leaves most states without a row, and uses the undefined phi_vm2. One "

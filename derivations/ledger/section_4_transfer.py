@@ -286,10 +286,12 @@ def _effect_cases() -> str:
     turns = (lambda zone: 0 * zone - np.pi / 2, lambda zone: zone - np.pi / 2)
     cuts = [*(against(end, 1.0) for end in ends), *(against(turn, 0.0) for turn in turns)]
     found = shares(kind, Lap(), cuts)
-    listed = ", ".join(f"{name} {figure(100 * part, 2)} %" for name, part in found.items())
+    often = {name: part for name, part in found.items() if part > 1e-4}
+    listed = ", ".join(f"{name} {figure(100 * part, 2)} %" for name, part in often.items())
+    rare = ", ".join(name for name in found if name not in often)
     return (
         f"One formula replaces the table. At Table 4's mean speed the cycle at Table 3, periodic, phase lead +1, passes "
-        f"{figure(len(found))} cases: {listed}."
+        f"{figure(len(found))} cases: {listed}; {rare} for less than 0.01 % each."
     )
 
 

@@ -293,7 +293,8 @@ def _judge_voltage(forms: Forms) -> Iterator[Evidence]:
 
 
 def _effect_voltage() -> str:
-    return "W_max of eq. 7 is proportional to U_s: 400 V instead of 200 V makes it twice as large (+100 %)."
+    more = figure(100 * (_figure_of(_U_S["U_s"]) / 200 - 1), spec="+.0f")
+    return f"W_max of eq. 7 is proportional to U_s: 400 V instead of 200 V makes it twice as large ({more} %)."
 
 
 def _entry(name: str, **fields: Any) -> Entry:  # noqa: ANN401

@@ -136,7 +136,8 @@ def _judge_3(forms: Forms) -> Iterator[Evidence]:
 
 
 def _effect_3() -> str:
-    return "Read the other way, n = 20 of m = 14, T_redu would last a negative time: -6 pulses."
+    left = figure(14 - 20)
+    return f"Read the other way, n = 20 of m = 14, T_redu would last a negative time: {left} pulses."
 
 
 # --- Table 4 ------------------------------------------------------------------------------------------------

@@ -100,14 +100,20 @@ def stator(prepressure: int = 180, layered: bool = False) -> dict[str, mp.mpf]:
 
 @dataclass(frozen=True)
 class Sampled:
-    """A cycle at midpoints of equal steps: time, region 0 to 2, displacements and velocities of both phases."""
+    """A cycle at some times: region 0 to 2 and time since its start, displacements and velocities of both phases.
+
+    ``a`` and ``b`` are the phases as turning complex numbers, whose real parts are the displacements.
+    """
 
     time: Array
     region: NDArray[np.int64]
+    since: Array
     w_A: Array
     w_B: Array
     v_A: Array
     v_B: Array
+    a: NDArray[np.complex128]
+    b: NDArray[np.complex128]
 
     @property
     def height(self) -> Array:
@@ -146,12 +152,13 @@ class Drive:
         if time is None:
             time = (np.arange(count) + 0.5) / count * float(ends[-1])
         region = np.minimum(np.searchsorted(ends[1:-1], time, side="right"), 2)
-        columns: dict[str, Array] = {}
+        columns: dict[str, Any] = {"since": time - ends[region]}
         for phase, quarter in (("A", 0), ("B", self.lead)):
             forced = W * 1j**quarter
             z = _free(self.start, forced, _GATES[phase], lengths, eigenvalue, drive)
-            gate, since = np.array(_GATES[phase])[region], time - ends[region]
+            gate, since = np.array(_GATES[phase])[region], columns["since"]
             free, on = z[region] * np.exp(eigenvalue * since), gate * forced * np.exp(1j * drive * since)
+            columns[phase.lower()] = free + on
             columns[f"w_{phase}"] = (free + on).real
             columns[f"v_{phase}"] = (eigenvalue * free + 1j * drive * on).real
         return Sampled(time, region, **columns)
