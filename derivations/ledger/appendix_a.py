@@ -387,7 +387,8 @@ def _none() -> str:
 
 def _effect_a8() -> str:
     return (
-        f"The dropped term is {figure(100 * _share(), 3)} % of the kept one's amplitude with a free and a forced phase 3000 "
+        f"The dropped term is {figure(100 * _share(), 3)} % of the kept one's amplitude with a free and a forced "
+        "phase 3000 "
         "Hz apart. The drift of the amplitudes, which (A6) takes as constant, costs more: see (24)."
     )
 
@@ -400,7 +401,8 @@ def _effect_a9() -> str:
 
 def _effect_a7() -> str:
     return (
-        f"None on (A8): with frequencies the ratio is {figure(1 / _share())} at the operating point. With the phases of "
+        f"None on (A8): with frequencies the ratio is {figure(1 / _share())} at the operating point. With the phases "
+        "of "
         "T_redu, 0 and pi/2, the printed statement compares equal numbers."
     )
 

@@ -48,14 +48,19 @@ def effect_of(entry: Entry) -> tuple[str, list[Figure]]:
 
 
 _REFERENCE = re.compile(
-    r"\b(?:eqs?\.|Eqs?\.|Tables?|Sects?\.|Figs?\.|App\.) ?\(?[A-C]?\d+(?:\.\d+)*\)?(?:(?:, | and | to )\(?[A-C]?\d+\)?)*"
-    r"(?:'s)?|\([A-C]?\d+\)|\b(?:m|s|mm|N|Pa)\^-?\d|1/(?=s|m|Pa|T)|\b[dA-C]\d+\b|\b(?:row|Row) \d"
+    r"\b(?:eqs?\.|Eqs?\.|Tables?|Sects?\.|Figs?\.|App\.) ?\(?[A-C]?\d+(?:\.\d+)*\)?"
+    r"(?:(?:, | and | to )\(?[A-C]?\d+\)?)*(?:'s)?"
+    r"|\([A-C]?\d+\)|\b(?:m|s|mm|N|Pa)\^-?\d|1/(?=s|m|Pa|T)|\b[dA-C]\d+\b|\b(?:row|Row) \d"
 )
 _NUMBER = re.compile(r"(?<![\w^.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w])")
 _GIVEN = frozenset(
-    # the drive, what the paper prints or measured, units of a sentence; pi's factors
-    ["0", "1", "2", "3", "4", "-1", "+1", "-3", "-4", "8", "9", "14", "20", "30", "55", "60", "100", "160", "180", "188.4", "200", "210", "220", "400", "633", "2800", "3000", "3300", "4000", "39703", "39.703", "12.6", "5.5", "0.3", "0.9", "0.19", "0.006", "1.6", "17.3", "46.8", "22.9", "1447.5", "3446.4", "0.01"]
-)
+    (
+        "0", "1", "2", "3", "4", "-1", "+1", "-3", "-4", "8", "9", "14", "20", "30", "55", "60", "100", "160",
+        "180", "188.4", "200", "210", "220", "400", "633", "2800", "3000", "3300", "4000", "39703", "39.703",
+        "12.6", "5.5", "0.3", "0.9", "0.19", "0.006", "1.6", "17.3", "46.8", "22.9", "1447.5", "3446.4", "0.01",
+    )
+)  # fmt: skip
+"""The drive, what the paper prints or measured, and numbers of a sentence such as pi's factors."""
 
 
 def uncounted(text: str, figures: Iterable[Figure]) -> list[str]:

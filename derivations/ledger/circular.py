@@ -3,7 +3,7 @@
 Evidence is worth something only if what it is held against can disagree.  So every function of the derivations, and
 of the ledger's own modules, that an entry's derivation *and* its judge call is replaced by one whose numbers and
 expressions are off by a percent, in both alike.  A step that no longer holds, or evidence that turns against the
-derived forms, shows that something else bears the entry out.  If nothing notices, the forms were compared with
+forms that stand, shows that something else bears the entry out.  If nothing notices, the forms were compared with
 their own source.
 
 What merely provides a place to compare at is left alone: the motor's data, the operating point, random points.
@@ -22,18 +22,21 @@ import mpmath as mp
 import numpy as np
 import sympy as sp
 
-from derivations.ledger.model import WORKING_DIGITS, Derivation, Entry, Evidence, Step
+from derivations.ledger.model import WORKING_DIGITS, Derivation, Entry, Evidence, Forms, Step
 
 __all__ = ["shared", "unnoticed"]
 
 _SHIFT = sp.Rational(101, 100)
-_PLACES = {
-    "usual", "operating_point", "stator", "values", "points", "evaluate", "compiled", "at_point", "states", "sym", "latex",
-    "random_cycles", "at_table_3", "crest_states", "vanishes", "difference", "numeric", "region_edges", "motor",
-    "parse_unit", "dimension", "worse", "largest", "figure", "rows", "by_region", "within", "with_rows", "context",
-    "anywhere", "resolved", "_sine", "_cosine", "_s", "_c", "_by_rows", "drive_frequency", "cycle_time", "region_times",
-    "unit", "step", "evidence", "_number", "_row_at", "row_value", "turning", "worst", "identical", "agrees", "error_size",
-}  # fmt: skip
+_PLACES = frozenset(
+    (
+        "_by_rows", "_c", "_cosine", "_number", "_row_at", "_s", "_sine", "agrees", "anywhere", "at_point",
+        "at_table_3", "by_region", "compiled", "context", "crest_states", "cycle_time", "difference", "dimension",
+        "drive_frequency", "error_size", "evaluate", "evidence", "figure", "identical", "largest", "latex", "motor",
+        "numeric", "operating_point", "parse_unit", "points", "random_cycles", "region_edges", "region_times",
+        "resolved", "row_value", "rows", "states", "stator", "step", "sym", "turning", "unit", "usual", "values",
+        "vanishes", "with_rows", "within", "worse", "worst",
+    )
+)  # fmt: skip
 """Places to compare at, and tools that only pass on what they are given."""
 
 
@@ -89,11 +92,16 @@ def shared(entry: Entry) -> list[_Known]:
     """What derivation and judge of an entry both compute with, besides the entry's own functions that make it."""
     functions = _functions()
     with mp.workdps(WORKING_DIGITS):
-        forms = entry.derive().forms
+        forms = _forms(entry, entry.derive())
         deriving = _calls(entry.derive, functions)
         judging = _calls(lambda: list(entry.judge(forms)), functions)
     own = {entry.derive, entry.judge, entry.effect, entry.repair}
     return [functions[code] for code in deriving & judging if functions[code].function not in own]
+
+
+def _forms(entry: Entry, derivation: Derivation) -> Forms:
+    """What stands: the derived forms of an erratum or of what is missing, else the print."""
+    return derivation.forms if entry.verdict in ("erratum", "reconstructed") else entry.printed
 
 
 def _off(value: Any) -> Any:  # noqa: ANN401
@@ -107,7 +115,8 @@ def _off(value: Any) -> Any:  # noqa: ANN401
     if isinstance(value, sp.Expr):
         return value * _SHIFT
     if isinstance(value, (int, float, complex, np.ndarray, np.generic, mp.mpf, mp.mpc)):
-        return value * 1.01
+        number: Any = value
+        return number * 1.01
     if isinstance(value, Mapping):
         return {key: _off(inner) for key, inner in value.items()}
     if isinstance(value, (tuple, list)) and not is_dataclass(value):
@@ -149,7 +158,7 @@ def unnoticed(entry: Entry) -> tuple[int, list[str]]:
                 if dict(derivation.forms) == true_forms:
                     continue  # the forms do not hang on it
                 steps = all(one.holds is not False for one in derivation.steps)
-                silent = steps and all(found.ok for found in entry.evidence(derivation.forms))
+                silent = steps and all(found.ok for found in entry.evidence(_forms(entry, derivation)))
             except Exception:
                 count += changed[0]
                 continue

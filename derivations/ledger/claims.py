@@ -56,7 +56,7 @@ def _measured_shares() -> dict[str, float]:
 
 
 def _slow_share(difference: float, pulses: int, periods: int | None = None) -> float:
-    """Forward share over the first whole beats of T_addredu: cos(Delta tau) > kappa exp(-sigma tau), its roots bisected.
+    """Forward share over the first whole beats of T_addredu: cos(Delta tau) > kappa exp(-sigma tau), by its roots.
 
     kappa = 1 - rho cos(Delta T_redu) is what is left of A's rest of T_redu against the drive, B's free motion 1.
     """
@@ -73,9 +73,10 @@ def _slow_share(difference: float, pulses: int, periods: int | None = None) -> f
 
         ends = np.linspace(2 * math.pi * k, 2 * math.pi * (k + 1), 2001)
         signs = [ahead(end) > 0 for end in ends]
-        cuts = [ends[0], *(brentq(ahead, ends[i], ends[i + 1]) for i in range(2000) if signs[i] != signs[i + 1]), ends[-1]]
-        total += sum(high - low for low, high in pairwise(cuts) if ahead((low + high) / 2) > 0)
-    return total / (2 * math.pi * turns) if turns else math.nan
+        roots = [brentq(ahead, ends[i], ends[i + 1]) for i in range(2000) if signs[i] != signs[i + 1]]
+        cuts = [ends[0], *roots, ends[-1]]
+        total += float(sum(high - low for low, high in pairwise(cuts) if ahead((low + high) / 2) > 0))
+    return float(total) / (2 * math.pi * turns) if turns else math.nan
 
 
 def _derive_half() -> Derivation:
@@ -197,7 +198,8 @@ def _effect_crest() -> str:
     return (
         f"At Table 3, periodic, phase lead +1, the crest moves vertically at up to {figure(1e3 * climb, spec='.0f')} "
         f"mm/s and {figure(1e3 * usual, spec='.0f')} mm/s rms, where the largest tangential velocity is "
-        f"{figure(1e3 * surface, spec='.0f')} mm/s. The condition printed beside it, d(zeta_z)/dx = 0, is the right one."
+        f"{figure(1e3 * surface, spec='.0f')} mm/s. The condition printed beside it, d(zeta_z)/dx = 0, is the right "
+        "one."
     )
 
 
@@ -220,7 +222,7 @@ def _power_at(height: float, force: float) -> float:
     # sin a - a cos zone = load/2 and sin zone - zone cos zone = load, with d load = -load d log W
     d_zone = -load / (zone * math.sin(zone))
     d_a = (-load / 2 - a * math.sin(zone) * d_zone) / (math.cos(a) - math.cos(zone))
-    return 1 - math.tan(a) * d_a
+    return float(1 - math.tan(a) * d_a)
 
 
 def _derive_power() -> Derivation:
@@ -238,7 +240,8 @@ def _derive_power() -> Derivation:
     short = sp.Rational(3, 2) * a - sp.Rational(1, 2) * a**3  # a over theta: share of a parabola's load inside
     return Derivation(
         (
-            step("In a steady wave of amplitude W the crest runs at", speed, zero=sp.simplify(W * speed.diff(W) - speed)),
+            step("In a steady wave of amplitude W the crest runs at", speed,
+                 zero=sp.simplify(W * speed.diff(W) - speed)),
             step("so both parameters are one: v_xmax grows as W. A rotor without load runs at v_xmax cos(a), where the "
                  "faster stretch |u| < a of the contact carries half of the load:", sp.Eq(half, 0),
                  zero=sp.simplify(balance * (sp.sin(zone) - zone * sp.cos(zone)) - half)),
@@ -270,7 +273,8 @@ def _judge_power(forms: Forms) -> Iterator[Evidence]:
     slope = (math.log(_free_speed(heights[1], p["F_c"]) / _free_speed(heights[0], p["F_c"])) + 2 * h) / (2 * h)
     off = largest(abs(float(form) - slope) for form in forms.values())
     yield evidence("numeric", off < 0.02, f"on a steady wave twice as high at one percent the speed of a free rotor "
-                   f"grows by the power {slope:.4f} of the height, friction summed over the settled contact")  # fmt: skip
+                   f"grows by the power {slope:.4f} of the height, friction summed over the settled "
+                   "contact")  # fmt: skip
     both = sp.simplify(forms["power_of_W"] - forms["power_of_v_xmax"])
     yield evidence("identity", both == 0, "in a steady wave v_xmax grows as W, so both powers are the same")
 
@@ -288,7 +292,8 @@ def _effect_power() -> str:
     return (
         f"On a steady wave at Table 3 a rotor without load runs at {figure(_balanced(p['theta']))} of v_xmax, and its "
         f"speed goes as W to the power {figure(_power_at(p['W'], p['F_c']))}: nearly proportional, to each of the two "
-        f"and not to their product. From 160 to 210 N the amplitude falls by {figure(100 * (1 - ratio), spec='.1f')} %; "
+        f"and not to their product. From 160 to 210 N the amplitude falls by {figure(100 * (1 - ratio), spec='.1f')} "
+        "%; "
         f"the crest's speed with it, Q by {figure(100 * (1 - ratio**2), spec='.1f')} %. Q_aver and Q_vib do not depend "
         "on the amplitude at all."
     )
@@ -537,7 +542,7 @@ ENTRIES = (
         "claim-add-beat", section="5.2.3", place="Sect. 5.2.3", title="Beat period in T_addT", printed=_ADD,
         units={"T_beat": "s"}, verdict="erratum", judge=_judge_add, derive=_derive_add, effect=_effect_add,
         repair=_repair_add, found_by=("numeric", "limit"),
-        reason="4 pi/(omega_q + omega_n) is the period of the vibration itself, not of its envelope, which repeats with "
-               "the whole difference of the frequencies, as (15) put right has it for the two phases.",
+        reason="4 pi/(omega_q + omega_n) is the period of the vibration itself, not of its envelope, which "
+               "repeats with the whole difference of the frequencies, as (15) put right has it for the two phases.",
     ),
 )  # fmt: skip

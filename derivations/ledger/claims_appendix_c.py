@@ -161,8 +161,9 @@ ENTRIES = (
     _entry(
         "claim-Q_vib", section="C.2", place="Appendix C.2", title="Trend of Q_vib with Y", printed=_TREND,
         verdict="erratum", judge=_judge_trend, derive=_derive_trend, effect=_effect_trend,
-        repair=lambda forms: {key: form * sp.sign(Q_aver) for key, form in forms.items()}, found_by=("numeric", "limit"),
-        reason="Right where Q_aver > 0, at constant Q_aver and T; where Q_aver < 0 both trends turn round. On which side "
-               "of 1 Y lies does not tell the sign of Q_aver.",
+        repair=lambda forms: {key: form * sp.sign(Q_aver) for key, form in forms.items()},
+        found_by=("numeric", "limit"),
+        reason="Right where Q_aver > 0, at constant Q_aver and T; where Q_aver < 0 both trends turn round. On which "
+               "side of 1 Y lies does not tell the sign of Q_aver.",
     ),
 )  # fmt: skip

@@ -103,7 +103,8 @@ def check_effects(entries: tuple[Entry, ...]) -> int:
             if isinstance(found, str):
                 problems.append(found)
             elif not found.holds:
-                problems.append(f"({found.entry}) states {found.figure.printed}, the second route finds {found.again:.8g}")
+                text = f"({found.entry}) states {found.figure.printed}, the second route finds {found.again:.8g}"
+                problems.append(text)
         _progress(f"[{number}/{len(entries)}] ({candidate.id}) effect, {time.perf_counter() - start:.1f} s in all")
     for problem in problems:
         print(problem)
@@ -130,10 +131,12 @@ def check_circular(entries: tuple[Entry, ...]) -> int:
 
 def _write(records: list[dict[str, Any]], check: bool) -> int:
     """Write ledger.json and ledger.html, or say whether they are stale."""
+    from derivations.ledger.assumptions import page as assumptions_page
     from derivations.ledger.html import page
 
     files = {"ledger.json": as_json(records), "ledger.html": page(records, ENTRIES)}
     paths = {GENERATED / name: text for name, text in files.items()}
+    paths[GENERATED.parent / "docs" / "assumptions.md"] = assumptions_page()
     if not check:
         for path, text in paths.items():
             path.write_text(text, "utf-8")
@@ -145,7 +148,14 @@ def _write(records: list[dict[str, Any]], check: bool) -> int:
 
 
 def verify(
-    equation: str | None, *, json_: bool, mutants: bool, write: bool, check: bool, effects: bool = False, circular: bool = False
+    equation: str | None,
+    *,
+    json_: bool,
+    mutants: bool,
+    write: bool,
+    check: bool,
+    effects: bool = False,
+    circular: bool = False,
 ) -> int:
     """Run the command; 0 when all is confirmed, 1 when something is not, 2 for an unknown equation."""
     try:

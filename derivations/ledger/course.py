@@ -13,6 +13,7 @@ from functools import cache
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
 from derivations.ledger.history import Array, History, Start, moments, region_edges
 
@@ -179,13 +180,13 @@ def extremes(quantity: Quantity, lap: Lap) -> tuple[float, float]:
             values = sign * quantity(states)
             beside = np.maximum(np.r_[-np.inf, values[:-1]], np.r_[values[1:], -np.inf])
             (at,) = np.nonzero(values >= beside)
-            at = at[np.argsort(values[at])[-12:]]
+            at = at[np.argsort(values[at])[-12:]].astype(np.int64)
             best = max(best, float(values.max()), _narrowed(quantity, lap, sign, time, at))
         found.append(sign * best)
     return found[0], found[1]
 
 
-def _narrowed(quantity: Quantity, lap: Lap, sign: float, time: Array, at: Array) -> float:
+def _narrowed(quantity: Quantity, lap: Lap, sign: float, time: Array, at: NDArray[np.int64]) -> float:
     """The largest value around some instants of a scan, by thirds."""
     low, high = time[np.maximum(at - 1, 0)], time[np.minimum(at + 1, time.size - 1)]
     for _ in range(70):

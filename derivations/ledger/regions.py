@@ -21,8 +21,8 @@ from derivations.ledger.section_3_supplement import supplement_forms, values
 from derivations.nomenclature import NOMENCLATURE, sym
 
 __all__ = [
-    "anywhere", "by_region", "context", "largest_in", "over_time", "row_value", "rows", "turning", "with_rows", "within",
-    "worst",
+    "anywhere", "by_region", "context", "largest_in", "over_time", "row_value", "rows", "turning", "with_rows",
+    "within", "worst",
 ]  # fmt: skip
 
 t = sym("t")[0]

@@ -251,9 +251,12 @@ def _effect() -> str:
         raise ArithmeticError("a rotor in a neutral interval does not come back to its own speed")
     return (
         "At Table 3, periodic, phase lead +1, one lap draws starts from -4 to 4 m/s together to "
-        f"{figure(100 * _drawn_together(), 3)} % of their distance: the orbit is reached within a few cycles, and can be "
-        f"found as a root of P(v) - v instead of by waiting. A rotor runs away beyond {figure(_capacity())} N m; the load "
-        "is 0.3 N m. A neutral interval needs a wave that turns round at once, twice a lap, without load: there a rotor "
+        f"{figure(100 * _drawn_together(), 3)} % of their distance: the orbit is reached within a few cycles, and "
+        "can be "
+        f"found as a root of P(v) - v instead of by waiting. A rotor runs away beyond {figure(_capacity())} N m; the "
+        "load "
+        "is 0.3 N m. A neutral interval needs a wave that turns round at once, twice a lap, without load: there a "
+        "rotor "
         "comes back to its own speed, whatever it is."
     )
 

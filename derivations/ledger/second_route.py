@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 from functools import cache
+from itertools import pairwise
 from typing import Any
 
 import mpmath as mp
@@ -49,7 +50,7 @@ def _rate(name: str) -> float:
 def _whole(quantity: Callable[[Sampled], Array], start: str, largest: bool) -> float:
     """The largest or smallest value of a cycle, looked for region by region."""
     drive, ends = Drive(start), _ends()
-    found = [peak(quantity, drive, low, high, largest) for low, high in zip(ends[:-1], ends[1:], strict=True)]
+    found = [peak(quantity, drive, low, high, largest) for low, high in pairwise(ends)]
     return max(found) if largest else min(found)
 
 
@@ -191,9 +192,10 @@ def _seven() -> list[Any]:
         return wave * push / (2 * ceramic * wave / 2 * own**2) * magnified
 
     whole = v["rho A"] + v["rho I"] * v["beta"] ** 2
-    return [1e6 * printed(v["f_q"]), 1e6 * _forced(v["D"], v["f_q"]), 1e6 * printed(v["f_n"]),
-            1e6 * _forced(v["D"], v["f_n"]), whole / ceramic,
-            (v["h_e"] + v["h_p"] / 2 - v["D"]) / (v["D"] / 2)]  # fmt: skip
+    on, off = 1e6 * _forced(v["D"], v["f_n"]), 1e6 * _forced(v["D"], v["f_q"])
+    return [1e6 * printed(v["f_q"]), off, 1e6 * printed(v["f_n"]), on, whole / ceramic,
+            (v["h_e"] + v["h_p"] / 2 - v["D"]) / (v["D"] / 2), off / 2, on / 2,
+            100 * (on - 25.2) / 25.2, 100 * (on - 12.6) / 12.6]  # fmt: skip
 
 
 @_route("8")
@@ -317,8 +319,11 @@ def _fifteen() -> list[Any]:
 
 def _off_rate(index: int, row: Callable[[Sampled], Array], phase: str) -> float:
     speed = _v("W") * _rate("q")
-    exact = (lambda s: -s.v_B) if phase == "B" else (lambda s: s.v_A)
-    return 100 * _within(index, lambda s: (row(s) - exact(s)) / speed)
+
+    def off(s: Sampled) -> Array:
+        return (row(s) - (-s.v_B if phase == "B" else s.v_A)) / speed
+
+    return 100 * _within(index, off)
 
 
 @_route("18")
@@ -334,8 +339,8 @@ def _eighteen() -> list[Any]:
         return np.abs(s.b) * np.cos(np.angle(s.b) + _slip(s.since) + np.pi / 2)
 
     right = [lambda s: second(s) * _rate("q") / n, lambda s: -mean * third(s)]
-    return [_off_rate(1, second, "B"), _off_rate(2, third, "B"), *(_off_rate(i, r, "B") for i, r in enumerate(right, 1)),
-            W * _rate("q")]  # fmt: skip
+    sizes = [_off_rate(index, row, "B") for index, row in ((1, second), (2, third), (1, right[0]), (2, right[1]))]
+    return [*sizes, W * _rate("q")]
 
 
 @_route("19")
@@ -382,6 +387,13 @@ def _twenty_three() -> list[Any]:
     return [100 * (((a / scale) ** 2 * along**2 + b**2 * along**2) / (a**2 + b**2) ** 2 - 1)]
 
 
+def _less_q(form: Callable[[Sampled], Array], unit: float) -> Callable[[Sampled], Array]:
+    def off(s: Sampled) -> Array:
+        return (form(s) - s.q) / unit
+
+    return off
+
+
 @_route("24")
 def _twenty_four() -> list[Any]:
     W, n, q, xi = _v("W"), _rate("n"), _rate("q"), _v("xi")
@@ -414,8 +426,8 @@ def _twenty_four() -> list[Any]:
     for index, (printed, right) in enumerate(((first, first), (second, second_right), (third, third_right))):
         low, high = _ends()[index], _ends()[index + 1]
         s = Drive("steady").phases(low + (np.arange(400000) + 0.5) / 400000 * (high - low))
-        sizes = [100 * _within(index, lambda s, form=form: (form(s) - s.q) / unit) for form in (printed, right)]
-        found += [sizes[0], 100 * (printed(s) * s.q < 0).mean(), sizes[1]]
+        first_size, last_size = (100 * _within(index, _less_q(form, unit)) for form in (printed, right))
+        found += [first_size, 100 * (printed(s) * s.q < 0).mean(), last_size]
     return found
 
 
@@ -742,7 +754,7 @@ def _forty_three() -> list[Any]:
     found = []
     for start in _STARTS:
         ahead, back = _senses(cycle(start))
-        last = [int(round(float((part > 0).mean()) * part.size)) for part in (ahead, back)]
+        last = [int((part > 0).sum()) for part in (ahead, back)]
         sums = ahead[: last[0]].sum(), back[: last[1]].sum()
         found += [_average(start), (sums[0] - sums[1]) / (sums[0] + sums[1]) * _v("f_q") / 20]
     return found
@@ -913,5 +925,5 @@ def _trend() -> list[Any]:
     for start in _STARTS:
         ahead, back, ahead_2, back_2 = _sums(start)
         found += [ahead / back, ahead_2 / back_2]
-    ahead, back = _senses(Drive("periodic", 100, 55, 4000.0, 1).phases(count=3_000_000))
-    return [*found, back.sum() / ahead.sum(), (back**2).sum() / (ahead**2).sum()]
+    forward, backward = _senses(Drive("periodic", 100, 55, 4000.0, 1).phases(count=3_000_000))
+    return [*found, backward.sum() / forward.sum(), (backward**2).sum() / (forward**2).sum()]

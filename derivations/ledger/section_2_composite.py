@@ -77,7 +77,8 @@ def _effect_1() -> str:
     softer = _hertz({**p, "E": layers["E"] * layers["I_z"] / p["I_z"]})
     return (
         f"D = {figure(1000 * p['D'], 5)} mm. The metal below the teeth and the ceramic, each with its own modulus, "
-        f"have their axis at {figure(1000 * layers['D'], 5)} mm: eq. 1 is {figure(100 * (p['D'] / layers['D'] - 1), 3)} % "
+        f"have their axis at {figure(1000 * layers['D'], 5)} mm: eq. 1 is "
+        f"{figure(100 * (p['D'] / layers['D'] - 1), 3)} % "
         f"off. Down the line D multiplies the surface's tangential displacement and speed, so these are as much too "
         f"small; the ceramic's arm of eq. 7 is {figure(100 * arm, 3)} % too long, and with it the amplitude forced at "
         f"the drive frequency: {figure(1e6 * forced[0], 4)} um, {figure(1e6 * forced[1], 4)} um with the layers' axis. "

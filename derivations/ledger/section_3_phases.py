@@ -8,6 +8,7 @@ import mpmath as mp
 import sympy as sp
 
 from derivations import phases, supplement
+from derivations.ledger.course import Quantity
 from derivations.ledger.exact import REGIONS, Cycle, at_table_3
 from derivations.ledger.judge import figure, largest, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, Picture, evidence, step
@@ -193,12 +194,15 @@ def _derive_10() -> Derivation:
     )  # fmt: skip
 
 
+def _off_A(printed: Quantity) -> Quantity:
+    return lambda h: printed(h) - h.w_A
+
+
 def _effect_9() -> str:
     cycle, row = at_table_3(), EQ9["w_A"]
     sizes = []
     for region in REGIONS:
-        printed = over_time(row, region)
-        off = largest_in(region, lambda h, printed=printed: printed(h) - h.w_A)
+        off = largest_in(region, _off_A(over_time(row, region)))
         sizes.append(f"{figure(100 * off / float(cycle['W']), 3)} % in T_{region}")
     names = [context(cycle, r, u) for r, u in zip(REGIONS, cycle.durations(), strict=True)]
     plain = abs(mp.pi / 2 - names[0]["varphi_Aredu"])
@@ -240,8 +244,12 @@ ENTRIES = (
     Entry(
         id="9", section="3.3", title="Modal response of phase A", place="Sect. 3.3",
         printed=EQ9, units={"w_A": "m"}, verdict="approximation",
-        reason="Right with the reconstructed supplement, but for omega_n in place of omega_d; the first row prints "
-               "zeta for xi. The amplitude and phase after t_2 are functions of time.",
+        reason="Right with the supplement as reconstructed here, but for omega_n in place of omega_d; the first row "
+               "prints zeta for xi. The amplitude and phase after t_2 are functions of time. The supplement that "
+               "defines "
+               "them is not at hand: another one that also keeps displacement and velocity continuous would be the "
+               "same "
+               "motion in other symbols, which the rows might then fit or not.",
         judge=_judge_response("w_A", "A"), derive=_derive_9, effect=_effect_9,
     ),
     Entry(

@@ -302,7 +302,8 @@ def _derive_15() -> Derivation:
                  sp.Eq(sym("T_addredu")[0], forms["T_addredu"]),
                  zero=sp.expand_trig(sp.expand(length.subs(t, t + sp.pi / addredu) - length))),
             step("In T_add both phases are forced and free. Their mean angles turn alike, so Delta_omega_add = 0 (14), "
-                 "but their lengths and slow phases do not stand still: seen from the free vectors both forced ones turn "
+                 "but their lengths and slow phases do not stand still: seen from the free vectors both forced ones "
+                 "turn "
                  "with omega_q - omega_n = Delta_omega_redu, and B over A repeats when they have turned once. That is "
                  "the beat of the envelope in Sect. 5.2.3 too.", both, sp.Eq(sym("T_add")[0], forms["T_add"]),
                  zero=sp.simplify(both.subs(t, t + 2 * sp.pi / redu) - both)),
@@ -349,7 +350,8 @@ def _effect_15() -> str:
     lengths = ", ".join(figure(1000 * v, 4) for v in cycle.durations())
     return (
         f"At 3000 Hz T_redu = {figure(1000 * beat, 4)} ms; T_addredu and T_add are the same, printed "
-        f"{figure(2000 * beat, 4)} ms, {figure(100 * (2000 * beat / (1000 * beat) - 1))} % too long, and no number. With 14 of 20 pulses the regions last {lengths} "
+        f"{figure(2000 * beat, 4)} ms, {figure(100 * (2000 * beat / (1000 * beat) - 1))} % too long, and no number. "
+        f"With 14 of 20 pulses the regions last {lengths} "
         "ms: no region holds a whole beat."
     )
 
@@ -364,14 +366,17 @@ ENTRIES = (
     Entry(
         id="13", section="3.3", title="Amplitude vectors of the two phases", place="Sect. 3.3",
         printed=EQ13, units={"A_A": "m", "A_B": "m"}, verdict="erratum",
-        reason="The second row of A_B inherits the amplitude of (10), omega_n/omega_q too small.",
+        reason="The second row of A_B inherits the amplitude of (10), omega_n/omega_q too small. That row needs no "
+               "supplement; the rows with A_ABaddredu and A_Badd are judged with these as reconstructed here.",
         judge=_judge_13, derive=_derive_13, effect=_effect_13, repair=_repair_13, found_by=("numeric",),
     ),
     Entry(
         id="14", section="3.3", title="Frequency difference, start and phase difference", place="Sect. 3.3",
         printed=EQ14, units={"Delta_omega": "rad/s", "t_Q": "s", "theta_Q": "rad"}, verdict="erratum",
         reason="theta_Q's one row is printed three times and is not the phase difference of (9) and (10); the row of "
-               "Delta omega in T_add is missing, where it is 0.",
+               "Delta omega in T_add is missing, where it is 0. Its angles are the missing supplement's, judged as "
+               "reconstructed here, with mean frequencies and slow phases: whether theta_Q is wrong, and that "
+               "Delta omega is 0 rather than (omega_q - omega_n) where the slow phases are counted in, hangs on that.",
         judge=_judge_14, derive=_derive_14, effect=_effect_14, repair=_repair_14,
         found_by=("numeric", "domain", "identity"),
     ),
@@ -379,7 +384,8 @@ ENTRIES = (
         id="15", section="3.3", title="Beat periods in the three regions", place="Sect. 3.3",
         printed=EQ15, units={"T_redu": "s", "T_addredu": "s", "T_add": "s"}, verdict="erratum",
         reason="Negative for a drive below resonance (A9 has the bars that lack here); T_addredu is twice the beat, "
-               "which repeats with the whole difference; T_add divides by zero: Delta_omega_add is the rate at which the "
+               "which repeats with the whole difference; T_add divides by zero: Delta_omega_add is the rate at which "
+               "the "
                "mean angles part, 0, while lengths and slow phases beat with the whole difference there as well.",
         judge=_judge_15, derive=_derive_15, effect=_effect_15, repair=_repair_15, found_by=("domain", "numeric"),
     ),

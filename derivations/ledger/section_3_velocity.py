@@ -88,7 +88,8 @@ def _effect_11() -> str:
     both = q["D"] * q["k_c"] / (layers["D"] * layers["beta"]) - 1
     return (
         f"Tangential displacement and velocity come out {figure(100 * slope, 4)} % too large at Table 3, whatever the "
-        "start. It cancels in Q_aver and Q_vib, not in the rotor's speed: the speed of the surface that the rotor meets "
+        "start. It cancels in Q_aver and Q_vib, not in the rotor's speed: the speed of the surface that the rotor "
+        "meets "
         f"is {figure(1000 * q['D'] * q['k_c'] * q['omega_q'] * q['W'])} mm/s with the slope, "
         f"{figure(1000 * q['D'] * q['beta'] * q['omega_q'] * q['W'])} mm/s with the rotation, in a steady wave at the "
         "crest. The computations keep the slope, which is the paper's model; D times beta/k_c given for D computes "
@@ -294,7 +295,8 @@ ENTRIES = (
         id="11", section="3.3", title="Vertical and tangential displacement", place="Sect. 3.3",
         printed=EQ11, units={"zeta_z": "m", "zeta_x": "m"}, verdict="approximation",
         reason="The superposition is right. zeta_x takes the slope for the section's rotation, which Timoshenko's "
-               "beam (3) tells apart. With z towards the rotor a positive slope moves the surface to -x: the sign is "
+               "beam (3) tells apart; first principles ask for the rotation, about the layers' axis. With z towards "
+               "the rotor a positive slope moves the surface to -x: the sign is "
                "a convention.",
         judge=_judge_11, derive=_derive_11, effect=_effect_11,
     ),

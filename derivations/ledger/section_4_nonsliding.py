@@ -176,7 +176,8 @@ def _effect_34() -> str:
     speed = v["D"] * v["k_c"] * v["W"] * v["omega_q"]
     shift = math.asin(0.5) - math.asin(0.5 * v["W"])
     return (
-        f"At Table 3, in a steady wave: in T_redu the arcsine's argument comes out {figure(v['W'], 3)} times too small: "
+        f"At Table 3, in a steady wave: in T_redu the arcsine's argument comes out {figure(v['W'], 3)} times too "
+        "small: "
         f"for a rotor at half the surface's {figure(1000 * speed)} mm/s the point moves by "
         f"{figure(1000 * shift / v['k_c'], 3)} mm, to where the surface stands still. The rows give points in "
         "(-3 pi/2, pi/2)/k_c, not in the stated (-pi/2, 3 pi/2)/k_c: whatever the rotor's speed, "
@@ -313,18 +314,40 @@ def _cuts_35() -> list[Quantity]:
         angle, R, zone = contact_motion(h)
         crest = (np.arctan2(h.w_A, h.w_B) + np.pi / 2) % (2 * np.pi) - np.pi / 2
         psi = np.pi / 2 - angle - crest
-        return angle, speed / R, zone, crest, np.arctan(np.cos(psi) / np.sin(psi))
+        return angle, speed / R, zone, crest, np.arctan(np.cos(psi) / np.where(np.sin(psi) == 0, 1e-300, np.sin(psi)))
 
-    def of(value: Callable[[Array, Array, Array, Array, Array], Array]) -> Quantity:
-        return lambda h: value(*places(h))
+    def against(end: float, level: float) -> Quantity:
+        def value(h: History) -> Array:
+            angle, ratio, zone, _, _ = places(h)
+            found: Array = np.cos(end * zone - angle) - level * ratio
+            return found
+
+        return value
+
+    def beside(end: float, turn: float) -> Quantity:
+        def value(h: History) -> Array:
+            _, _, zone, crest, first = places(h)
+            return crest + end * zone - first - turn
+
+        return value
+
+    def steeper(h: History) -> Array:
+        angle, _, zone, _, _ = places(h)
+        found: Array = np.cos(zone - angle) - np.cos(angle)
+        return found
+
+    def turned(quarter: float) -> Quantity:
+        def value(h: History) -> Array:
+            angle, _, _, crest, _ = places(h)
+            found: Array = np.sin(quarter - angle - crest)
+            return found
+
+        return value
 
     return [
-        *(of(lambda a, c, z, x, f, end=end, level=level: np.cos(end * z - a) - level * c)
-          for end in (0, 1) for level in (0, 1)),
-        *(of(lambda a, c, z, x, f, end=end, turn=turn: x + end * z - f - turn) for end in (0, 1) for turn in (0, np.pi)),
-        of(lambda a, c, z, x, f: np.cos(z - a) - np.cos(a)),
-        of(lambda a, c, z, x, f: np.cos(np.pi / 2 - a - x)), of(lambda a, c, z, x, f: np.sin(np.pi / 2 - a - x)),
-        lambda h: h.w_A, lambda h: h.w_B,
+        *(against(end, level) for end in (0, 1) for level in (0, 1)),
+        *(beside(end, turn) for end in (0, 1) for turn in (0, np.pi)),
+        steeper, turned(np.pi / 2), turned(np.pi), lambda h: h.w_A, lambda h: h.w_B,
     ]  # fmt: skip
 
 

@@ -280,7 +280,12 @@ def _effect_cases() -> str:
         return [names[half_zone_signs(State(float(a), float(speed / R), float(at), 0.0))] for a, R, at in moments]
 
     def against(place: Callable[[Array], Array], level: float) -> Quantity:
-        return lambda h: np.cos(place(contact_motion(h)[2]) - contact_motion(h)[0]) - level * speed / contact_motion(h)[1]
+        def value(h: History) -> Array:
+            angle, R, zone = contact_motion(h)
+            found: Array = np.cos(place(zone) - angle) - level * speed / R
+            return found
+
+        return value
 
     ends = (lambda zone: 0 * zone, lambda zone: zone)
     turns = (lambda zone: 0 * zone - np.pi / 2, lambda zone: zone - np.pi / 2)
@@ -290,7 +295,8 @@ def _effect_cases() -> str:
     listed = ", ".join(f"{name} {figure(100 * part, 2)} %" for name, part in often.items())
     rare = ", ".join(name for name in found if name not in often)
     return (
-        f"One formula replaces the table. At Table 4's mean speed the cycle at Table 3, periodic, phase lead +1, passes "
+        "One formula replaces the table. At Table 4's mean speed the cycle at Table 3, periodic, phase lead +1, "
+        "passes "
         f"{figure(len(found))} cases: {listed}; {rare} for less than 0.01 % each."
     )
 

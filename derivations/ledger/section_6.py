@@ -13,7 +13,7 @@ import numpy as np
 import sympy as sp
 
 from derivations import determinant, transfer
-from derivations.ledger.course import Lap, extremes, integral, share
+from derivations.ledger.course import Lap, Quantity, extremes, integral, share
 from derivations.ledger.history import STARTS, Array, History, Start, history, values
 from derivations.ledger.judge import Point, agrees, figure, identical, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
@@ -230,7 +230,8 @@ def _effect_42() -> str:
     flipped = share(lambda h: -h.W_c_rate * h.q, lap)
     return (
         "Exact with the tangential velocity D d2(zeta_z)/dx dt at the crest. With eq. 22 as printed, the vertical "
-        f"one, the product would be up to {figure(wrong, 3)} m^2/s where Q reaches {figure(right, 3)} m^2/s at Table 3, "
+        f"one, the product would be up to {figure(wrong, 3)} m^2/s where Q reaches {figure(right, 3)} m^2/s at Table "
+        "3, "
         f"periodic, phase lead +1, with a wrong sign {figure(100 * flipped, 3)} % of the cycle. zeta_zmax >= 0 always."
     )
 
@@ -307,6 +308,10 @@ def _judge_43(forms: Forms) -> Iterator[Evidence]:
     yield evidence("limit", ahead == (1 / T, -1 / T), "between -1/T (all backward) and 1/T (all forward)")
 
 
+def _positive(quantity: Quantity) -> Quantity:
+    return lambda h: np.maximum(0.0, quantity(h))
+
+
 def _word_by_word(start: Start) -> float:
     """Q_aver with the forward sum taken up to the time T_Q+ and the backward one up to T_Q-, from t_1, times T."""
     lap = Lap(start)
@@ -314,7 +319,7 @@ def _word_by_word(start: Start) -> float:
     sums = []
     for quantity, end in zip((forward, backward), ends, strict=True):
         stretch = Lap(start, high=end * lap.length)
-        sums.append(integral(lambda h, part=quantity: np.maximum(0.0, part(h)), stretch, [quantity]))
+        sums.append(integral(_positive(quantity), stretch, [quantity]))
     return (sums[0] - sums[1]) / (sums[0] + sums[1])
 
 

@@ -72,7 +72,8 @@ def _effect_45() -> str:
     found = _value_ms(_PERIOD)
     damped = 100 * usual()["xi"] ** 2 / 2 * _FREE_HZ / (_DRIVE_HZ - _FREE_HZ)
     return (
-        f"{figure(found, spec='.5f')} ms, cut off instead of rounded: {figure(100 * (0.188 / found - 1), spec='+.2f')} %; "
+        f"{figure(found, spec='.5f')} ms, cut off instead of rounded: "
+        f"{figure(100 * (0.188 / found - 1), spec='+.2f')} %; "
         f"the measured 0.19 ms is {figure(100 * (0.19 / found - 1), spec='+.2f')} % off. The free vibration runs at "
         f"omega_n sqrt(1 - xi^2), which changes the period by {figure(damped, spec='.3f')} % only."
     )

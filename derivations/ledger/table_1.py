@@ -113,7 +113,8 @@ def _effect_heights() -> str:
     size = figure((swapped.imag if imaginary else swapped.real) / 1000, spec=".1f")
     return (
         f"As described, h_t for the beam and h_e for the teeth, E_eq = {modulus} GPa and the resonance of Table 3's "
-        f"point {size}{' i' if imaginary else ''} kHz; the other way round {figure(resonance_with({}).real / 1000)} kHz."
+        f"point {size}{' i' if imaginary else ''} kHz; the other way round {figure(resonance_with({}).real / 1000)} "
+        "kHz."
     )
 
 
@@ -221,7 +222,8 @@ def _effect_j() -> str:
     p = usual()
     torque = p["mu"] * operating_point()["F_c"] * p["r_c"]
     return (
-        f"In kg m^2 it is a ring of {figure(1e3 * p['J'] / p['r_c'] ** 2, spec='.1f')} g on the contact radius; mu F_c r_c "
+        f"In kg m^2 it is a ring of {figure(1e3 * p['J'] / p['r_c'] ** 2, spec='.1f')} g on the contact radius; mu "
+        "F_c r_c "
         f"accelerates it by {figure(float(torque) / p['J'], 3)} rad/s^2. In g cm^2, the other usual unit, it would be "
         "lighter than the layer."
     )
@@ -258,7 +260,8 @@ def _effect_kappa() -> str:
     before, after = resonance_with({}).real, resonance_with({"kappa": cowper}).real
     return (
         "kappa stands in two rows with 0.9: as 'height-width ratio', which enters no equation, and as shear "
-        f"correction. For a solid rectangle Cowper's coefficient would be {figure(cowper, spec='.3f')}: the resonance changes by "
+        f"correction. For a solid rectangle Cowper's coefficient would be {figure(cowper, spec='.3f')}: the "
+        "resonance changes by "
         f"{figure(after - before, spec='+.0f')} Hz."
     )
 

@@ -12,7 +12,7 @@ from scipy.optimize import linprog
 from derivations.ledger.history import Array, values
 from derivations.ledger.judge import figure, usual
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
-from derivations.ledger.section_2_amplitude import TABLE_2, power_law
+from derivations.ledger.section_2_amplitude import TABLE_2, power_law, refitted
 from derivations.ledger.table_1 import UNITS, unit
 
 __all__ = ["ENTRIES", "reachable_by_rounding", "resampled_interval"]
@@ -84,7 +84,8 @@ def _judge_2(forms: Forms) -> Iterator[Evidence]:
     fitted, resampled = power_law(), resampled_interval()
     low, high = fitted["varsigma"] - fitted["varsigma_width"], fitted["varsigma"] + fitted["varsigma_width"]
     inside = low <= exponent <= high and fitted["C_f_low"] <= factor <= fitted["C_f_high"]
-    yield evidence("data", inside, f"least squares give C_f = {fitted['C_f']:.3f} ({fitted['C_f_low']:.3f} to "
+    yield evidence("data", inside and refitted(fitted),
+                   f"least squares give C_f = {fitted['C_f']:.3f} ({fitted['C_f_low']:.3f} to "
                                    f"{fitted['C_f_high']:.3f}) and varsigma = {fitted['varsigma']:.4f} ({low:.4f} to "
                                    f"{high:.4f}) at 95 %; residuals drawn anew {resampled['C_f'][0]:.3f} to "
                                    f"{resampled['C_f'][1]:.3f} and {resampled['varsigma'][0]:.4f} to "
@@ -105,7 +106,8 @@ def _effect_2() -> str:
     meet = 14.926 ** (1 / 0.678)
     return (
         f"At 180 N {figure(ours, spec='.3f')} um by our fit, {figure(theirs, spec='.3f')} um with the printed "
-        f"constants, 5.5 um measured; our exponent is {figure(fitted['varsigma'] - 0.678, spec='+.4f')} off theirs. The "
+        f"constants, 5.5 um measured; our exponent is {figure(fitted['varsigma'] - 0.678, spec='+.4f')} off theirs. "
+        "The "
         f"law exceeds W_max below {figure(meet, spec='.0f')} N."
     )
 

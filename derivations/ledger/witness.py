@@ -133,20 +133,23 @@ class Sampled:
 
 @dataclass(frozen=True)
 class Drive:
-    """What a cycle needs to know; ``lead`` is +1 or -1, ``start`` periodic, steady or rest."""
+    """What a cycle needs to know; ``lead`` is +1 or -1, ``start`` periodic, steady or rest.
+
+    ``split`` sets B's resonance apart from A's, as a share of it.
+    """
 
     start: str
     m: int = 20
     n: int = 14
     difference: float = 3000.0
     lead: int = 1
+    split: float = 0.0
 
     def phases(self, time: Array | None = None, count: int = MANY) -> Sampled:
         """At the midpoints of equal steps, or at some times."""
         v = stator()
         f_q, W, xi = float(v["f_n"]) + self.difference, float(v["W"]), float(v["xi"])
-        own, drive = 2 * math.pi * float(v["f_n"]), 2 * math.pi * f_q
-        eigenvalue = own * complex(-xi, math.sqrt(1 - xi**2))
+        drive = 2 * math.pi * f_q
         lengths = [(self.m - self.n) / f_q, (self.m - self.n) / f_q, (2 * self.n - self.m) / f_q]
         ends = np.cumsum([0.0, *lengths])
         if time is None:
@@ -155,6 +158,8 @@ class Drive:
         columns: dict[str, Any] = {"since": time - ends[region]}
         for phase, quarter in (("A", 0), ("B", self.lead)):
             forced = W * 1j**quarter
+            own = 2 * math.pi * float(v["f_n"]) * (1 + self.split * (phase == "B"))
+            eigenvalue = own * complex(-xi, math.sqrt(1 - xi**2))
             z = _free(self.start, forced, _GATES[phase], lengths, eigenvalue, drive)
             gate, since = np.array(_GATES[phase])[region], columns["since"]
             free, on = z[region] * np.exp(eigenvalue * since), gate * forced * np.exp(1j * drive * since)
