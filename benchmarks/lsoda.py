@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 import trum_sym as ts
-from trum_sym.modal import modal_values, response
+from trum_sym.model.cycle import modal_values, response
 
 
 def lsoda_cycles(
@@ -51,8 +51,12 @@ def lsoda_cycles(
     for _ in range(cycles):
         steps = solve_ivp(
             lambda t, y: [push * fraction(t, y[0]) - drag, y[0]],
-            (0, point.cycle_time), [v, 0.0], "LSODA", rtol=1e-8, atol=1e-10,
+            (0, point.cycle_time),
+            [v, 0.0],
+            "LSODA",
+            rtol=1e-8,
+            atol=1e-10,
             max_step=point.cycle_time / (60 * drive.periods),
-        )  # fmt: skip
+        )
         v = steps.y[0, -1]
         yield steps.y[1, -1] / point.cycle_time / radius, steps.y[0].min() / radius, steps.y[0].max() / radius

@@ -511,8 +511,8 @@ ENTRIES = (
         printed=_CREST, verdict="erratum", judge=_judge_crest, derive=_derive_crest, effect=_effect_crest,
         repair=lambda _: _derive_crest().forms, found_by=("numeric",), units={},
         known=transfer.DIMENSIONS,
-        reason="The slope is zero at the crest; the vertical velocity is the rate of its height, zero in a "
-               "steady wave only.",
+        reason="The slope is zero at the crest; the vertical velocity is the rate of its height, zero all the time "
+               "only where the height does not change, as in a steady wave.",
     ),
     _entry(
         "claim-proportional", section="6.1", place="below eq. 42", printed=_POWERS, verdict="approximation",

@@ -24,7 +24,7 @@ from derivations.ledger.history import Array, History, history, numeric, values
 from derivations.ledger.judge import figure, largest, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, Picture, evidence, step
 from derivations.nomenclature import sym
-from trum_sym.units import parse_unit
+from trum_sym.inputs.units import parse_unit
 
 __all__ = ["ENTRIES"]
 
@@ -101,7 +101,7 @@ def _derive_36() -> Derivation:
                  "as C does:",
                  zero=(sp.simplify(doubled - whole - 2 * (falls + rises - 1)),
                        sp.simplify((falls + rises - 1).subs(phi, 0)))),
-            step("So eq. 36 is right for a steady wave alone, where f becomes", sp.Eq(f, steady),
+            step("So eq. 36 is right for every rotor on a steady wave alone, where f becomes", sp.Eq(f, steady),
                  zero=sp.simplify(whole.subs(phi, 0) - steady)),
         ),
         {"f_n": form},
@@ -401,8 +401,8 @@ ENTRIES = (
         known=transfer.DIMENSIONS,
         repair=lambda forms: {key: _whole_zone(form) for key, form in forms.items()},
         found_by=("numeric", "derivation"),
-        reason="Twice the right half of the contact is the whole only where v_x is even about the crest; in a beat "
-               "the crest's height changes and it is not.",
+        reason="Twice the right half of the contact is the whole where v_x is even about the crest, or where all of "
+               "the contact slides one way; in a beat the crest's height changes, and v_x is not even.",
     ),
     Entry(
         id="37", section="4.2.3", title="Sign of the friction", place="Sect. 4.2.3", printed=_EQ37, units={"sign": "1"},

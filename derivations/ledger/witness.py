@@ -29,7 +29,7 @@ _GATES = {"A": (0, 1, 1), "B": (1, 0, 1)}
 @cache
 def motor() -> Mapping[str, mp.mpf]:
     """TRUM-60's data, SI."""
-    from trum_sym.motor_file import load_motor
+    from trum_sym.inputs.motor_file import load_motor
 
     return {name: mp.mpf(repr(float(value))) for name, value in load_motor("trum60").symbols().items()}
 

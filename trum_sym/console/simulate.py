@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from trum_sym.console.options import LEVELS, chosen_drive, chosen_motor, number_option, point_options
+from trum_sym.console.options import chosen_drive, chosen_levels, chosen_motor, number_option, point_options
 
 __all__ = ["simulate"]
 
@@ -34,23 +34,23 @@ def simulate(
 
     Phases, surface, determinant, contact, friction, and the rotor's speed and angle.
     """
-    from trum_sym.files import check_target, write
-    from trum_sym.histories import simulate as simulate_point
+    from trum_sym.model.histories import simulate as simulate_point
+    from trum_sym.output.files import check_target, write
 
     if out is not None:
         check_target("--out", out)
-    levels = {name: options[name] for name in LEVELS}
     histories = simulate_point(
         chosen_motor(motor, overrides),
         chosen_drive(options),
         cycles=cycles,
         samples_per_period=samples_per_period,
-        **levels,
+        sampling_period=options["sampling_period"],
+        **chosen_levels(options),
     )
     if out is not None:
         write("--out", histories, out)
         click.echo(f"{out}: {histories.sizes['time']} times of {len(histories.data_vars)} histories")
     else:
-        from trum_sym.tables import histories_table
+        from trum_sym.console.tables import histories_table
 
         click.echo(histories_table(histories))

@@ -10,18 +10,21 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from trum_sym.drive import DRIVE_DOMAINS
 from trum_sym.errors import ParameterError
-from trum_sym.motor import SPECS
+from trum_sym.inputs.checks import Array, ArrayLike, number
+from trum_sym.inputs.domain import Domain
+from trum_sym.inputs.drive import DRIVE_DOMAINS
+from trum_sym.inputs.motor import SPECS
 from trum_sym.sweeps.notation import MAX_VALUES, Column, parse
-from trum_sym.validate import Array, ArrayLike, Domain, number
 
 __all__ = ["PARAMETERS", "Axis", "Grid", "chunk_shape", "read_ranges"]
 
 _OWN = {"phase_lead": (Domain(), "1"), "sampling_period": (Domain(low=0.0), "s")}
 PARAMETERS: Mapping[str, tuple[Domain, str]] = {
-    **DRIVE_DOMAINS, **_OWN, **{name: (spec.domain, spec.unit) for name, spec in SPECS.items()},
-}  # fmt: skip
+    **DRIVE_DOMAINS,
+    **_OWN,
+    **{name: (spec.domain, spec.unit) for name, spec in SPECS.items()},
+}
 """What can be swept: domain and unit by name."""
 
 

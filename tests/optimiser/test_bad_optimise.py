@@ -1,0 +1,132 @@
+"""Bad input to the optimiser: one clear line, exit code 2, no traceback."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from refusals import MOTOR, NO_NUMBERS, refusal
+
+import trum_sym as ts
+from trum_sym import console
+
+BAD_LINES = [
+    (("--bounds", "prepressure=210:160"), ("bounds of prepressure: got 210 to 160", "low < high in N", "reversed")),
+    (("--bounds", "prepressure=180:180"), ("bounds of prepressure: got 180 to 180", "low < high", "holds it there")),
+    (("--bounds", "prepressure="), ("--bounds: got prepressure=", "NAME=LOW:HIGH")),
+    (("--bounds", "prepressure=:"), ("--bounds: got prepressure=:", "NAME=LOW:HIGH")),
+    (("--bounds", "prepressure=1:2:3"), ("--bounds", "NAME=LOW:HIGH")),
+    (("--bounds", ""), ("--bounds", "NAME=LOW:HIGH")),
+    (("--bounds", "=1:2"), ("--bounds", "NAME=LOW:HIGH")),
+    (("--bounds", "prepressure=nan:200"), ("bounds of prepressure: got nan", "a finite number", "in N")),
+    (("--bounds", "prepressure=160:inf"), ("bounds of prepressure: got inf", "in N")),
+    (("--bounds", "prepressure=nan"), ("prepressure: got nan", "in N")),
+    (("--bounds", "prepressure=-10:200"), ("bounds of prepressure: got -10", "> 0", "in N")),
+    (("--bounds", "prepressure=160 Hz:210"), ("bounds of prepressure: got 160 Hz", "in N")),
+    (("--bounds", "prepressure=low:high"), ("bounds of prepressure: got low", "in N")),
+    (("--bounds", "force=160:210"), ("bounds: got force", "prepressure, frequency_difference")),
+    (("--bounds", "prepressure=160:170", "--bounds", "prepressure=180"), ("--bounds", "each name once")),
+    (("--bounds", "frequency_difference=2.8 N:3.3 kHz"), ("frequency_difference: got 2.8 N", "in Hz")),
+    (("--bounds", "prepressure=180", "--bounds", "frequency_difference=3 kHz"), ("every variable held",)),
+    (("--bounds", "periods=20.5:30"), ("bounds of periods: got 20.5", "an integer")),
+    (("--bounds", "on_periods=2:5"), ("bounds of on_periods: got 2 to 5", "periods/2")),
+    (("--bounds", "on_periods=18:16"), ("bounds of on_periods: got 18 to 16", "reversed")),
+    (("--objective", "volatilty"), ("objective: got volatilty", "volatility, q-volatility", "speed_volatility")),
+    (("--objective", ""), ("objective", "volatility")),
+    (("--objective", "speed-error"), ("target_speed: got none", "speed-error")),
+    (("--objective", "1 + 1"), ("objective: got 1 + 1", "no figure occurs")),
+    (("--objective", "mean_speed + prepressure"), ("objective", "do not add")),
+    (("--objective", "mean_speed.real"), ("objective", "not attribute")),
+    (("--objective", "mean_speed if 1 else 2"), ("objective", "not ifexp")),
+    (("--objective", "__import__('os').system('true')"), ("objective", "not call")),
+    (("--objective", "(lambda: mean_speed)()"), ("objective", "not call")),
+    (("--objective", "mean_speed[0]"), ("objective", "not subscript")),
+    (("--objective", "mean_speed; 1"), ("objective", "this is none")),
+    (("--objective", "mean_speed ** 99"), ("objective", "exponents are integers")),
+    (("--objective", "mean_speed ** mean_speed"), ("objective", "exponents are integers")),
+    (("--objective", "sqrt(prepressure)"), ("objective", "the root of a unit is left")),
+    (("--objective", "exp(prepressure)"), ("objective", "exp takes a pure number")),
+    (("--objective", "min(mean_speed)"), ("objective", "min and max of several")),
+    (("--objective", "mean_speed * 1e999"), ("objective", "finite")),
+    (("--objective", "mean_speed * True"), ("objective", "not constant")),
+    (("--objective", "(" * 3000 + "mean_speed" + ")" * 3000), ("objective", "500 characters")),
+    (("--objective", "-" * 400 + "mean_speed"), ("objective", "nested too deeply")),
+    (("--target-speed", "633 N"), ("target_speed: got 633 N", "in rad/s")),
+    (("--target-speed", "nan"), ("target_speed: got nan", "rad/s")),
+    (("--target-speed", "inf"), ("target_speed: got inf", "rad/s")),
+    (("--target-speed", "fast"), ("target_speed: got fast", "rad/s")),
+    (("--target-speed", "0"), ("target_speed: got 0", "other than 0")),
+    (("--constraint", "stall_torque > 0.35"), ("constraint: got stall_torque > 0.35", ">=, <= or ==")),
+    (("--constraint", "0.1 <= stall_torque <= 0.2"), ("constraint", ">=, <= or ==")),
+    (("--constraint", "stall_torque"), ("constraint", ">=, <= or ==")),
+    (("--constraint", "stall_torque >= "), ("constraint stall_torque: got", "in N*m")),
+    (("--constraint", "stall_torque >= 0.3 N"), ("constraint stall_torque: got 0.3 N", "in N*m")),
+    (("--constraint", "stall_torque >= nan"), ("constraint: got stall_torque >= nan", "a finite value")),
+    (("--constraint", "stal_torque >= 0.3"), ("constraint: got stal_torque", "close names: stall_torque")),
+    (("--constraint", "stall_torque >= prepressure"), ("constraint", "do not add")),
+    (("--sampling-period", "2 ms"), ("sampling_period: got 0.002", "continuous")),
+    (("--plot", "box.txt"), ("--plot: got box.txt", ".png, .svg or .pdf")),
+    (("--plot", "/nowhere/box.png"), ("--plot: got /nowhere/box.png", "a folder that exists")),
+    (("--prepressure", "nan"), ("prepressure: got nan",)),
+]
+
+
+@pytest.mark.parametrize(("arguments", "naming"), BAD_LINES, ids=[" ".join(a)[:60] for a, _ in BAD_LINES])
+def test_the_console_refuses(console_refuses, arguments, naming):
+    console_refuses("optimize", *arguments, naming=naming)
+
+
+@pytest.mark.parametrize("value", NO_NUMBERS)
+def test_no_number_is_no_target(value):
+    if value is None:
+        return
+    with refusal("target_speed: got"):
+        ts.optimize(MOTOR, target_speed=value)
+
+
+@pytest.mark.parametrize("value", NO_NUMBERS)
+def test_no_number_is_no_bound(value):
+    with refusal("prepressure: got"):
+        ts.optimize(MOTOR, bounds={"prepressure": (160.0, value)})
+
+
+BAD_CALLS = [
+    ({"bounds": [160, 210]}, ("bounds: got [160, 210]", "a mapping")),
+    ({"bounds": {"prepressure": (160, 170, 180)}}, ("bounds of prepressure", "two numbers")),
+    ({"bounds": {1: (1, 2)}}, ("bounds: got 1", "prepressure")),
+    ({"bounds": {"prepressure": (math.nan, 200)}}, ("bounds of prepressure: got nan",)),
+    ({"objective": None}, ("objective: got None", "volatility")),
+    ({"objective": 3}, ("objective: got 3", "volatility")),
+    ({"constraints": "mean_speed >= 1"}, ("constraints: got mean_speed >= 1", "a sequence")),
+    ({"constraints": [1]}, ("constraint: got 1", ">=, <= or ==")),
+    ({"constraints": None}, ("constraints: got None", "a sequence")),
+    ({"contact": "glue"}, ("contact: got glue", "winkler, hertz")),
+    ({"drive": "fast"}, ("drive: got fast", "a Drive")),
+    ({"drive": ts.Drive(load_torque=np.array([0.1, 0.2]))}, ("load_torque: got an array of shape (2,)", "one number")),
+    ({"target_speed": 0.0, "objective": "ripple"}, ("target_speed: got 0.0", "other than 0")),
+]
+
+
+@pytest.mark.parametrize(("arguments", "naming"), BAD_CALLS, ids=[str(a)[:50] for a, _ in BAD_CALLS])
+def test_python_is_refused(arguments, naming):
+    with refusal(*naming):
+        ts.optimize(MOTOR, **arguments)
+
+
+def test_a_motor_of_arrays_is_refused():
+    with refusal("friction_coefficient: got an array of shape (2,)", "one number"):
+        ts.optimize(MOTOR.with_values({"friction_coefficient": np.array([0.2, 0.3])}))
+    with refusal("motor: got trum60", "a Motor"):
+        ts.optimize("trum60")
+
+
+def test_without_casadi_the_extra_is_named(monkeypatch, capsys):
+    import sys
+
+    for name in [name for name in sys.modules if name.startswith("trum_sym.optimiser")]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, "casadi", None)
+    assert console.main(["optimize"]) == 2
+    error = capsys.readouterr().err
+    assert error == "trum-sym: the optimiser needs casadi: pip install 'trum-sym[optimize]'\n"

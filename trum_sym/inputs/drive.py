@@ -1,0 +1,111 @@
+"""The drive: what the electronics and the assembly set."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
+from typing import TYPE_CHECKING, Any, Literal, get_args
+
+from trum_sym.errors import ParameterError
+from trum_sym.inputs.choices import choice
+from trum_sym.inputs.domain import Domain
+
+if TYPE_CHECKING:
+    from trum_sym.inputs.checks import ArrayLike
+
+__all__ = ["DRIVE_DOMAINS", "LEAD", "STARTS", "Drive", "Start"]
+
+Start = Literal["periodic", "steady", "rest"]
+STARTS: tuple[Start, ...] = get_args(Start)
+
+_PULSES = Domain(low=1, low_open=False, high=10_000, high_open=False, integer=True)
+LEAD = Domain(low=-1, low_open=False, high=1, high_open=False)
+"""Of the phase lead, which is 1 or -1."""
+
+
+def _quantity(default: float, unit: str, domain: Domain, text: str, metavar: str) -> Any:  # noqa: ANN401
+    """A number of the drive; the console makes its option of what is said here."""
+    about = {"unit": unit, "domain": domain, "text": text, "metavar": metavar}
+    return field(default=default, metadata=about)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Drive:
+    """One drive of the superimposed pulse method; numbers broadcast against each other.
+
+    The defaults are the paper's Table 3.
+
+    Parameters
+    ----------
+    prepressure : float or array, N
+        Force F_c between rotor and stator.
+    frequency_difference : float or array, Hz
+        Drive frequency less resonance, of either sign.
+    periods, on_periods : int or array
+        m drive pulses per cycle, n of them on each phase; m/2 <= n <= m.
+    load_torque : float or array, N m
+        Torque against positive rotation.
+    start : {"periodic", "steady", "rest"}
+        State in which every cycle begins: the repeated cycle's own, both phases at full steady
+        amplitude, or both at rest.
+    switching_phase : float or array, rad
+        Drive phase of A at which phases are switched.
+    phase_lead : {1, -1} or array
+        Quarter periods by which B leads A; +1 turns the rotor clockwise, the positive direction.
+
+    Raises
+    ------
+    ParameterError
+        For a value outside its domain, or shapes that do not broadcast.
+    """
+
+    prepressure: ArrayLike = _quantity(180.0, "N", Domain(low=0.0, high=1e6), "Prepressure F_c.", "N")
+    frequency_difference: ArrayLike = _quantity(
+        3000.0, "Hz", Domain(low=-1e9, high=1e9), "Drive frequency less resonance.", "HZ"
+    )
+    periods: ArrayLike = _quantity(20, "1", _PULSES, "Drive pulses per cycle, m.", "M")
+    on_periods: ArrayLike = _quantity(14, "1", _PULSES, "Pulses per cycle on each phase, n.", "N")
+    load_torque: ArrayLike = _quantity(0.3, "N*m", Domain(low=-1e9, high=1e9), "Load torque.", "NM")
+    start: Start = field(default=STARTS[0], metadata={"words": STARTS, "text": "State in which every cycle begins."})
+    switching_phase: ArrayLike = _quantity(
+        0.0, "rad", Domain(low=-1e6, high=1e6), "Drive phase of A at the switching.", "RAD"
+    )
+    phase_lead: ArrayLike = field(
+        default=1, metadata={"words": ("1", "-1"), "text": "Quarter periods by which B leads A."}
+    )
+
+    def __post_init__(self) -> None:
+        """Checks and stores every number as float64."""
+        import numpy as np
+
+        from trum_sym.inputs.checks import broadcast_shape, number
+
+        for name, (domain, unit) in DRIVE_DOMAINS.items():
+            object.__setattr__(self, name, number(name, getattr(self, name), domain, unit))
+        lead = number("phase_lead", self.phase_lead, Domain(), "1")
+        if np.any(np.abs(lead) != 1):
+            raise ParameterError("phase_lead", np.asarray(lead)[np.abs(lead) != 1].flat[0].item(), "1 or -1")
+        object.__setattr__(self, "phase_lead", lead)
+        choice("start", self.start, STARTS)
+        broadcast_shape(self.numbers())
+        periods, on_periods = np.broadcast_arrays(self.periods, self.on_periods)
+        wrong = (2 * on_periods < periods) | (on_periods > periods)
+        if wrong.any():
+            m, n = int(periods[wrong].flat[0]), int(on_periods[wrong].flat[0])
+            raise ParameterError("on_periods", n, f"an integer from periods/2 to periods, with periods = {m}")
+
+    def numbers(self) -> dict[str, ArrayLike]:
+        """The numeric fields by name."""
+        return {field.name: getattr(self, field.name) for field in fields(self) if field.name != "start"}
+
+    def symbols(self) -> dict[str, ArrayLike]:
+        """Prepressure and load by the symbols of the equations, as the kernels name their arguments."""
+        return {"F_c": self.prepressure, "T_load": self.load_torque}
+
+
+DRIVE_DOMAINS: Mapping[str, tuple[Domain, str]] = {
+    quantity.name: (quantity.metadata["domain"], quantity.metadata["unit"])
+    for quantity in fields(Drive)
+    if "domain" in quantity.metadata
+}
+"""Domain and unit of every number of the drive but the phase lead, which is 1 or -1."""
