@@ -44,6 +44,8 @@ def main(arguments: list[str] | None = None) -> int:
     proving.add_argument("--equation", metavar="ID", help="the paper's number, such as 6 or A13: its steps written out")
     proving.add_argument("--json", action="store_true", help="records instead of a table")
     proving.add_argument("--mutants", action="store_true", help="see whether the evidence notices every small slip")
+    proving.add_argument("--effects", action="store_true", help="recompute the effects' figures by a second route")
+    proving.add_argument("--circular", action="store_true", help="look for checks of a thing against itself")
     proving.add_argument("--write", action="store_true", help="write generated/ledger.json and ledger.html")
     proving.add_argument("--check", action="store_true", help="change nothing; exit 1 if those two are stale")
     module = commands.add_parser("wasm", help="compile the C library for the report's interactive part")
@@ -58,8 +60,9 @@ def main(arguments: list[str] | None = None) -> int:
     from derivations.ledger.command import verify
 
     return verify(
-        options.equation, json_=options.json, mutants=options.mutants, write=options.write, check=options.check
-    )
+        options.equation, json_=options.json, mutants=options.mutants, write=options.write, check=options.check,
+        effects=options.effects, circular=options.circular,
+    )  # fmt: skip
 
 
 if __name__ == "__main__":

@@ -4,6 +4,9 @@ z runs from the tooth surface down, in eq. 2 from the neutral axis; metal fills 
 ceramic the next h_p.
 Grooves soften the metal: only the height below the teeth carries bending stress, which scales its
 second moment, and so its modulus, by (1 - h_t/h_e)^3; mass and shear area lose the grooves' volume.
+
+This modulus is made for bending about the metal's own middle.  Eq. 1 takes it for an axial one as well, which
+lifts the axis into the metal; ``layered`` has the axis of what does carry stress.
 """
 
 from __future__ import annotations
@@ -14,7 +17,7 @@ import sympy as sp
 
 from derivations.nomenclature import sym
 
-__all__ = ["equivalent_beam", "neutral_axis", "section"]
+__all__ = ["equivalent_beam", "layered", "neutral_axis", "section"]
 
 b_e, h_e, h_t, rho_e, E_e, G_e = sym("b_e h_e h_t rho_e E_e G_e")
 n_s, b_s, l_s = sym("n_s b_s l_s")
@@ -40,6 +43,22 @@ def neutral_axis() -> sp.Expr:
     force = b_e * E_eq * sp.integrate(_z - D, (_z, 0, h_e)) + b_p * E_p * sp.integrate(_z - D, (_z, h_e, h_e + h_p))
     (solution,) = sp.solve(force, D)
     return sp.factor(solution).subs(E_eq, modulus)
+
+
+@cache
+def layered() -> dict[str, sp.Expr]:
+    """Axis D and bending stiffness EI of metal below the teeth and ceramic, each with its own modulus.
+
+    The teeth carry no stress along the ring, so the metal's stress begins at h_t; without axial force the
+    stress sums to zero over what is left, and the stiffness is its moment per curvature.
+    """
+
+    def over_the_layers(weight: sp.Expr) -> sp.Expr:
+        metal = E_e * b_e * sp.integrate(weight, (_z, h_t, h_e))
+        return metal + E_p * b_p * sp.integrate(weight, (_z, h_e, h_e + h_p))
+
+    (axis,) = sp.solve(over_the_layers(_z - D), D)
+    return {"D": sp.factor(axis), "EI": over_the_layers((_z - D) ** 2)}
 
 
 @cache

@@ -10,7 +10,7 @@ import sympy as sp
 
 from derivations import determinant
 from derivations.ledger.exact import vertical_displacement
-from derivations.ledger.judge import agrees, error_size, evaluate, identical, largest, points, vanishes, worse
+from derivations.ledger.judge import agrees, error_size, evaluate, figure, identical, largest, points, vanishes, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
 from derivations.ledger.operating import operating_point
 from derivations.nomenclature import sym
@@ -387,20 +387,22 @@ def _none() -> str:
 
 def _effect_a8() -> str:
     return (
-        f"The dropped term is {100 * _share():.3g} % of the kept one's amplitude with a free and a forced phase 3000 "
+        f"The dropped term is {figure(100 * _share(), 3)} % of the kept one's amplitude with a free and a forced "
+        "phase 3000 "
         "Hz apart. The drift of the amplitudes, which (A6) takes as constant, costs more: see (24)."
     )
 
 
 def _effect_a9() -> str:
     q = operating_point()
-    beat = mp.nstr(1000 * 2 * mp.pi / q["Delta_omega"], 4)
+    beat = figure(1000 * 2 * mp.pi / q["Delta_omega"], 4)
     return f"{beat} ms at 3000 Hz. Decay and the third region are not in it (15)."
 
 
 def _effect_a7() -> str:
     return (
-        f"None on (A8): with frequencies the ratio is {1 / _share():.4g} at the operating point. With the phases of "
+        f"None on (A8): with frequencies the ratio is {figure(1 / _share())} at the operating point. With the phases "
+        "of "
         "T_redu, 0 and pi/2, the printed statement compares equal numbers."
     )
 

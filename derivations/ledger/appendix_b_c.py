@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 import mpmath as mp
@@ -9,7 +10,8 @@ import numpy as np
 import sympy as sp
 
 from derivations import ellipse
-from derivations.ledger.history import STARTS, history, values
+from derivations.ledger.exact import at_table_3
+from derivations.ledger.history import STARTS, values
 from derivations.ledger.judge import Point, agrees, evaluate, figure, identical, points, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, Picture, evidence, step
 from derivations.ledger.section_6 import cycle_totals
@@ -216,16 +218,16 @@ def _judge_a13(forms: Forms) -> Iterator[Evidence]:
 
 
 def _effect_a13() -> str:
-    h, p = history("steady"), values()
-    redu = h.region == 0
-    angle = p["omega_q"] * h.time[redu][-1] - p["omega_n"] * h.time[redu][-1]
-    decayed = p["W"] * float(sp.exp(-p["xi"] * p["omega_n"] * h.time[redu][-1]))
-    area = float(sp.pi) * p["D"] * p["k_c"]
+    p, cycle = values(), at_table_3()
+    end = cycle.durations()[0]
+    a, b = (cycle.vector(phase, "redu", end) for phase in "AB")
+    area = math.pi * p["D"] * p["k_c"] * 1e12
     return (
-        f"Drawn as an ellipse it has no area. The path encloses pi D k_c W^2 = {figure(area * p['W'] ** 2 * 1e12)} "
-        "um^2 in the steady wave of Table 3; at the end of T_redu, after a steady start, W_a has fallen to "
-        f"{figure(1e6 * decayed)} um and the phases have drifted by {figure(angle)} rad, so it encloses "
-        f"{figure(area * p['W'] * decayed * abs(float(sp.cos(angle))) * 1e12)} um^2."
+        f"Drawn as an ellipse it has no area. The path encloses pi D k_c W^2 = {figure(area * p['W'] ** 2)} "
+        "um^2 in the steady wave of Table 3; at the end of T_redu, after a steady start, phase lead +1, W_a has fallen "
+        f"to {figure(1e6 * abs(a))} um and the drive has run ahead of the free motion by "
+        f"{figure((cycle['omega_q'] - cycle['omega_n']) * end, 3)} rad, so it encloses "
+        f"{figure(area * abs(mp.im(mp.conj(a) * b)))} um^2."
     )
 
 
@@ -282,7 +284,7 @@ def _effect_a14() -> str:
     known = cycle_totals("periodic")
     ratio = known[q_plus] / known[q_minus]
     average = (ratio - 1) / (ratio + 1) / values()["T"]
-    return f"X = {figure(ratio)} at Table 3 (periodic start): Q_aver = {figure(average)} 1/s."
+    return f"X = {figure(ratio)} at Table 3 (periodic start, phase lead +1): Q_aver = {figure(average)} 1/s."
 
 
 def _derive_a15() -> Derivation:
@@ -316,9 +318,10 @@ def _effect_a15() -> str:
     known, p = cycle_totals("periodic"), values()
     ratio = known[q_plus] / known[q_minus]
     slope = 2 / ((ratio + 1) ** 2 * p["T"])
+    change = 100 * (_cycle_time(3300) / _cycle_time(2800) - 1)
     return (
-        f"{figure(slope)} 1/s for each unit of X at Table 3. T is taken as constant; from 2800 to 3300 Hz it changes "
-        f"by {100 * (_cycle_time(3300) / _cycle_time(2800) - 1):.2f} %, and Q_aver with it."
+        f"{figure(slope)} 1/s for each unit of X at Table 3 (periodic start, phase lead +1). T is taken as constant; "
+        f"from 2800 to 3300 Hz it changes by {figure(change, spec='.2f')} %, and Q_aver with it."
     )
 
 
@@ -433,8 +436,8 @@ def _effect_a17() -> str:
     ratio = known[p_plus] / known[p_minus]
     printed, right = (float(form.subs(Y, ratio)) for form in (_A17["df/dY"], _derive_a17().forms["df/dY"]))
     return (
-        f"At Table 3 (periodic, Y = {figure(ratio)}) printed {figure(printed)}, right {figure(right)}: "
-        f"{figure(printed / right, 3)} times too steep. Its sign is right on both sides of 1."
+        f"At Table 3 (periodic start, phase lead +1, Y = {figure(ratio)}) printed {figure(printed)}, right "
+        f"{figure(right)}: {figure(printed / right, 3)} times too steep. Its sign is right on both sides of 1."
     )
 
 

@@ -91,12 +91,52 @@ def check_mutants(entries: tuple[Entry, ...]) -> int:
     return 1 if survivors else 0
 
 
+def check_effects(entries: tuple[Entry, ...]) -> int:
+    """Recompute every figure of the effects by the second route; returns 1 if one is not what is printed."""
+    from derivations.ledger.check_effects import Checked, check
+
+    figures, problems, start = [], [], time.perf_counter()
+    for number, candidate in enumerate(entries, 1):
+        for found in check((candidate,)):
+            if isinstance(found, Checked):
+                figures.append(found)
+            if isinstance(found, str):
+                problems.append(found)
+            elif not found.holds:
+                text = f"({found.entry}) states {found.figure.printed}, the second route finds {found.again:.8g}"
+                problems.append(text)
+        _progress(f"[{number}/{len(entries)}] ({candidate.id}) effect, {time.perf_counter() - start:.1f} s in all")
+    for problem in problems:
+        print(problem)
+    worst = max(figures, key=lambda f: f.apart, default=None)
+    largest = "" if worst is None else f"; both routes agree to {worst.apart:.1e} relative at worst, ({worst.entry})"
+    print(f"{len(figures)} figures of effects recomputed, {len(problems)} do not hold{largest}")
+    return 1 if problems else 0
+
+
+def check_circular(entries: tuple[Entry, ...]) -> int:
+    """Shift whatever derivation and judge of an entry both compute with; returns 1 if no evidence notices."""
+    from derivations.ledger.circular import unnoticed
+
+    found = 0
+    for number, candidate in enumerate(entries, 1):
+        shifted, blind = unnoticed(candidate)
+        for name in blind:
+            print(f"({candidate.id}) rests on {name}, and no evidence notices when that is wrong")
+        found += len(blind)
+        _progress(f"[{number}/{len(entries)}] ({candidate.id}) {shifted} shared computations shifted")
+    print(f"{len(entries)} entries, {found} checks of a thing against itself")
+    return 1 if found else 0
+
+
 def _write(records: list[dict[str, Any]], check: bool) -> int:
     """Write ledger.json and ledger.html, or say whether they are stale."""
+    from derivations.ledger.assumptions import page as assumptions_page
     from derivations.ledger.html import page
 
     files = {"ledger.json": as_json(records), "ledger.html": page(records, ENTRIES)}
     paths = {GENERATED / name: text for name, text in files.items()}
+    paths[GENERATED.parent / "docs" / "assumptions.md"] = assumptions_page()
     if not check:
         for path, text in paths.items():
             path.write_text(text, "utf-8")
@@ -107,7 +147,16 @@ def _write(records: list[dict[str, Any]], check: bool) -> int:
     return 1 if stale else 0
 
 
-def verify(equation: str | None, *, json_: bool, mutants: bool, write: bool, check: bool) -> int:
+def verify(
+    equation: str | None,
+    *,
+    json_: bool,
+    mutants: bool,
+    write: bool,
+    check: bool,
+    effects: bool = False,
+    circular: bool = False,
+) -> int:
     """Run the command; 0 when all is confirmed, 1 when something is not, 2 for an unknown equation."""
     try:
         entries = ENTRIES if equation is None else (entry(equation.strip().strip("()")),)
@@ -116,6 +165,10 @@ def verify(equation: str | None, *, json_: bool, mutants: bool, write: bool, che
         return 2
     if mutants:
         return check_mutants(entries)
+    if effects:
+        return check_effects(entries)
+    if circular:
+        return check_circular(entries)
     records = prove(entries)
     if json_:
         print(as_json(records), end="")

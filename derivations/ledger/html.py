@@ -144,6 +144,13 @@ def _label(name: str) -> str:
     return f"({name})" if name.removeprefix("A").isdigit() else name
 
 
+def _computed_with(conditions: dict[str, str] | None) -> str:
+    if not conditions:
+        return ""
+    listed = "; ".join(f"{key.replace('_', ' ')} {value}" for key, value in conditions.items())
+    return f'<p class="place">Computed with {_prose(listed)}.</p>'
+
+
 def _article(r: dict[str, Any], picture: str) -> str:
     words = " ".join([r["id"], _label(r["id"]), r["title"], r["reason"], r["effect"], r["place"], r["verdict"]]).lower()
     corrected = {"erratum": "put right", "reconstructed": "reconstructed"}.get(r["verdict"], "derived")
@@ -156,7 +163,7 @@ def _article(r: dict[str, Any], picture: str) -> str:
         f'<p class="place">{escape(r["place"])}</p><p>{_prose(r["reason"])}</p>{found_by}'
         f'<div class="pair">{_formulas("printed", r["printed_latex"])}'
         f"{_formulas(corrected, r['derived_latex'])}</div>"
-        f"<p><b>Effect.</b> {_prose(r['effect'])}</p>{figure}"
+        f"<p><b>Effect.</b> {_prose(r['effect'])}</p>{_computed_with(r['effect_at'])}{figure}"
         f"<details open><summary>Derivation</summary>{_steps(r['steps'])}</details>"
         f"<details><summary>Evidence</summary>{_evidence(r['evidence'])}</details></article>"
     )

@@ -9,12 +9,13 @@ from __future__ import annotations
 import random
 from collections.abc import Callable, Iterable, Mapping
 from functools import cache, reduce
-from typing import Any, SupportsFloat
+from typing import Any
 
 import mpmath as mp
 import sympy as sp
 
 from derivations.ledger.algebra import difference, vanishes
+from derivations.ledger.figures import figure
 from derivations.ledger.model import WORKING_DIGITS, Evidence, Forms, Kind
 from trum_sym.inputs.motor import Motor
 
@@ -48,11 +49,6 @@ _RANGES: dict[str, Range] = {
     "psi": (-3.0, 3.0), "a": (-5e-6, 5e-6), "b": (-1.0, 1.0), "a_A": (-5e-6, 5e-6), "b_A": (-1.0, 1.0),
     "a_B": (-5e-6, 5e-6), "b_B": (-1.0, 1.0), "T": (4e-4, 6e-4),
 }  # fmt: skip
-
-
-def figure(value: SupportsFloat, digits: int = 4) -> str:
-    """A number for a sentence, such as 12.6, 9 or 3e+10."""
-    return f"{float(value):.{digits}g}"
 
 
 def worse(worst: Any, error: Any) -> Any:  # noqa: ANN401

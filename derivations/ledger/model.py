@@ -18,6 +18,7 @@ import sympy as sp
 
 from derivations.dimensions import DimensionError, dimension
 from derivations.ledger.algebra import vanishes
+from derivations.ledger.figures import Figure, recorded
 from trum_sym.inputs.units import Dimension, parse_unit
 
 __all__ = [
@@ -193,6 +194,7 @@ class Result:
     corrected: tuple[Evidence, ...]
     problems: tuple[str, ...]
     effect: str
+    figures: tuple[Figure, ...] = ()
 
     @property
     def confirmed(self) -> bool:
@@ -265,4 +267,6 @@ def _confirm(entry: Entry) -> Result:
         problems += _passing(printed, _REQUIRED.get(entry.verdict, set()))
     if not derivation.steps:
         problems.append("has no derivation")
-    return Result(entry, derivation, printed, corrected, tuple(problems), entry.effect())
+    with recorded() as figures:
+        effect = entry.effect()
+    return Result(entry, derivation, printed, corrected, tuple(problems), effect, tuple(figures))

@@ -27,17 +27,22 @@ def at_point(expr: sp.Basic, values: Mapping[str, object]) -> mp.mpf:
     return evaluate(expr, {symbol: values[symbol.name] for symbol in free})
 
 
-def stator(prepressure: object) -> dict[str, mp.mpf]:
-    """Values by symbol name: motor, section, contact, foundation and resonance at a prepressure in N."""
+def stator(prepressure: object, layered: bool = False) -> dict[str, mp.mpf]:
+    """Values by symbol name: motor, section, contact, foundation and resonance at a prepressure in N.
+
+    ``layered`` takes axis and bending stiffness of the layers that carry stress in place of eqs. 1 and 2.
+    """
     with mp.workdps(DIGITS):
         values: dict[str, mp.mpf] = {name: mp.mpf(repr(value)) for name, value in usual().items()}
         values.update({name: mp.mpf(value) for name, value in DRIVE.items()})
         values["F_c"] = mp.mpf(str(prepressure))
         values["Delta_omega"] = 2 * mp.pi * _DIFFERENCE_HZ
-        values["D"] = at_point(section.neutral_axis(), values)
+        values["D"] = at_point(section.layered()["D"] if layered else section.neutral_axis(), values)
         values["k_c"] = at_point(contact.wavenumber(), values)
         values["k_N"] = at_point(contact.layer_stiffness(), values)
         values.update({name: at_point(expr, values) for name, expr in section.section().items()})
+        if layered:
+            values["E"] = at_point(section.layered()["EI"], values) / values["I_z"]
         values["W"] = values["W_maxf"] = at_point(amplitude.measured(), values)
         balance, _ = contact.winkler_balance()
         values["theta"] = mp.findroot(

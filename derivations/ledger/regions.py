@@ -5,18 +5,25 @@ from __future__ import annotations
 import random
 from collections.abc import Callable, Iterable, Mapping
 from functools import cache
+from typing import Any
 
 import mpmath as mp
 import sympy as sp
 
-from derivations.ledger.exact import REGIONS, Cycle, random_cycles
+from derivations.ledger.course import Lap, Quantity, extremes
+from derivations.ledger.exact import REGIONS, Cycle, at_table_3, random_cycles
+from derivations.ledger.history import Array, History, numeric, region_edges
+from derivations.ledger.history import values as at_point
 from derivations.ledger.judge import evaluate, worse
 from derivations.ledger.model import WORKING_DIGITS
 from derivations.ledger.operating import operating_point
 from derivations.ledger.section_3_supplement import supplement_forms, values
 from derivations.nomenclature import NOMENCLATURE, sym
 
-__all__ = ["anywhere", "by_region", "context", "row_value", "rows", "turning", "with_rows", "within", "worst"]
+__all__ = [
+    "anywhere", "by_region", "context", "largest_in", "over_time", "row_value", "rows", "turning", "with_rows",
+    "within", "worst",
+]  # fmt: skip
 
 t = sym("t")[0]
 _EDGES = sym("t_1 t_2 t_3 t_4")
@@ -97,6 +104,39 @@ def row_value(form: sp.Basic, names: Mapping[str, object], functions: Mapping[sp
     if functions:
         chosen = chosen.subs({f: NOMENCLATURE[name].symbol for f, name in functions.items()})
     return evaluate(chosen, {symbol: names[symbol.name] for symbol in chosen.free_symbols})
+
+
+def _along(region: str, time: Array) -> dict[str, Any]:
+    """Values by symbol name at times of Table 3's cycle from a steady start, the supplement's among them."""
+    edges, index = region_edges(), REGIONS.index(region)
+    names: dict[str, Any] = {**at_point(), "t": time, **{f"t_{i}": edge for i, edge in enumerate(edges, 1)}}
+    names |= {"W_maxf": names["W"], "Delta_omega_add": 0.0}
+    for known in range(index + 1):
+        names["tau"] = time - edges[known]
+        for name, form in supplement_forms(REGIONS[known]).items():
+            expr = sp.sympify(form)
+            symbols = tuple(sorted(expr.free_symbols, key=lambda s: s.name))
+            names[name] = numeric(expr, symbols)(*(names[s.name] for s in symbols))
+    return names
+
+
+def over_time(form: sp.Basic, region: str) -> Quantity:
+    """The value of a form's row for the region over the time of Table 3's cycle from a steady start."""
+    middle = at_table_3().durations()[REGIONS.index(region)] / 2
+    row = _row_at(form, context(at_table_3(), region, middle))
+    symbols = tuple(sorted(row.free_symbols, key=lambda s: s.name))
+
+    def value(h: History) -> Array:
+        names = _along(region, h.time)
+        found: Array = numeric(row, symbols)(*(names[s.name] for s in symbols)) + 0 * h.time
+        return found
+
+    return value
+
+
+def largest_in(region: str, quantity: Quantity) -> float:
+    """The largest magnitude of a quantity in a region of Table 3's cycle from a steady start."""
+    return max(abs(end) for end in extremes(quantity, Lap("steady").region(REGIONS.index(region))))
 
 
 def _number(expr: sp.Expr, names: Mapping[sp.Symbol, mp.mpf]) -> sp.Float:

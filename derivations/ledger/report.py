@@ -7,6 +7,8 @@ from typing import Any
 
 import sympy as sp
 
+from derivations.ledger.assumptions import assumptions_of
+from derivations.ledger.conditions import effect_at
 from derivations.ledger.model import Evidence, Forms, Result
 from derivations.nomenclature import NOMENCLATURE, latex
 
@@ -45,6 +47,9 @@ def record(result: Result) -> dict[str, Any]:
         "derived_latex": forms_latex(result.derivation.forms) or None,
         "dimension_ok": result.dimension_ok,
         "effect": result.effect,
+        "effect_at": effect_at(entry.id, result.effect),
+        "effect_figures": [figure.printed for figure in result.figures],
+        "assumptions": assumptions_of(entry.id),
         "place": entry.place,
         "found_by": list(entry.found_by),
         "confirmed": result.confirmed,

@@ -6,6 +6,7 @@ not grow with the rotor's speed.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cache
@@ -14,9 +15,9 @@ from typing import Any
 import mpmath as mp
 import numpy as np
 import sympy as sp
-from scipy.optimize import brentq
 
 from derivations import transfer
+from derivations.ledger.contact_cycle import contact_motion
 from derivations.ledger.friction_states import brute_fraction, states
 from derivations.ledger.history import Array, history, values
 from derivations.ledger.judge import figure, largest
@@ -108,13 +109,11 @@ class _Wave:
 
 
 @cache
-def _at_table_3() -> _Wave:
-    """The repeated lap at Table 3; at this sampling the wave is never so low that the whole of it touches."""
-    h, p = history("periodic", 1500), values()
-    need = p["F_c"] * p["k_c"] / (2 * p["n_j"] * p["k_N"] * h.W_c)
-    half = [brentq(lambda at, n=n: np.sin(at) - at * np.cos(at) - n, 0, np.pi) for n in need]
-    speed = p["D"] * p["k_c"] * np.hypot(h.v_A, h.v_B)
-    return _Wave(speed, np.arctan2(-h.W_c * h.W_c_rate, h.q), np.array(half), h.step)
+def _at_table_3(samples: int = 1500) -> _Wave:
+    """The repeated lap at Table 3, whose wave is never so low that the whole of it touches."""
+    h = history("periodic", samples)
+    angle, speed, half = contact_motion(h)
+    return _Wave(speed, angle, half, h.step)
 
 
 @cache
@@ -228,15 +227,37 @@ def _neutral() -> float:
     return float(np.abs(path[-1] - path[0]).max())
 
 
+@cache
+def _drawn_together() -> float:
+    """Distance after a lap over that before it, of starts at -4 and 4 m/s: finer steps until it stands still.
+
+    Raises
+    ------
+    ArithmeticError
+        If finer steps keep changing it.
+    """
+    before = math.inf
+    for samples in (2000, 4000, 8000, 16000):
+        ends = _path(_at_table_3(samples), np.array([_STARTS[0], _STARTS[-1]]), values()["J"], _TABLE_LOAD)[-1]
+        after = float(ends[1] - ends[0]) / (_STARTS[-1] - _STARTS[0])
+        if abs(after - before) < 2e-5:
+            return after
+        before = after
+    raise ArithmeticError("the rotor's lap does not converge")
+
+
 def _effect() -> str:
-    change = _lap(_STARTS, _TABLE_LOAD / _capacity())
-    shrunk = 1 + (change[-1] - change[0]) / (_STARTS[-1] - _STARTS[0])
+    if _neutral() > 1e-9:
+        raise ArithmeticError("a rotor in a neutral interval does not come back to its own speed")
     return (
-        f"At Table 3 one lap draws starts from -4 to 4 m/s together to {figure(100 * shrunk, 2)} % of their distance: "
-        "the orbit is reached within a few cycles, and can be found as a root of P(v) - v instead of by waiting. A "
-        f"rotor runs away beyond {figure(_capacity())} N m; the load is {figure(_TABLE_LOAD)} N m. A neutral interval "
-        "needs a wave that turns round at once, twice a lap, without load: there starts from -0.7 to 0.3 m/s come "
-        f"back to their own speed within {figure(1e3 * _neutral(), 2)} mm/s, whatever it is."
+        "At Table 3, periodic, phase lead +1, one lap draws starts from -4 to 4 m/s together to "
+        f"{figure(100 * _drawn_together(), 3)} % of their distance: the orbit is reached within a few cycles, and "
+        "can be "
+        f"found as a root of P(v) - v instead of by waiting. A rotor runs away beyond {figure(_capacity())} N m; the "
+        "load "
+        "is 0.3 N m. A neutral interval needs a wave that turns round at once, twice a lap, without load: there a "
+        "rotor "
+        "comes back to its own speed, whatever it is."
     )
 
 

@@ -8,7 +8,7 @@ import mpmath as mp
 import sympy as sp
 
 from derivations import beam, contact
-from derivations.ledger.judge import agrees, evaluate, identical, points, vanishes, worse
+from derivations.ledger.judge import agrees, evaluate, figure, identical, points, vanishes, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, Picture, evidence, step
 from derivations.ledger.operating import at_point, operating_point
 from derivations.nomenclature import sym
@@ -129,7 +129,7 @@ def _effect_4() -> str:
     q = operating_point()
     half = q["n_j"] / mp.mpf("0.06") * q["l_s"] / (2 * mp.pi)
     return (
-        f"k_c = {mp.nstr(q['k_c'], 5)} 1/m with R = 30 mm. Table 1's R = 60 mm would put {mp.nstr(half, 3)} waves on "
+        f"k_c = {figure(q['k_c'], 5)} 1/m with R = 30 mm. Table 1's R = 60 mm would put {figure(half, 3)} waves on "
         "the perimeter of 188.4 mm, which does not close."
     )
 
@@ -246,9 +246,9 @@ def _effect_5() -> str:
     printed = dict(q, k_f=q["k_dx"])
     stiff = at_point(beam.resonance()["quartic"], printed) - full
     return (
-        f"Leaving out the two cross terms moves the resonance by {mp.nstr(hertz, 4)} Hz; k_dx's number, "
-        f"{mp.nstr(q['k_dx'], 4)} N/m, in place of k_f = {mp.nstr(q['k_f'], 4)} N/m^2 by "
-        f"{mp.nstr(stiff / (2 * mp.pi), 4)} Hz."
+        f"Leaving out the two cross terms moves the resonance by {figure(hertz, 4)} Hz; k_dx's number, "
+        f"{figure(q['k_dx'], 4)} N/m, in place of k_f = {figure(q['k_f'], 4)} N/m^2 by "
+        f"{figure(stiff / (2 * mp.pi), 4)} Hz."
     )
 
 
@@ -278,10 +278,10 @@ def _judge_kdx(forms: Forms) -> Iterator[Evidence]:
 
 def _effect_kdx() -> str:
     q = operating_point()
-    share = q["n_j"] * 2 * q["theta"] / q["k_c"] / q["l_s"]
+    smeared = at_point(contact.foundation()["smeared"], q)
     return (
-        f"k_dx = {mp.nstr(q['k_dx'], 4)} N/m in all. Spread over the circumference it is "
-        f"{mp.nstr(share * q['k_N'], 4)} N/m^2, its fundamental harmonic {mp.nstr(q['k_f'], 4)} N/m^2."
+        f"k_dx = {figure(q['k_dx'], 4)} N/m in all at Table 3. Spread over the circumference 2 pi R it is "
+        f"{figure(smeared, 4)} N/m^2, its fundamental harmonic {figure(q['k_f'], 4)} N/m^2."
     )
 
 
@@ -363,11 +363,11 @@ def _effect_6() -> str:
     unloaded = {name: at_point(expr, free) / (2 * mp.pi) for name, expr in beam.resonance().items()}
     error = 100 * (hertz["printed"] / hertz["eq6"] - 1)
     return (
-        f"At 180 N: printed {mp.nstr(hertz['printed'], 6)} Hz, put right {mp.nstr(hertz['eq6'], 6)} Hz "
-        f"({mp.nstr(error, 3)} %), full quartic {mp.nstr(hertz['quartic'], 6)} Hz (dropping a_4 costs "
-        f"{mp.nstr(hertz['eq6'] - hertz['quartic'], 4)} Hz), Euler-Bernoulli {mp.nstr(hertz['euler'], 6)} Hz; "
-        f"measured 39703 Hz. Without prepressure: printed {mp.nstr(unloaded['printed'], 6)} Hz, put right "
-        f"{mp.nstr(unloaded['eq6'], 6)} Hz, quartic {mp.nstr(unloaded['quartic'], 6)} Hz."
+        f"At 180 N: printed {figure(hertz['printed'], 6)} Hz, put right {figure(hertz['eq6'], 6)} Hz "
+        f"({figure(error, 3)} %), full quartic {figure(hertz['quartic'], 6)} Hz (dropping a_4 costs "
+        f"{figure(hertz['eq6'] - hertz['quartic'], 4)} Hz), Euler-Bernoulli {figure(hertz['euler'], 6)} Hz; "
+        f"measured 39703 Hz. Without prepressure: printed {figure(unloaded['printed'], 6)} Hz, put right "
+        f"{figure(unloaded['eq6'], 6)} Hz, quartic {figure(unloaded['quartic'], 6)} Hz."
     )
 
 

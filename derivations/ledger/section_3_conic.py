@@ -9,7 +9,7 @@ import sympy as sp
 
 from derivations import ellipse
 from derivations.ledger.exact import at_table_3, crest_states
-from derivations.ledger.judge import evaluate, largest, vanishes
+from derivations.ledger.judge import evaluate, figure, largest, vanishes
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
 from derivations.ledger.operating import operating_point
 from derivations.nomenclature import sym
@@ -125,7 +125,7 @@ def _effect_23() -> str:
     printed = ((a / (q["D"] * q["k_c"])) ** 2 + b**2) * (q["D"] * q["k_c"] * a) ** 2
     right = (a**2 + b**2) ** 2
     return (
-        f"At x = 0, a seventh into T_redu, the printed left side is {mp.nstr(100 * printed / right - 100, 3)} % off "
+        f"At x = 0, a seventh into T_redu, the printed left side is {figure(100 * printed / right - 100, 3)} % off "
         "the right side. Even put right, the conic is a pair of parallel lines, so it cannot give Figs. 9, 12 and 15, "
         "which need (11)."
     )

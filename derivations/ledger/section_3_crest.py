@@ -6,11 +6,14 @@ from collections.abc import Iterator
 from functools import partial
 
 import mpmath as mp
+import numpy as np
 import sympy as sp
 
 from derivations import determinant
+from derivations.ledger.course import Lap, extremes, mean, share
 from derivations.ledger.exact import REGIONS, at_table_3, crest_states, vertical_displacement
-from derivations.ledger.judge import evaluate, worse
+from derivations.ledger.history import Array, History, values
+from derivations.ledger.judge import evaluate, figure, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, Picture, evidence, step
 from derivations.ledger.regions import rows
 from derivations.nomenclature import sym
@@ -79,16 +82,13 @@ def _repair_20(forms: Forms) -> Forms:
 
 
 def _effect_20() -> str:
-    cycle = at_table_3()
-    wrong = total = 0
-    for region in REGIONS:
-        for tau in cycle.times(region, 40):
-            total += 1
-            wrong += cycle.response("B", region, tau)[0] < 0
+    lap = Lap("steady")
+    wrong = share(lambda h: -h.w_B, lap)
     return (
-        f"For a particle at x = 0, cos(k_c x) = 1 always picks the first row: at {wrong} of {total} instants of the "
-        f"cycle that is the trough, {mp.nstr(1000 * mp.pi / cycle['k_c'], 4)} mm from the crest, where the "
-        "determinant's sign is the same but displacement and velocity both change sign."
+        "For a particle at x = 0, cos(k_c x) = 1 always picks the first row: for "
+        f"{figure(100 * wrong, 3)} % of the cycle at Table 3, from a steady start, that is the trough, "
+        f"{figure(1000 * mp.pi / at_table_3()['k_c'], 4)} mm from the crest, where the determinant's sign is the same "
+        "but displacement and velocity both change sign."
     )
 
 
@@ -180,20 +180,20 @@ def _repair_22(forms: Forms) -> Forms:
 
 
 def _effect_22() -> str:
-    cycle = at_table_3()
-    printed, derived = [], []
-    for region in REGIONS:
-        for tau in cycle.times(region, 40):
-            (a, da), (b, db) = (cycle.response(p, region, tau) for p in "AB")
-            length = mp.sqrt(a**2 + b**2)
-            printed.append((a * da + b * db) / length)
-            derived.append(cycle["D"] * cycle["k_c"] * (da * b - db * a) / length)
-    said = [
-        f"averages {mp.nstr(mp.fsum(values) / len(values), 3)} m/s and runs from {mp.nstr(min(values), 3)} to "
-        f"{mp.nstr(max(values), 3)} m/s"
-        for values in (printed, derived)
-    ]
-    return f"Over the cycle the printed velocity {said[0]}; the tangential one {said[1]}."
+    lap, p = Lap("steady"), values()
+    height = lap.at(np.array([0.0, lap.length])).W_c
+    mean_printed = float(height[1] - height[0]) / lap.length
+
+    def along(h: History) -> Array:
+        return p["D"] * p["k_c"] * h.q / h.W_c
+
+    printed, derived = extremes(lambda h: h.W_c_rate, lap), extremes(along, lap)
+    return (
+        "Over the cycle at Table 3, from a steady start, phase lead +1, the printed velocity averages "
+        f"{figure(mean_printed, 3)} m/s, the change of the crest's height over the cycle's time, and runs from "
+        f"{figure(printed[0], 3)} to {figure(printed[1], 3)} m/s; the tangential one averages "
+        f"{figure(mean(along, lap), 3)} m/s and runs from {figure(derived[0], 3)} to {figure(derived[1], 3)} m/s."
+    )
 
 
 def _picture_22() -> Picture:

@@ -9,10 +9,23 @@ import mpmath as mp
 import sympy as sp
 
 from derivations import determinant
+from derivations.ledger.course import Lap, Quantity, share
 from derivations.ledger.exact import REGIONS, Cycle, at_table_3
-from derivations.ledger.judge import largest
+from derivations.ledger.history import values
+from derivations.ledger.judge import figure, largest
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, Picture, evidence, step
-from derivations.ledger.regions import anywhere, by_region, context, row_value, rows, turning, with_rows, worst
+from derivations.ledger.regions import (
+    anywhere,
+    by_region,
+    context,
+    largest_in,
+    over_time,
+    row_value,
+    rows,
+    turning,
+    with_rows,
+    worst,
+)
 from derivations.ledger.section_3_phases import EQ9, corrected_10, shares
 from derivations.nomenclature import sym
 
@@ -181,20 +194,27 @@ def _derive_24() -> Derivation:
     )  # fmt: skip
 
 
+def _less_exact(form: Quantity, scale: float) -> Quantity:
+    return lambda h: form(h) - scale * h.q
+
+
+def _other_sign(form: Quantity) -> Quantity:
+    return lambda h: -form(h) * h.q
+
+
 def _effect_24() -> str:
-    cycle = at_table_3()
-    good, parts, unit = corrected_24()["Q_q"], [], cycle["W"] ** 2 * cycle["omega_q"]
-    for region in REGIONS:
-        times = cycle.times(region, 40)
-        exact = [cycle.determinant(region, u) / unit for u in times]
-        printed = [q + error_24(_EQ24["Q_q"], cycle, region, u) for q, u in zip(exact, times, strict=True)]
-        flips = sum(p * q < 0 for p, q in zip(printed, exact, strict=True))
-        sizes = [largest(abs(error_24(form, cycle, region, u)) for u in times) for form in (_EQ24["Q_q"], good)]
+    p, parts = values(), []
+    scale = p["D"] * p["k_c"]
+    unit = scale * p["W"] ** 2 * p["omega_q"]
+    for index, region in enumerate(REGIONS):
+        forms = [over_time(form, region) for form in (_EQ24["Q_q"], corrected_24()["Q_q"])]
+        sizes = [largest_in(region, _less_exact(form, scale)) / unit for form in forms]
+        flipped = share(_other_sign(forms[0]), Lap("steady").region(index))
         parts.append(
-            f"T_{region}: printed off by {mp.nstr(100 * sizes[0], 3)} % at most, with the wrong sign at {flips} of 40 "
-            f"instants, put right {mp.nstr(100 * sizes[1], 3)} %"
+            f"T_{region}: printed off by {figure(100 * sizes[0], 3)} % at most, with the wrong sign "
+            f"{figure(100 * flipped, 3, '.1f')} % of the time, put right {figure(100 * sizes[1], 3)} %"
         )
-    return f"In units of D k_c W^2 omega_q: {'; '.join(parts)}."
+    return f"In units of D k_c W^2 omega_q at Table 3, from a steady start, phase lead +1: {'; '.join(parts)}."
 
 
 def _picture_24() -> Picture:
@@ -221,7 +241,11 @@ ENTRIES = (
         id="24", section="3.5", title="Direction determinant, region by region", place="Sect. 3.5",
         printed=_EQ24, units={"Q_q": "m^2/s"}, verdict="erratum",
         reason="The phase difference drifts the other way in T_addredu, a minus is lost in T_add, and B's amplitude "
-               "is (10)'s. Put right it is still an approximation of the exact determinant.",
+               "is (10)'s. Put right it is still an approximation of the exact determinant. T_addredu and T_add are "
+               "judged with the supplement's amplitudes and angles as reconstructed here, with a product where the "
+               "text "
+               "prints no operator before its last bracket, and with Delta_omega_add = 0; T_redu hangs on none of "
+               "these.",
         judge=_judge_24, derive=_derive_24, effect=_effect_24, repair=_repair_24,
         found_by=("numeric", "identity", "error_size"),
         picture=_picture_24,

@@ -8,10 +8,21 @@ import mpmath as mp
 import sympy as sp
 
 from derivations import phases, supplement
+from derivations.ledger.course import Quantity
 from derivations.ledger.exact import REGIONS, Cycle, at_table_3
-from derivations.ledger.judge import largest, worse
+from derivations.ledger.judge import figure, largest, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, Picture, evidence, step
-from derivations.ledger.regions import anywhere, by_region, context, row_value, rows, with_rows, worst
+from derivations.ledger.regions import (
+    anywhere,
+    by_region,
+    context,
+    largest_in,
+    over_time,
+    row_value,
+    rows,
+    with_rows,
+    worst,
+)
 from derivations.nomenclature import sym
 
 __all__ = ["ENTRIES", "EQ9", "EQ10", "LIMIT", "corrected_10", "shares"]
@@ -183,16 +194,23 @@ def _derive_10() -> Derivation:
     )  # fmt: skip
 
 
+def _off_A(printed: Quantity) -> Quantity:
+    return lambda h: printed(h) - h.w_A
+
+
 def _effect_9() -> str:
-    cycle = at_table_3()
-    found = {r: largest(_response_error(EQ9["w_A"], "A")(cycle, r, u) for u in cycle.times(r, 8)) for r in REGIONS}
+    cycle, row = at_table_3(), EQ9["w_A"]
+    sizes = []
+    for region in REGIONS:
+        off = largest_in(region, _off_A(over_time(row, region)))
+        sizes.append(f"{figure(100 * off / float(cycle['W']), 3)} % in T_{region}")
     names = [context(cycle, r, u) for r, u in zip(REGIONS, cycle.durations(), strict=True)]
     plain = abs(mp.pi / 2 - names[0]["varphi_Aredu"])
     return (
-        f"At the operating point off by {shares(found)} of W. phi_Aredu = pi/2, which (19) and (23) use, is off by "
-        f"{mp.nstr(plain, 3)} rad. The amplitude A_ABaddredu is no constant: at t_3 it is "
-        f"{mp.nstr(names[1]['A_ABaddredu'] / cycle['W'], 4)} W_maxf, at t_4 "
-        f"{mp.nstr(names[2]['A_ABaddredu'] / cycle['W'], 4)}."
+        f"At Table 3, from a steady start, off by at most {', '.join(sizes)}, of W. phi_Aredu = pi/2, which (19) and "
+        f"(23) use, is off by {figure(plain, 3)} rad. The amplitude A_ABaddredu is no constant: at t_3 it is "
+        f"{figure(names[1]['A_ABaddredu'] / cycle['W'], 4)} W_maxf, at t_4 "
+        f"{figure(names[2]['A_ABaddredu'] / cycle['W'], 4)}."
     )
 
 
@@ -200,9 +218,9 @@ def _effect_10() -> str:
     cycle = at_table_3()
     ratio = cycle["omega_q"] / cycle["omega_n"] - 1
     return (
-        "Row 1 as printed puts B in phase with A: the speed determinant would be 0 at t_1 instead of its maximum. Row "
-        f"2 starts {mp.nstr(100 * ratio, 3)} % too low in velocity and amplitude, "
-        f"{mp.nstr(10**6 * cycle['W'] * ratio, 3)} um."
+        "Row 1 as printed puts B in phase with A: the determinant would be 0 at t_1 instead of D k_c W^2 omega_q. Row "
+        f"2 starts with an amplitude and a velocity from which {figure(100 * ratio, 3)} % of W are missing, "
+        f"{figure(10**6 * cycle['W'] * ratio, 3)} um."
     )
 
 
@@ -226,8 +244,12 @@ ENTRIES = (
     Entry(
         id="9", section="3.3", title="Modal response of phase A", place="Sect. 3.3",
         printed=EQ9, units={"w_A": "m"}, verdict="approximation",
-        reason="Right with the reconstructed supplement, but for omega_n in place of omega_d; the first row prints "
-               "zeta for xi. The amplitude and phase after t_2 are functions of time.",
+        reason="Right with the supplement as reconstructed here, but for omega_n in place of omega_d; the first row "
+               "prints zeta for xi. The amplitude and phase after t_2 are functions of time. The supplement that "
+               "defines "
+               "them is not at hand: another one that also keeps displacement and velocity continuous would be the "
+               "same "
+               "motion in other symbols, which the rows might then fit or not.",
         judge=_judge_response("w_A", "A"), derive=_derive_9, effect=_effect_9,
     ),
     Entry(

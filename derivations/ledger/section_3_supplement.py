@@ -10,7 +10,7 @@ import sympy as sp
 
 from derivations import phases, supplement
 from derivations.ledger.exact import Cycle, at_table_3, random_cycles
-from derivations.ledger.judge import evaluate, worse
+from derivations.ledger.judge import evaluate, figure, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, Picture, evidence, step
 from derivations.nomenclature import sym
 
@@ -183,12 +183,12 @@ def _effect(region: str) -> Callable[[], str]:
         _, radius, theta, psi, amplitude, slow = _NAMES[region]
         length = cycle.durations()[("redu", "addredu", "add").index(region)]
         first, last = (values(supplement_forms(region), cycle, u) for u in (mp.mpf(0), length))
-        text = f"Free motion: {mp.nstr(10**6 * first[radius], 5)} um at phase {mp.nstr(first[theta], 5)} rad"
+        text = f"Free motion: {figure(10**6 * first[radius], 5)} um at phase {figure(first[theta], 5)} rad"
         if psi:
             text += (
-                f"; the amplitude runs from {mp.nstr(10**6 * first[amplitude], 5)} to "
-                f"{mp.nstr(10**6 * last[amplitude], 5)} um over the region, its slow phase from "
-                f"{mp.nstr(first[slow], 4)} to {mp.nstr(last[slow], 4)} rad"
+                f"; the amplitude runs from {figure(10**6 * first[amplitude], 5)} to "
+                f"{figure(10**6 * last[amplitude], 5)} um over the region, its slow phase from "
+                f"{figure(first[slow], 4)} to {figure(last[slow], 4)} rad"
             )
         return text + "."
 

@@ -4,20 +4,22 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import mpmath as mp
 import numpy as np
 import sympy as sp
 
 from derivations import transfer
+from derivations.ledger.contact_cycle import contact_motion, table_4_speed
+from derivations.ledger.course import Lap, Quantity, share, shares
 from derivations.ledger.friction_states import K, State, states
-from derivations.ledger.history import history, values
+from derivations.ledger.history import Array, History, values
 from derivations.ledger.judge import evaluate, figure, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
 from derivations.nomenclature import sym
 
-__all__ = ["ENTRIES"]
+__all__ = ["ENTRIES", "EQ35"]
 
 D, k_c, W, F_c, n_j, mu, theta, x, p = sym("D k_c W F_c n_j mu theta x p")
 M_a, M_b, N_a, N_b, Psi_v, v_xp, v_xx = sym("M_a M_b N_a N_b Psi_v v_xp v_xx")
@@ -78,10 +80,11 @@ def _judge_33(forms: Forms) -> Iterator[Evidence]:
 
 
 def _effect_33() -> str:
-    v_B = history().v_A  # M_b = w_A'
+    trough = share(lambda h: -h.v_A, Lap())  # M_b = w_A'
     return (
         "phi_vm2, which eq. 35 needs, is defined nowhere. The rows do not say which is the peak: the first one is a "
-        f"trough whenever M_b = w_A' < 0, {100 * float((v_B < 0).mean()):.0f} % of the cycle, and fails at M_b = 0."
+        f"trough whenever M_b = w_A' < 0, {figure(100 * trough, 3)} % of the cycle at Table 3, periodic, and fails at "
+        "M_b = 0."
     )
 
 
@@ -157,17 +160,28 @@ def _repair_34(forms: Forms) -> Forms:
     }
 
 
+def _left_34(ratio: float) -> float:
+    """The share of all phases Psi_v for which eq. 34 gives a point outside of (-pi/2, 3 pi/2)/k_c."""
+    arc, outside = math.asin(ratio), 0.0
+    rows = ((0, math.pi, arc), (-math.pi / 2, 0, -math.pi - arc), (math.pi, 1.5 * math.pi, math.pi - arc))
+    for low, high, at_zero in rows:
+        least = at_zero + math.pi / 2  # beyond this phase the point lies below -pi/2
+        most = at_zero - 1.5 * math.pi  # before this one above 3 pi/2
+        outside += max(0.0, high - max(low, least)) + max(0.0, min(high, most) - low)
+    return outside / (2 * math.pi)
+
+
 def _effect_34() -> str:
     v = values()
     speed = v["D"] * v["k_c"] * v["W"] * v["omega_q"]
     shift = math.asin(0.5) - math.asin(0.5 * v["W"])
-    draws = [(s, _position_34(s)) for s in states(4000, "34")]
-    outside = sum(not -math.pi / 2 < at < 3 * math.pi / 2 for _, at in draws) / len(draws)
     return (
-        f"In T_redu the arcsine's argument comes out {figure(v['W'], 3)} times too small: for a rotor at half the "
-        f"surface's {figure(1000 * speed)} mm/s the point moves by {figure(1000 * shift / v['k_c'], 3)} mm, to where "
-        "the surface stands still. The rows give points in (-3 pi/2, pi/2)/k_c, not in the stated (-pi/2, 3 "
-        f"pi/2)/k_c: {100 * outside:.0f} % of 4000 random states leave it."
+        f"At Table 3, in a steady wave: in T_redu the arcsine's argument comes out {figure(v['W'], 3)} times too "
+        "small: "
+        f"for a rotor at half the surface's {figure(1000 * speed)} mm/s the point moves by "
+        f"{figure(1000 * shift / v['k_c'], 3)} mm, to where the surface stands still. The rows give points in "
+        "(-3 pi/2, pi/2)/k_c, not in the stated (-pi/2, 3 pi/2)/k_c: whatever the rotor's speed, "
+        f"{figure(100 * _left_34(0.5))} % of all phases Psi_v leave it."
     )
 
 
@@ -204,7 +218,7 @@ def _rows_35() -> sp.Expr:
     )  # fmt: skip
 
 
-_EQ35: Forms = {"x_p": _rows_35()}
+EQ35: Forms = {"x_p": _rows_35()}
 
 
 def _derive_35() -> Derivation:
@@ -263,15 +277,94 @@ def _judge_35(forms: Forms) -> Iterator[Evidence]:
                                                   f"wrong in {tally['wrong']}")  # fmt: skip
 
 
+def _kind_35(form: sp.Expr) -> Callable[[History], list[str]]:
+    """What the rows make of states in which one nonsliding point lies between crest and end: right, wrong or none."""
+    symbols = sorted(form.free_symbols, key=lambda s: s.name)
+    function = sp.lambdify(symbols, form, "math")
+    speed = table_4_speed()
+
+    def kind(h: History) -> list[str]:
+        found = []
+        for A, B, angle, R, zone in zip(h.w_A, h.w_B, *contact_motion(h), strict=True):
+            crest = (math.atan2(A, B) + math.pi / 2) % (2 * math.pi) - math.pi / 2
+            s = State(float(angle), float(speed / R), float(zone), crest)
+            opening = math.acos(max(-1.0, min(1.0, s.c)))
+            ends = [s.phi + side * opening + 2 * math.pi * turn for side in (1, -1) for turn in (-1, 0, 1)]
+            roots = [end for end in ends if 0 < end < s.theta]
+            if len(roots) != 1:
+                found.append("other")
+                continue
+            known = _known_35(s)
+            placed = function(*(known[symbol] for symbol in symbols))
+            if placed is None:
+                found.append("none")
+            else:
+                found.append("right" if abs(K * placed - s.crest - roots[0]) < 1e-9 else "wrong")
+        return found
+
+    return kind
+
+
+def _cuts_35() -> list[Quantity]:
+    """Where a condition of eq. 35, or what it compares, changes: at each sign change of one of these."""
+    speed = table_4_speed()
+
+    def places(h: History) -> tuple[Array, Array, Array, Array, Array]:
+        """phi, c, theta, the crest's place and that of the first extremum, as angles."""
+        angle, R, zone = contact_motion(h)
+        crest = (np.arctan2(h.w_A, h.w_B) + np.pi / 2) % (2 * np.pi) - np.pi / 2
+        psi = np.pi / 2 - angle - crest
+        return angle, speed / R, zone, crest, np.arctan(np.cos(psi) / np.where(np.sin(psi) == 0, 1e-300, np.sin(psi)))
+
+    def against(end: float, level: float) -> Quantity:
+        def value(h: History) -> Array:
+            angle, ratio, zone, _, _ = places(h)
+            found: Array = np.cos(end * zone - angle) - level * ratio
+            return found
+
+        return value
+
+    def beside(end: float, turn: float) -> Quantity:
+        def value(h: History) -> Array:
+            _, _, zone, crest, first = places(h)
+            return crest + end * zone - first - turn
+
+        return value
+
+    def steeper(h: History) -> Array:
+        angle, _, zone, _, _ = places(h)
+        found: Array = np.cos(zone - angle) - np.cos(angle)
+        return found
+
+    def turned(quarter: float) -> Quantity:
+        def value(h: History) -> Array:
+            angle, _, _, crest, _ = places(h)
+            found: Array = np.sin(quarter - angle - crest)
+            return found
+
+        return value
+
+    return [
+        *(against(end, level) for end in (0, 1) for level in (0, 1)),
+        *(beside(end, turn) for end in (0, 1) for turn in (0, np.pi)),
+        steeper, turned(np.pi / 2), turned(np.pi), lambda h: h.w_A, lambda h: h.w_B,
+    ]  # fmt: skip
+
+
 def _effect_35() -> str:
-    tally = _tally_35(_EQ35["x_p"], 600)
-    total = sum(tally.values())
+    printed = EQ35["x_p"]
+    parts, single = [], 0.0
+    for form in (printed, printed.subs(x_px + 2 * sp.pi, x_px + 2 * sp.pi / k_c)):
+        found = shares(_kind_35(form), Lap(), _cuts_35())
+        single = 1 - found.get("other", 0.0)
+        parts.append(" / ".join(figure(100 * found.get(k, 0.0) / single, 3) for k in ("right", "wrong", "none")))
     v = values()
     waves = 2 * math.pi / (2 * math.pi / v["k_c"])
     return (
-        f"Of {total} random states with one nonsliding point the legible rows place {tally['right']} rightly, "
-        f"{tally['wrong']} wrongly and {tally['none']} not at all (the text breaks off, repeats rows, and lets rows "
-        f"overlap). The last rows shift by 2 pi metres, {figure(waves)} waves, where 2 pi/k_c = "
+        f"During {figure(100 * single, 3)} % of the cycle at Table 3, periodic, phase lead +1, at Table 4's mean speed "
+        f"one nonsliding point lies between crest and end. Of that time the legible rows place it rightly / wrongly / "
+        f"not at all {parts[0]} % (the text breaks off, repeats rows, and lets rows overlap); with 2 pi read as "
+        f"2 pi/k_c {parts[1]} %. The last rows shift by 2 pi metres, {figure(waves)} waves, where 2 pi/k_c = "
         f"{figure(2000 * math.pi / v['k_c'])} mm is meant; v_x hides it only because k_c is a whole number of 1/m."
     )
 
@@ -293,7 +386,7 @@ ENTRIES = (
                "one of two solutions.",
     ),
     Entry(
-        id="35", section="4.2.2", title="The only nonsliding point", place=_PLACE, printed=_EQ35, units={"x_p": "m"},
+        id="35", section="4.2.2", title="The only nonsliding point", place=_PLACE, printed=EQ35, units={"x_p": "m"},
         verdict="erratum", judge=_judge_35, derive=_derive_35, effect=_effect_35, known=transfer.DIMENSIONS,
         repair=lambda _: _derive_35().forms, found_by=("dimension", "domain", "numeric"),
         reason="Adds 2 pi to a length, leaves most states without a row, and uses the undefined phi_vm2. One "

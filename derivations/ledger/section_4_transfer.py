@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import cache
 
 import numpy as np
 import sympy as sp
 
 from derivations import transfer
+from derivations.ledger.contact_cycle import contact_motion, friction, friction_kinks, table_4_speed
+from derivations.ledger.course import Lap, Quantity, extremes, mean, root_mean_square, share, shares
 from derivations.ledger.friction_states import (
     K,
     State,
@@ -19,13 +20,13 @@ from derivations.ledger.friction_states import (
     integrals_done,
     states,
 )
-from derivations.ledger.history import Array, history, numeric, values
+from derivations.ledger.history import Array, History, history, numeric, values
 from derivations.ledger.judge import figure, largest, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, Picture, evidence, step
 from derivations.nomenclature import sym
 from trum_sym.inputs.units import parse_unit
 
-__all__ = ["ENTRIES", "surface_motion"]
+__all__ = ["ENTRIES"]
 
 D, k_c, W, F_c, n_j, mu, theta, x, p = sym("D k_c W F_c n_j mu theta x p")
 M_a, M_b, N_a, N_b, Psi_v, v_xp, v_xx = sym("M_a M_b N_a N_b Psi_v v_xp v_xx")
@@ -35,20 +36,10 @@ r_c, J, t = sym("r_c J t")
 phi, c, u, R_v = transfer.phi, transfer.c, transfer.u, transfer.R_v
 
 
-def surface_motion() -> tuple[Array, Array, Array]:
-    """phi, R and the contact's half-angle over the periodic cycle at Table 3.
-
-    The half-angle follows the crest's height (eq. 31): bisection of sin theta - theta cos theta, up to pi.
-    """
-    h, v = history(), values()
-    angle = numeric(transfer.speed_angle(), (transfer.W_c, transfer.W_c_rate, transfer.q))(h.W_c, h.W_c_rate, h.q)
-    load = v["F_c"] * v["k_c"] / (2 * v["n_j"] * v["k_N"] * h.W_c)
-    low, high = np.zeros_like(load), np.full_like(load, np.pi)
-    for _ in range(50):
-        middle = (low + high) / 2
-        short = np.sin(middle) - middle * np.cos(middle) < load
-        low, high = np.where(short, middle, low), np.where(short, high, middle)
-    return angle, v["D"] * v["k_c"] * np.hypot(h.v_A, h.v_B), (low + high) / 2
+def _cycle_at_midpoints() -> tuple[Array, Array, Array, Array]:
+    """Time in ms, phi, R and half-angle at the instants of a picture."""
+    h = history(samples=500)
+    return (1e3 * h.time, *contact_motion(h))
 
 
 # --- (36) ---------------------------------------------------------------------------------------------------
@@ -110,7 +101,7 @@ def _derive_36() -> Derivation:
                  "as C does:",
                  zero=(sp.simplify(doubled - whole - 2 * (falls + rises - 1)),
                        sp.simplify((falls + rises - 1).subs(phi, 0)))),
-            step("So eq. 36 is right for a steady wave alone, where f becomes", sp.Eq(f, steady),
+            step("So eq. 36 is right for every rotor on a steady wave alone, where f becomes", sp.Eq(f, steady),
                  zero=sp.simplify(whole.subs(phi, 0) - steady)),
         ),
         {"f_n": form},
@@ -158,32 +149,29 @@ def _judge_36(forms: Forms) -> Iterator[Evidence]:
 
 
 def _effect_36() -> str:
-    v = values()
-    speed = 633 * math.pi / 648000 * v["r_c"]
-    angle, R, zone = surface_motion()
-    whole = numeric(transfer.friction_fraction(), (phi, c, theta))(angle, speed / R, zone)
-    half = numeric(transfer.half_zone_fraction(), (phi, c, theta))(angle, speed / R, zone)
-    rub = v["mu"] * v["F_c"]
-    rms, worst = float(np.sqrt(np.mean((half - whole) ** 2))), float(np.abs(half - whole).max())
-    signs = float((np.sign(half) != np.sign(whole)).mean())
+    v, lap, speed = values(), Lap(), table_4_speed()
+    rub, kinks = v["mu"] * v["F_c"], [*friction_kinks(speed), *friction_kinks(speed, half=True)]
+    whole, half = friction(speed), friction(speed, transfer.half_zone_fraction())
+    zone = extremes(lambda h: contact_motion(h)[2], lap)
+    rms = root_mean_square(lambda h: half(h) - whole(h), lap, kinks)
+    worst = max(abs(end) for end in extremes(lambda h: half(h) - whole(h), lap))
+    signs = share(lambda h: -half(h) * whole(h), lap)
     return (
-        "Over the periodic cycle at Table 4's mean speed, with a contact half-angle from "
-        f"{figure(float(zone.min()), 3)} to {figure(float(zone.max()), 3)} rad: the doubled half differs from the "
+        "Over the cycle at Table 3, periodic, phase lead +1, at Table 4's mean speed, with a contact half-angle from "
+        f"{figure(zone[0], 3)} to {figure(zone[1], 3)} rad: the doubled half differs from the "
         f"whole by {figure(rms * rub, 3)} N rms and {figure(worst * rub, 3)} N at most of {figure(rub)} N, has the "
-        f"wrong sign {100 * signs:.1f} % of the time, and a mean of {figure(float(half.mean()) * rub, 3)} N where it "
-        f"is {figure(float(whole.mean()) * rub, 3)} N."
+        f"wrong sign {figure(100 * signs, spec='.1f')} % of the time, and a mean of "
+        f"{figure(mean(half, lap, kinks) * rub, 3)} N where it is {figure(mean(whole, lap, kinks) * rub, 3)} N."
     )
 
 
 def _picture_36() -> Picture:
     """Friction of the doubled half and of the whole zone over a periodic cycle, with Table 4's rotor."""
-    v = values()
-    angle, R, zone = (column[::40] for column in surface_motion())
-    speed = 633 * math.pi / 648000 * v["r_c"]
-    time = [1e3 * float(t) for t in history().time[::40]]
+    v, speed = values(), table_4_speed()
+    time, angle, R, zone = _cycle_at_midpoints()
     rub = v["mu"] * v["F_c"]
     curves = {
-        label: (time, [rub * float(f) for f in numeric(form, (phi, c, theta))(angle, speed / R, zone)])
+        label: (time.tolist(), [rub * float(f) for f in numeric(form, (phi, c, theta))(angle, speed / R, zone)])
         for label, form in (
             ("printed: right half, doubled", transfer.half_zone_fraction()),
             ("derived: whole contact", transfer.friction_fraction()),
@@ -224,15 +212,18 @@ def _judge_37(forms: Forms) -> Iterator[Evidence]:
     yield evidence("domain", not still, "along v_xx for a rotor at rest")
 
 
-def _effect_37() -> str:
+def _at_rest() -> float:
+    """Mean torque on a rotor at rest over the periodic cycle, N m."""
     v = values()
-    angle, R, zone = surface_motion()
-    start = numeric(transfer.friction_fraction(), (phi, c, theta))(angle, 0 * R, zone)
-    torque = float(start.mean()) * v["mu"] * v["F_c"] * v["r_c"]
+    return mean(friction(0.0), Lap(), friction_kinks(0.0)) * v["mu"] * v["F_c"] * v["r_c"]
+
+
+def _effect_37() -> str:
     return (
         "Either row holds for v_xp > 0 or v_xp < 0, so these conditions say nothing but exclude v_xp = 0: a rotor at "
-        f"rest would feel no friction and never start. It feels {figure(torque, 3)} N m, averaged over the periodic "
-        "cycle. Where v_xx = v_xp on a stretch, friction takes any value up to mu p; the sign leaves that open."
+        f"rest would feel no friction and never start. It feels {figure(_at_rest(), 3)} N m, averaged over the cycle "
+        "at Table 3, periodic, phase lead +1. Where v_xx = v_xp on a stretch, friction takes any value up to mu p; the "
+        "sign leaves that open."
     )
 
 
@@ -281,15 +272,32 @@ def _judge_cases(forms: Forms) -> Iterator[Evidence]:
 
 
 def _effect_cases() -> str:
-    v = values()
-    speed = 633 * math.pi / 648000 * v["r_c"]
-    moments = zip(*(column[::40] for column in surface_motion()), strict=True)
-    seen = Counter(half_zone_signs(State(float(a), float(speed / R), float(zone), 0.0)) for a, R, zone in moments)
-    total = sum(seen.values())
+    speed = table_4_speed()
     names = {(s.forward, s.crest, s.edge, s.extremum): s.name for s in transfer.CASES}
-    shares = ", ".join(f"{names[key]} {100 * count / total:.0f} %" for key, count in seen.most_common())
+
+    def kind(h: History) -> list[str]:
+        moments = zip(*contact_motion(h), strict=True)
+        return [names[half_zone_signs(State(float(a), float(speed / R), float(at), 0.0))] for a, R, at in moments]
+
+    def against(place: Callable[[Array], Array], level: float) -> Quantity:
+        def value(h: History) -> Array:
+            angle, R, zone = contact_motion(h)
+            found: Array = np.cos(place(zone) - angle) - level * speed / R
+            return found
+
+        return value
+
+    ends = (lambda zone: 0 * zone, lambda zone: zone)
+    turns = (lambda zone: 0 * zone - np.pi / 2, lambda zone: zone - np.pi / 2)
+    cuts = [*(against(end, 1.0) for end in ends), *(against(turn, 0.0) for turn in turns)]
+    found = shares(kind, Lap(), cuts)
+    often = {name: part for name, part in found.items() if part > 1e-4}
+    listed = ", ".join(f"{name} {figure(100 * part, 2)} %" for name, part in often.items())
+    rare = ", ".join(name for name in found if name not in often)
     return (
-        f"One formula replaces the table. At Table 4's mean speed a periodic cycle passes {len(seen)} cases: {shares}."
+        "One formula replaces the table. At Table 4's mean speed the cycle at Table 3, periodic, phase lead +1, "
+        "passes "
+        f"{figure(len(found))} cases: {listed}; {rare} for less than 0.01 % each."
     )
 
 
@@ -337,12 +345,10 @@ def _judge_38(forms: Forms) -> Iterator[Evidence]:
 def _effect_38() -> str:
     v = values()
     stall = v["mu"] * v["F_c"] * v["r_c"]
-    angle, R, zone = surface_motion()
-    mean = stall * float(numeric(transfer.friction_fraction(), (phi, c, theta))(angle, 0 * R, zone).mean())
     return (
-        f"At most mu F_c r_c = {figure(stall, 3)} N m; averaged over the periodic cycle a rotor at rest gets "
-        f"{figure(mean, 3)} N m, against the {0.3:g} N m of Table 1 (with the assumed mu and r_c). The text's "
-        "T_load is a weight on a string, which pulls one way whichever way the rotor turns."
+        f"At most mu F_c r_c = {figure(stall, 3)} N m; averaged over the cycle at Table 3, periodic, phase lead +1, a "
+        f"rotor at rest gets {figure(_at_rest(), 3)} N m, against the {0.3:g} N m of Table 1 (with the assumed mu and "
+        "r_c). The text's T_load is a weight on a string, which pulls one way whichever way the rotor turns."
     )
 
 
@@ -395,8 +401,8 @@ ENTRIES = (
         known=transfer.DIMENSIONS,
         repair=lambda forms: {key: _whole_zone(form) for key, form in forms.items()},
         found_by=("numeric", "derivation"),
-        reason="Twice the right half of the contact is the whole only where v_x is even about the crest; in a beat "
-               "the crest's height changes and it is not.",
+        reason="Twice the right half of the contact is the whole where v_x is even about the crest, or where all of "
+               "the contact slides one way; in a beat the crest's height changes, and v_x is not even.",
     ),
     Entry(
         id="37", section="4.2.3", title="Sign of the friction", place="Sect. 4.2.3", printed=_EQ37, units={"sign": "1"},

@@ -6,19 +6,21 @@ import math
 import random
 import statistics
 from collections.abc import Iterator
+from functools import cache
 
 import mpmath as mp
 import numpy as np
 import sympy as sp
 
 from derivations import determinant, transfer
-from derivations.ledger.history import STARTS, Array, Start, history, values
+from derivations.ledger.course import Lap, Quantity, extremes, integral, share
+from derivations.ledger.history import STARTS, Array, History, Start, history, values
 from derivations.ledger.judge import Point, agrees, figure, identical, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
 from derivations.nomenclature import sym
 from trum_sym.inputs.units import parse_unit
 
-__all__ = ["ENTRIES", "cycle_totals"]
+__all__ = ["ENTRIES", "cycle_totals", "forward"]
 
 D, k_c, x, T = sym("D k_c x T")
 q_plus, q_minus, p_plus, p_minus = sym("q_plus q_minus p_plus p_minus")
@@ -145,7 +147,7 @@ def _judge_41(forms: Forms) -> Iterator[Evidence]:
 def _effect_41() -> str:
     return (
         "None on numbers once S_s is read as S_k. The sum is over I, not I - 1: of the population, not an estimate; "
-        f"for {100} samples the difference is {100 * (math.sqrt(100 / 99) - 1):.1f} % of S_k."
+        f"for {100} samples the difference is {figure(100 * (math.sqrt(100 / 99) - 1), spec='.1f')} % of S_k."
     )
 
 
@@ -172,8 +174,11 @@ def _judge_q_t(forms: Forms) -> Iterator[Evidence]:
 
 
 def _effect_q_t() -> str:
-    parts = ", ".join(f"{100 * float((history(start).q > 0).mean()):.0f} % ({start})" for start in STARTS)
-    return f"Phase lead +1: Q is positive during {parts} of a cycle at Table 3."
+    parts = ", ".join(f"{figure(100 * share(forward, Lap(start)), 3)} % ({start})" for start in STARTS)
+    return (
+        f"Phase lead +1: Q is positive during {parts} of a cycle at Table 3; from rest it is 0 all through T_redu, "
+        "where A is off and at rest."
+    )
 
 
 # --- (42) ---------------------------------------------------------------------------------------------------
@@ -219,14 +224,15 @@ def _judge_42(forms: Forms) -> Iterator[Evidence]:
 
 
 def _effect_42() -> str:
-    h, p = history(), values()
-    wrong = h.W_c * h.W_c_rate
-    right = p["D"] * p["k_c"] * h.q
+    p, lap = values(), Lap()
+    wrong = max(abs(end) for end in extremes(lambda h: h.W_c * h.W_c_rate, lap))
+    right = p["D"] * p["k_c"] * max(abs(end) for end in extremes(lambda h: h.q, lap))
+    flipped = share(lambda h: -h.W_c_rate * h.q, lap)
     return (
         "Exact with the tangential velocity D d2(zeta_z)/dx dt at the crest. With eq. 22 as printed, the vertical "
-        f"one, the product would be up to {figure(float(np.abs(wrong).max()), 3)} m^2/s where Q reaches "
-        f"{figure(float(np.abs(right).max()), 3)} m^2/s, with a wrong sign "
-        f"{100 * float((np.sign(wrong) != np.sign(right)).mean()):.0f} % of the cycle. zeta_zmax >= 0 always."
+        f"one, the product would be up to {figure(wrong, 3)} m^2/s where Q reaches {figure(right, 3)} m^2/s at Table "
+        "3, "
+        f"periodic, phase lead +1, with a wrong sign {figure(100 * flipped, 3)} % of the cycle. zeta_zmax >= 0 always."
     )
 
 
@@ -235,10 +241,30 @@ _EQ43: Forms = {"Q_aver": (q_plus - q_minus) / (sp.Abs(q_plus + q_minus) * T)}
 _EQ44: Forms = {"Q_vib": sp.sqrt(p_plus + p_minus) / (sp.sqrt(p_plus - p_minus) * T**2 * Q_aver)}
 
 
+def forward(h: History) -> Array:
+    """Positive where Q is, beyond rounding."""
+    p = values()
+    return h.q - 1e-9 * p["W"] ** 2 * p["omega_q"]
+
+
+def backward(h: History) -> Array:
+    """Positive where Q is negative, beyond rounding."""
+    p = values()
+    return -h.q - 1e-9 * p["W"] ** 2 * p["omega_q"]
+
+
+@cache
 def cycle_totals(start: Start) -> dict[sp.Symbol, float]:
     """The sums of Q and of its square over a cycle at Table 3 as integrals, for D k_c = W = 1."""
-    h = history(start)
-    return _totals(h.q / values()["W"] ** 2, h.step)
+    p = values()
+
+    def total(sign: float, power: int) -> float:
+        def part(h: History) -> Array:
+            return np.maximum(0.0, sign * h.q / p["W"] ** 2) ** power
+
+        return integral(part, Lap(start), [forward, backward])
+
+    return {q_plus: total(1, 1), q_minus: total(-1, 1), p_plus: total(1, 2), p_minus: total(-1, 2)}
 
 
 def _totals(Q: Array, dt: float) -> dict[sp.Symbol, float]:
@@ -282,22 +308,31 @@ def _judge_43(forms: Forms) -> Iterator[Evidence]:
     yield evidence("limit", ahead == (1 / T, -1 / T), "between -1/T (all backward) and 1/T (all forward)")
 
 
+def _positive(quantity: Quantity) -> Quantity:
+    return lambda h: np.maximum(0.0, quantity(h))
+
+
+def _word_by_word(start: Start) -> float:
+    """Q_aver with the forward sum taken up to the time T_Q+ and the backward one up to T_Q-, from t_1, times T."""
+    lap = Lap(start)
+    ends = (share(forward, lap), share(backward, lap))
+    sums = []
+    for quantity, end in zip((forward, backward), ends, strict=True):
+        stretch = Lap(start, high=end * lap.length)
+        sums.append(integral(_positive(quantity), stretch, [quantity]))
+    return (sums[0] - sums[1]) / (sums[0] + sums[1])
+
+
 def _effect_43() -> str:
-    p = values()
-    parts = []
+    p, parts = values(), []
     for start in STARTS:
         known = cycle_totals(start)
-        h = history(start)
-        whole = (known[q_plus] - known[q_minus]) / (known[q_plus] + known[q_minus]) / p["T"]
-        forward = h.q > 0
-        ahead = h.time < h.step * forward.sum()
-        behind = h.time < h.step * (~forward).sum()
-        plus, minus = h.q[forward & ahead].sum(), -h.q[~forward & behind].sum()
-        parts.append(f"{start} {figure(whole)} ({figure(float((plus - minus) / (plus + minus)) / p['T'])})")
+        whole = (known[q_plus] - known[q_minus]) / (known[q_plus] + known[q_minus])
+        parts.append(f"{start} {figure(whole / p['T'])} ({figure(_word_by_word(start) / p['T'])})")
     return (
         "Sums up to T_Q+ and T_Q- mean all of the cycle's forward and backward time, as App. C writes (up to T_Qall). "
-        f"Taken word by word, from t = 0 to T_Q+, they would give other figures. 1/s, phase lead +1, in brackets word "
-        f"by word: {', '.join(parts)}. It bounds at 1/T and knows nothing of Q's size, W, D or k_c."
+        f"Taken word by word, from t = 0 to T_Q+, they would give other figures. 1/s at Table 3, phase lead +1, in "
+        f"brackets word by word: {', '.join(parts)}. It bounds at 1/T and knows nothing of Q's size, W, D or k_c."
     )
 
 

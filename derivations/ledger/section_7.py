@@ -70,10 +70,12 @@ def _judge_45(forms: Forms) -> Iterator[Evidence]:
 
 def _effect_45() -> str:
     found = _value_ms(_PERIOD)
+    damped = 100 * usual()["xi"] ** 2 / 2 * _FREE_HZ / (_DRIVE_HZ - _FREE_HZ)
     return (
-        f"{found:.5f} ms, cut off instead of rounded: {100 * (0.188 / found - 1):+.2f} %; the measured 0.19 ms is "
-        f"{100 * (0.19 / found - 1):+.2f} % off. The free vibration runs at omega_n sqrt(1 - xi^2), which changes the "
-        f"period by {100 * usual()['xi'] ** 2 / 2 * _FREE_HZ / (_DRIVE_HZ - _FREE_HZ):.3f} % only."
+        f"{figure(found, spec='.5f')} ms, cut off instead of rounded: "
+        f"{figure(100 * (0.188 / found - 1), spec='+.2f')} %; "
+        f"the measured 0.19 ms is {figure(100 * (0.19 / found - 1), spec='+.2f')} % off. The free vibration runs at "
+        f"omega_n sqrt(1 - xi^2), which changes the period by {figure(damped, spec='.3f')} % only."
     )
 
 

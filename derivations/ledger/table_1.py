@@ -108,10 +108,13 @@ def _judge_heights(forms: Forms) -> Iterator[Evidence]:
 
 def _effect_heights() -> str:
     swapped = resonance_with({"h_t": 0.0045, "h_e": 0.002})
-    text = f"{swapped.imag / 1000:+.1f} i kHz" if abs(swapped.real) < 1 else f"{swapped.real / 1000:.1f} kHz"
+    modulus = figure((1 - 4.5 / 2) ** 3 * 155, 3)
+    imaginary = abs(swapped.real) < 1
+    size = figure((swapped.imag if imaginary else swapped.real) / 1000, spec=".1f")
     return (
-        f"As described, h_t for the beam and h_e for the teeth, E_eq = {figure((1 - 4.5 / 2) ** 3 * 155, 3)} GPa and "
-        f"the resonance {text}; the other way round {figure(resonance_with({}).real / 1000)} kHz."
+        f"As described, h_t for the beam and h_e for the teeth, E_eq = {modulus} GPa and the resonance of Table 3's "
+        f"point {size}{' i' if imaginary else ''} kHz; the other way round {figure(resonance_with({}).real / 1000)} "
+        "kHz."
     )
 
 
@@ -159,11 +162,13 @@ def _effect_shear() -> str:
     right = {key: float(_shear(key)) for key in _SHEAR}
     before, after = resonance_with({}).real, resonance_with(right).real
     listed = ", ".join(
-        f"{key} {_figure_of(_SHEAR[key]) / 1e9:.1f} instead of {right[key] / 1e9:.1f} GPa" for key in right
+        f"{key} {_figure_of(_SHEAR[key]) / 1e9:.1f} instead of {figure(right[key] / 1e9, spec='.1f')} GPa"
+        for key in right
     )
     return (
         f"{listed}. Which of E, G, mu is wrong the table does not say; with G from E and mu the modelled resonance "
-        f"rises by {after - before:+.0f} Hz ({100 * (after / before - 1):+.2f} %). Poled ceramic is not "
+        f"rises by {figure(after - before, spec='+.0f')} Hz "
+        f"({figure(100 * (after / before - 1), spec='+.2f')} %). Poled ceramic is not "
         f"isotropic; metal is."
     )
 
@@ -217,8 +222,9 @@ def _effect_j() -> str:
     p = usual()
     torque = p["mu"] * operating_point()["F_c"] * p["r_c"]
     return (
-        f"In kg m^2 it is a ring of {1e3 * p['J'] / p['r_c'] ** 2:.1f} g on the contact radius; mu F_c r_c "
-        f"accelerates it by {float(torque) / p['J']:.3g} rad/s^2. In g cm^2, the other usual unit, it would be "
+        f"In kg m^2 it is a ring of {figure(1e3 * p['J'] / p['r_c'] ** 2, spec='.1f')} g on the contact radius; mu "
+        "F_c r_c "
+        f"accelerates it by {figure(float(torque) / p['J'], 3)} rad/s^2. In g cm^2, the other usual unit, it would be "
         "lighter than the layer."
     )
 
@@ -254,8 +260,9 @@ def _effect_kappa() -> str:
     before, after = resonance_with({}).real, resonance_with({"kappa": cowper}).real
     return (
         "kappa stands in two rows with 0.9: as 'height-width ratio', which enters no equation, and as shear "
-        f"correction. For a solid rectangle Cowper's coefficient would be {cowper:.3f}: the resonance changes by "
-        f"{after - before:+.0f} Hz."
+        f"correction. For a solid rectangle Cowper's coefficient would be {figure(cowper, spec='.3f')}: the "
+        "resonance changes by "
+        f"{figure(after - before, spec='+.0f')} Hz."
     )
 
 
@@ -289,7 +296,8 @@ def _judge_voltage(forms: Forms) -> Iterator[Evidence]:
 
 
 def _effect_voltage() -> str:
-    return "W_max of eq. 7 is proportional to U_s: 400 V instead of 200 V makes it twice as large (+100 %)."
+    more = figure(100 * (_figure_of(_U_S["U_s"]) / 200 - 1), spec="+.0f")
+    return f"W_max of eq. 7 is proportional to U_s: 400 V instead of 200 V makes it twice as large ({more} %)."
 
 
 def _entry(name: str, **fields: Any) -> Entry:  # noqa: ANN401

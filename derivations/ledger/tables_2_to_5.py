@@ -10,9 +10,9 @@ import sympy as sp
 from scipy.optimize import linprog
 
 from derivations.ledger.history import Array, values
-from derivations.ledger.judge import usual
+from derivations.ledger.judge import figure, usual
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
-from derivations.ledger.section_2_amplitude import TABLE_2, power_law
+from derivations.ledger.section_2_amplitude import TABLE_2, power_law, refitted
 from derivations.ledger.table_1 import UNITS, unit
 
 __all__ = ["ENTRIES", "reachable_by_rounding", "resampled_interval"]
@@ -84,7 +84,8 @@ def _judge_2(forms: Forms) -> Iterator[Evidence]:
     fitted, resampled = power_law(), resampled_interval()
     low, high = fitted["varsigma"] - fitted["varsigma_width"], fitted["varsigma"] + fitted["varsigma_width"]
     inside = low <= exponent <= high and fitted["C_f_low"] <= factor <= fitted["C_f_high"]
-    yield evidence("data", inside, f"least squares give C_f = {fitted['C_f']:.3f} ({fitted['C_f_low']:.3f} to "
+    yield evidence("data", inside and refitted(fitted),
+                   f"least squares give C_f = {fitted['C_f']:.3f} ({fitted['C_f_low']:.3f} to "
                                    f"{fitted['C_f_high']:.3f}) and varsigma = {fitted['varsigma']:.4f} ({low:.4f} to "
                                    f"{high:.4f}) at 95 %; residuals drawn anew {resampled['C_f'][0]:.3f} to "
                                    f"{resampled['C_f'][1]:.3f} and {resampled['varsigma'][0]:.4f} to "
@@ -104,8 +105,10 @@ def _effect_2() -> str:
     theirs = 14.926 * 180**-0.678 * free
     meet = 14.926 ** (1 / 0.678)
     return (
-        f"At 180 N {ours:.3f} um by our fit, {theirs:.3f} um with the printed constants, 5.5 um measured; our "
-        f"exponent is {fitted['varsigma'] - 0.678:+.4f} off theirs. The law exceeds W_max below {meet:.0f} N."
+        f"At 180 N {figure(ours, spec='.3f')} um by our fit, {figure(theirs, spec='.3f')} um with the printed "
+        f"constants, 5.5 um measured; our exponent is {figure(fitted['varsigma'] - 0.678, spec='+.4f')} off theirs. "
+        "The "
+        f"law exceeds W_max below {figure(meet, spec='.0f')} N."
     )
 
 
@@ -135,7 +138,8 @@ def _judge_3(forms: Forms) -> Iterator[Evidence]:
 
 
 def _effect_3() -> str:
-    return "Read the other way, n = 20 of m = 14, T_redu would last a negative time: -6 pulses."
+    left = figure(14 - 20)
+    return f"Read the other way, n = 20 of m = 14, T_redu would last a negative time: {left} pulses."
 
 
 # --- Table 4 ------------------------------------------------------------------------------------------------
@@ -161,7 +165,7 @@ def _judge_4(forms: Forms) -> Iterator[Evidence]:
 def _effect_4() -> str:
     speed = 633 * math.pi / 648000
     return (
-        f"633 arcsec/s = {speed:.4g} rad/s. Q_aver = 1447.5 and Q_vib = 3446.4 have the unit 1/s, which is not "
+        f"633 arcsec/s = {figure(speed)} rad/s. Q_aver = 1447.5 and Q_vib = 3446.4 have the unit 1/s, which is not "
         "printed; the row 'Determinant of the direction of the ellipse' is Q_aver, and 'range of motor speed v_aver' "
         "no average."
     )
@@ -198,8 +202,9 @@ def _effect_5() -> str:
     resonance = p["omega_n"] / (2 * math.pi)
     cycle = p["m"] / (resonance + low)
     return (
-        f"3300 rad/s would be {low:.1f} Hz: a beat of {1e3 / low:.3g} ms, {1 / low / cycle:.2g} drive cycles, instead "
-        f"of {1e3 / 3300:.3g} ms, {(resonance + 3300) / p['m'] / 3300:.2g}."
+        f"3300 rad/s would be {figure(low, spec='.1f')} Hz: a beat of {figure(1e3 / low, 3)} ms, "
+        f"{figure(1 / low / cycle, 2)} drive cycles, instead of {figure(1e3 / 3300, 3)} ms, "
+        f"{figure((resonance + 3300) / p['m'] / 3300, 2)}."
     )
 
 

@@ -73,5 +73,9 @@ def written_out(record: Record) -> str:
     for e in r["evidence"]:
         lines.append(f"    {'for    ' if e['ok'] else 'against'} {e['about']:<9} {e['kind']}: {e['detail']}")
     lines += ["", f"effect: {r['effect']}"]
+    if r["effect_at"]:
+        listed = ", ".join(f"{key.replace('_', ' ')} {value}" for key, value in r["effect_at"].items())
+        lines.append(f"computed with: {listed}")
+    lines += [f"assumed: {a['taken']}" for a in r["assumptions"]]
     lines += [f"NOT CONFIRMED: {problem}" for problem in r["problems"]]
     return "\n".join(lines)
