@@ -15,7 +15,7 @@ import sympy as sp
 
 from derivations import transfer
 from derivations.ledger.history import STARTS, history, values
-from derivations.ledger.judge import figure, largest, worse
+from derivations.ledger.judge import error_size, figure, largest, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
 from derivations.ledger.operating import stator
 from derivations.nomenclature import sym
@@ -293,9 +293,11 @@ def _judge_constant(forms: Forms) -> Iterator[Evidence]:
     stated = float(forms["T_over_T"])
     over_f, over_p = (_period(180, 3300) / _period(180, 2800), _period(210, 3000) / _period(160, 3000))
     worst = largest(abs(stated / found - 1) for found in (over_f, over_p))
-    yield evidence(
-        "error_size", worst < 0.02, f"T at 3300 over 2800 Hz is {over_f:.5f}, at 210 over 160 N {over_p:.5f}"
-    )
+    closer = stated / (_period(180, 2805) / _period(180, 2800)) - 1
+    yield error_size(
+        f"T (at 3300 over 2800 Hz {over_f:.5f}, at 210 over 160 N {over_p:.5f})",
+        lambda: (float(worst), float(worst)), "a narrow range of frequency differences", lambda: float(closer),
+    )  # fmt: skip
     yield evidence("limit", stated == 1, "no change of the drive, no change of T")
 
 

@@ -212,8 +212,8 @@ _UNSEEN = frozenset(("at", "abs", "in"))
 _SPOKEN = {"integral": "int"}
 
 
-def atoms_of_notation(text: str) -> list[str]:
-    """The same of the notation: ``diff2`` leaves its 2, names lose their underscores."""
+def atoms_of_notation(text: str, *, bars: bool = False) -> list[str]:
+    """The same of the notation: ``diff2`` leaves its 2, names lose their underscores; ``abs`` counts on request."""
     found = []
     for match in _TOKEN.finditer(text):
         name = match["name"]
@@ -223,6 +223,6 @@ def atoms_of_notation(text: str) -> list[str]:
             found += [name.removeprefix("diff")] if name != "diff" else []
         elif name == "tilde_zeta":
             found.append("tildezeta")
-        elif name not in _UNSEEN:
+        elif name not in _UNSEEN or (bars and name == "abs"):
             found.append(_SPOKEN.get(name, name.replace("_", "")))
     return found

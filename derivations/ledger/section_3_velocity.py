@@ -12,7 +12,7 @@ from derivations import beam
 from derivations.ledger.exact import REGIONS, Cycle, at_table_3, vertical_displacement
 from derivations.ledger.judge import agrees, error_size, evaluate, largest, points, vanishes
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
-from derivations.ledger.operating import operating_point
+from derivations.ledger.operating import at_point, operating_point
 from derivations.ledger.regions import anywhere, by_region, context, row_value, rows, worst
 from derivations.ledger.section_3_phases import EQ9, corrected_10
 from derivations.nomenclature import sym
@@ -77,7 +77,14 @@ def _judge_11(forms: Forms) -> Iterator[Evidence]:
         around = points(sorted(ratio.free_symbols, key=lambda s: s.name), 8, "eq11")
         return float(there), float(largest(abs(evaluate(ratio, p) - 1) for p in around))
 
-    yield error_size("zeta_x, by taking the slope for the rotation,", sizes, 0.6)
+    def slender() -> float:
+        q = dict(operating_point())
+        q |= {"k_c": q["k_c"] / 100, "k_f": mp.mpf(0)}  # a free beam, at its own frequency
+        q["omega_n"] = at_point(beam.resonance()["quartic"], q)
+        return float(q["k_c"] / at_point(beam.rotation_ratio(), q) - 1)
+
+    yield error_size("zeta_x, by taking the slope for the rotation,", sizes, "waves far longer than the beam is high",
+                     slender)  # fmt: skip
 
 
 def _effect_11() -> str:

@@ -175,6 +175,16 @@ def _effect_36() -> str:
     )
 
 
+def _size_36() -> tuple[str, float]:
+    """The doubled half off the whole over the periodic cycle, root mean square of both."""
+    v = values()
+    angle, R, zone = surface_motion()
+    speed = 633 * math.pi / 648000 * v["r_c"]
+    whole, half = (numeric(form, (phi, c, theta))(angle, speed / R, zone)
+                   for form in (transfer.friction_fraction(), transfer.half_zone_fraction()))  # fmt: skip
+    return "the friction over the cycle (rms)", float(np.sqrt(np.mean((half - whole) ** 2) / np.mean(whole**2)))
+
+
 def _picture_36() -> Picture:
     """Friction of the doubled half and of the whole zone over a periodic cycle, with Table 4's rotor."""
     v = values()
@@ -391,7 +401,7 @@ def _effect_reverse() -> str:
 ENTRIES = (
     Entry(
         id="36", section="4.2.3", title="Friction on the rotor", place="Sect. 4.2.3", printed=_EQ36, units={"f_n": "N"},
-        verdict="erratum", judge=_judge_36, derive=_derive_36, effect=_effect_36, picture=_picture_36,
+        verdict="erratum", judge=_judge_36, derive=_derive_36, effect=_effect_36, picture=_picture_36, size=_size_36,
         known=transfer.DIMENSIONS,
         repair=lambda forms: {key: _whole_zone(form) for key, form in forms.items()},
         found_by=("numeric", "derivation"),

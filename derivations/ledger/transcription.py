@@ -18,7 +18,9 @@ import tomllib
 import zlib
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from difflib import SequenceMatcher
 from functools import cache
+from itertools import zip_longest
 from pathlib import Path
 from typing import Any, Literal
 
@@ -38,7 +40,7 @@ from derivations.ledger.notation import (
 )  # fmt: skip
 from derivations.nomenclature import NOMENCLATURE
 
-__all__ = ["Copy", "checksum", "copy_of", "differences", "load", "other_readings", "read", "second"]
+__all__ = ["Copy", "checksum", "copy_of", "differences", "load", "mends", "other_readings", "read", "second"]
 
 FOLDER = Path(__file__).parent / "transcription"
 Data = Mapping[str, Mapping[str, Any]]
@@ -67,18 +69,55 @@ def copy_of(entry: Entry) -> Copy:
 def other_readings(entry: Entry) -> Iterator[tuple[str, Forms]]:
     """What a doubtful copy may have lost, put back: what is read, and the printed forms then."""
     for other in load().get(entry.id, {}).get("otherwise", ()):
-        data: dict[str, Any] = {name: dict(block) for name, block in load().items()}
-        for old, new in other["replace"]:
-            found = 0
-            for name in dict.fromkeys((entry.id, *other.get("also", ()))):
-                quotes = [dict(quote) for quote in data[name]["quote"]]
-                for quote in quotes:
-                    found += quote.get("forms", "").count(old)
-                    quote["forms"] = quote.get("forms", "").replace(old, new)
-                data[name]["quote"] = quotes
-            if not found:
-                raise NotationError(f"({entry.id}) {other['what']}: {old!r} is not there")
-        yield other["what"], second(entry.id, data)
+        yield other["what"], second(entry.id, _changed(entry.id, other))
+
+
+def mends(entry: Entry) -> Iterator[tuple[int, Forms]]:
+    """The print with signs of it changed: how many in the row where most are, and the forms then."""
+    block = load().get(entry.id, {})
+    for other in (*block.get("mend", ()), *block.get("otherwise", ())):
+        data = _changed(entry.id, other)
+        names = (entry.id, *other.get("also", ()))
+        most = max(_signs_changed(load()[name], data[name]) for name in names)
+        yield most, second(entry.id, data)
+
+
+def _changed(name: str, other: Mapping[str, Any]) -> Data:
+    """The transcription with some text of an entry replaced, and of those that it names."""
+    data: dict[str, Any] = {key: dict(block) for key, block in load().items()}
+    if "as" in other:
+        data[name]["as"] = other["as"]
+    for old, new in other["replace"]:
+        found = 0
+        for place in (name, *other.get("also", ())):
+            quotes = [dict(quote) for quote in data[place]["quote"]]
+            for quote in quotes:
+                found += quote.get("forms", "").count(old)
+                quote["forms"] = quote.get("forms", "").replace(old, new)
+            data[place]["quote"] = quotes
+        if not found:
+            raise NotationError(f"({name}) {old!r} is not there")
+    return data
+
+
+def _signs_changed(block: Mapping[str, Any], other: Mapping[str, Any]) -> int:
+    """Letters, numbers, signs and bars that differ, in the row where most do; a row that is lost counts whole."""
+    most = 0
+    for before, after in zip(block["quote"], other["quote"], strict=True):
+        rows, new = (_lines_of(quote) for quote in (before, after))
+        for _, low, high, first, last in SequenceMatcher(a=rows, b=new, autojunk=False).get_opcodes():
+            for old, row in zip_longest(rows[low:high], new[first:last], fillvalue=()):
+                most = max(most, _edits(list(old), list(row)))
+    return most
+
+
+def _lines_of(quote: Mapping[str, Any]) -> list[tuple[str, ...]]:
+    return [tuple(atoms_of_notation(line, bars=True)) for line in quote.get("forms", "").splitlines()]
+
+
+def _edits(old: list[str], new: list[str]) -> int:
+    codes = SequenceMatcher(a=old, b=new, autojunk=False).get_opcodes()
+    return sum(max(high - low, last - first) for tag, low, high, first, last in codes if tag != "equal")
 
 
 def checksum(text: str) -> str:
