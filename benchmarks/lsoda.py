@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 import trum_sym as ts
-from trum_sym.modal import modal_values, response
+from trum_sym.model.cycle import modal_values, response
 
 
 def lsoda_cycles(

@@ -16,11 +16,11 @@ import sympy as sp
 
 import trum_sym as ts
 from benchmarks.rows import Row, measured
-from derivations.emit import GENERATED, casadi_function, operations
-from derivations.kernels import Kernel, kernels
+from derivations.codegen.emit import GENERATED, casadi_function, operations
+from derivations.codegen.kernels import Kernel, kernels
 from derivations.nomenclature import CONSTANTS
 from trum_sym import _kernels
-from trum_sym.kernels import call
+from trum_sym.model.kernels import call
 
 __all__ = ["rows"]
 

@@ -27,9 +27,9 @@ import json, resource, sys, time
 from dataclasses import replace
 import numpy as np
 import trum_sym as ts
-from trum_sym import rotor
-from trum_sym.operating_point import figures, prepare
-from trum_sym.stator import Levels
+from trum_sym.model import rotor
+from trum_sym.model.operating_point import figures, prepare
+from trum_sym.model.stator import Levels
 what, points, outputs, out, scheduler = sys.argv[1:]
 side = max(2, round((int(points) / 10) ** 0.5))
 ranges = {"prepressure": np.linspace(120, 220, side), "frequency_difference": np.linspace(1000, 5000, side),

@@ -7,8 +7,8 @@ from __future__ import annotations
 import argparse
 import sys
 
+from derivations.codegen.emit import GENERATED, render, stale, write
 from derivations.dimensions import DimensionError
-from derivations.emit import GENERATED, render, stale, write
 
 
 def _generate(check: bool) -> int:
@@ -50,7 +50,7 @@ def main(arguments: list[str] | None = None) -> int:
     module.add_argument("--check", action="store_true", help="change nothing, need no compiler; exit 1 if it is stale")
     options = parser.parse_args(arguments)
     if options.command == "wasm":
-        from derivations.wasm import command
+        from derivations.codegen.wasm import command
 
         return command(options.check)
     if options.command == "generate":

@@ -10,7 +10,7 @@ from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
 from derivations.nomenclature import NOMENCLATURE, TINY
-from trum_sym.units import Dimension
+from trum_sym.inputs.units import Dimension
 
 __all__ = ["DimensionError", "dimension"]
 

@@ -1,6 +1,6 @@
 """Every symbol of the equations: its assumptions, SI unit, LaTeX, meaning and where the paper defines it.
 
-Motor parameters take name and unit from :class:`trum_sym.motor.Motor`; the rest stands here, once.  Symbols that
+Motor parameters take name and unit from :class:`trum_sym.inputs.motor.Motor`; the rest stands here, once.  Symbols that
 only one derivation works with are made there.  ``CLASHES`` lists the letters that the paper uses for several things.
 """
 
@@ -11,9 +11,9 @@ from dataclasses import dataclass, fields
 
 import sympy as sp
 
-from trum_sym.motor import Motor
-from trum_sym.motor_file import load_motor
-from trum_sym.units import Dimension, parse_unit
+from trum_sym.inputs.motor import Motor
+from trum_sym.inputs.motor_file import load_motor
+from trum_sym.inputs.units import Dimension, parse_unit
 
 __all__ = ["CLASHES", "CONSTANTS", "NOMENCLATURE", "TINY", "Entry", "latex", "sym"]
 

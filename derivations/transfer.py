@@ -17,7 +17,7 @@ from functools import cache
 import sympy as sp
 
 from derivations.nomenclature import sym
-from trum_sym.units import Dimension, parse_unit
+from trum_sym.inputs.units import Dimension, parse_unit
 
 __all__ = [
     "CASES",

@@ -14,8 +14,8 @@ import numpy as np
 from tabulate import tabulate
 
 import trum_sym as ts
-from trum_sym.report.claims import VERDICTS, Claim, best, claims, reading_rows, readings
-from trum_sym.report.readings import ARCSEC, AXES, Readings
+from trum_sym.paper.claims import VERDICTS, Claim, best, claims, reading_rows, readings
+from trum_sym.paper.readings import ARCSEC, AXES, Readings
 
 MARKS = {
     "nearest": "nearest to Table 4's determinants",

@@ -12,7 +12,7 @@ import sys
 from pathlib import Path
 
 import trum_sym as ts
-from trum_sym import figures
+from trum_sym import plots as figures
 
 ARCSEC = math.pi / 648000
 

@@ -13,7 +13,7 @@ from importlib.resources import files
 from pathlib import Path
 
 import trum_sym as ts
-from trum_sym import figures
+from trum_sym import plots as figures
 
 
 def main(folder: Path | None = None) -> None:

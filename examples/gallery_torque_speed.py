@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 import trum_sym as ts
-from trum_sym import figures
+from trum_sym import plots as figures
 
 ARCSEC = math.pi / 648000
 

@@ -14,7 +14,7 @@ import numpy as np
 from tabulate import tabulate
 
 import trum_sym as ts
-from trum_sym.units import parse_unit
+from trum_sym.inputs.units import parse_unit
 
 MANIFEST = Path(__file__).parent.parent / "generated" / "manifest.json"
 FORCES = np.array([160.0, 180.0, 210.0])

@@ -14,7 +14,7 @@ from derivations.ledger.judge import agrees, error_size, evaluate, identical, la
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
 from derivations.ledger.operating import operating_point
 from derivations.nomenclature import sym
-from trum_sym.units import Dimension, parse_unit
+from trum_sym.inputs.units import Dimension, parse_unit
 
 __all__ = ["ENTRIES"]
 

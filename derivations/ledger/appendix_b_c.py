@@ -14,7 +14,7 @@ from derivations.ledger.judge import Point, agrees, evaluate, figure, identical,
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, Picture, evidence, step
 from derivations.ledger.section_6 import cycle_totals
 from derivations.nomenclature import sym
-from trum_sym.units import Dimension
+from trum_sym.inputs.units import Dimension
 
 __all__ = ["ENTRIES", "differs_by_start"]
 

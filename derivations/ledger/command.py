@@ -11,12 +11,12 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
 from typing import Any
 
-from derivations.emit import GENERATED
+from derivations.codegen.emit import GENERATED
 from derivations.ledger import ENTRIES, entry
 from derivations.ledger.model import Entry, confirm
 from derivations.ledger.mutate import MUTATED, Outcome, try_misreadings, try_mutants
 from derivations.ledger.report import record
-from trum_sym.ledger import table, written_out
+from trum_sym.paper.ledger import table, written_out
 
 __all__ = ["as_json", "check_mutants", "prove", "verify"]
 

@@ -15,7 +15,7 @@ import mpmath as mp
 import sympy as sp
 
 from derivations.ledger.model import APPROXIMATION_LIMIT, WORKING_DIGITS, Evidence, Forms, Kind
-from trum_sym.motor import Motor
+from trum_sym.inputs.motor import Motor
 
 __all__ = [
     "DIGITS",
@@ -67,7 +67,7 @@ def largest(errors: Iterable[Any]) -> Any:  # noqa: ANN401
 @cache
 def usual() -> dict[str, float]:
     """TRUM-60's parameters in SI, by symbol."""
-    from trum_sym.motor_file import load_motor
+    from trum_sym.inputs.motor_file import load_motor
 
     motor: Motor = load_motor("trum60")
     return {name: float(value) for name, value in motor.symbols().items()}

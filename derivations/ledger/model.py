@@ -17,7 +17,7 @@ import mpmath as mp
 import sympy as sp
 
 from derivations.dimensions import DimensionError, dimension
-from trum_sym.units import Dimension, parse_unit
+from trum_sym.inputs.units import Dimension, parse_unit
 
 __all__ = [
     "APPROXIMATION_LIMIT", "Derivation", "Entry", "Evidence", "Forms", "Kind", "Picture", "Result", "Step", "Verdict",

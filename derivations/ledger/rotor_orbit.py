@@ -22,7 +22,7 @@ from derivations.ledger.history import Array, history, values
 from derivations.ledger.judge import figure, largest
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
 from derivations.nomenclature import sym
-from trum_sym.units import parse_unit
+from trum_sym.inputs.units import parse_unit
 
 __all__ = ["ENTRIES"]
 

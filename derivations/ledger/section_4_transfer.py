@@ -23,7 +23,7 @@ from derivations.ledger.history import Array, history, numeric, values
 from derivations.ledger.judge import figure, largest, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, Picture, evidence, step
 from derivations.nomenclature import sym
-from trum_sym.units import parse_unit
+from trum_sym.inputs.units import parse_unit
 
 __all__ = ["ENTRIES", "surface_motion"]
 

@@ -13,7 +13,7 @@ from derivations.ledger.history import values
 from derivations.ledger.judge import evaluate, figure, usual
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
 from derivations.nomenclature import sym
-from trum_sym.units import Dimension
+from trum_sym.inputs.units import Dimension
 
 __all__ = ["ENTRIES", "rounds_to"]
 

@@ -13,7 +13,7 @@ from derivations import beam, section
 from derivations.ledger.judge import figure, largest, usual
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
 from derivations.ledger.operating import at_point, operating_point
-from trum_sym.units import Dimension, parse_unit
+from trum_sym.inputs.units import Dimension, parse_unit
 
 __all__ = ["ENTRIES", "UNITS", "resonance_with", "unit"]
 

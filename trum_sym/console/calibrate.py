@@ -56,9 +56,9 @@ def calibrate(
     envelope for a decay.  What has no column is taken from the options.  Exit code 1: the data cannot fix these
     parameters.
     """  # fmt: skip
-    from trum_sym.calibration import calibrate as fit_motor
-    from trum_sym.calibration_tables import calibration_json, calibration_table
-    from trum_sym.files import check_target
+    from trum_sym.calibration.calibrate import calibrate as fit_motor
+    from trum_sym.calibration.tables import calibration_json, calibration_table
+    from trum_sym.output.files import check_target
 
     if out is not None:
         check_target("--out", out, (".toml",))
@@ -71,7 +71,7 @@ def calibrate(
     if found.status != "solved":
         return 1
     if out is not None:
-        from trum_sym.motor_writer import write_motor
+        from trum_sym.inputs.motor_writer import write_motor
 
         write_motor(found.motor, motor, out, "--out")
         if not as_json:

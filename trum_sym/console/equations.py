@@ -12,7 +12,7 @@ __all__ = ["equations"]
 @click.option("--json", "as_json", is_flag=True, help="The records instead of a table.")
 def equations(equation: str | None, as_json: bool) -> None:
     """The ledger: what the paper printed, what follows from first principles, the verdict and its effect."""
-    from trum_sym.ledger import load_ledger, select, table, written_out
+    from trum_sym.paper.ledger import load_ledger, select, table, written_out
 
     records = load_ledger()
     chosen = records if equation is None else [select(records, equation)]

@@ -19,16 +19,16 @@ def evaluate(motor: str, overrides: tuple[str, ...], as_json: bool, **options: A
 
     Numbers are in the unit shown, or carry one: --frequency-difference "3 kHz".
     """
-    from trum_sym.operating_point import evaluate as evaluate_point
+    from trum_sym.model.operating_point import evaluate as evaluate_point
 
     machine, drive = chosen_motor(motor, overrides), chosen_drive(options)
     levels = {name: options[name] for name in LEVELS}
     point = evaluate_point(machine, drive, **levels)
     if as_json:
-        from trum_sym.tables import as_json_text
+        from trum_sym.console.tables import as_json_text
 
         click.echo(as_json_text(point))
     else:
-        from trum_sym.tables import as_table
+        from trum_sym.console.tables import as_table
 
         click.echo(as_table(machine, drive, point, levels))

@@ -53,8 +53,8 @@ def optimize(
     if options["sampling_period"] is not None:
         raise ParameterError("sampling_period", options["sampling_period"], "none: what is optimised is continuous")
     if plot is not None:
-        from trum_sym.files import check_target
-        from trum_sym.optimiser.picture import SUFFIXES, draw
+        from trum_sym.output.files import check_target
+        from trum_sym.plots.optimum import SUFFIXES, draw
 
         check_target("--plot", plot, SUFFIXES)
     machine, drive = chosen_motor(motor, overrides), chosen_drive(options)

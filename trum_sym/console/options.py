@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 if TYPE_CHECKING:
-    from trum_sym.drive import Drive
-    from trum_sym.motor import Motor
+    from trum_sym.inputs.drive import Drive
+    from trum_sym.inputs.motor import Motor
 
 __all__ = ["LEVELS", "Quantity", "choice_option", "chosen_drive", "chosen_motor", "number_option", "point_options"]
 
@@ -26,7 +26,7 @@ class Quantity(click.ParamType):  # type: ignore[type-arg, unused-ignore]
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:  # noqa: ANN401, ARG002
         """The value in the SI unit."""
-        from trum_sym.units import parse_quantity
+        from trum_sym.inputs.units import parse_quantity
 
         if isinstance(value, float | int):
             return float(value)
@@ -78,7 +78,7 @@ def point_options(command: Callable[..., Any]) -> Callable[..., Any]:
 def chosen_motor(name: str, overrides: tuple[str, ...]) -> Motor:
     """The motor that ``--motor`` and ``--set`` mean."""
     from trum_sym.errors import ParameterError
-    from trum_sym.motor_file import load_motor
+    from trum_sym.inputs.motor_file import load_motor
 
     values: dict[str, str] = {}
     for override in overrides:
@@ -94,7 +94,7 @@ def chosen_motor(name: str, overrides: tuple[str, ...]) -> Motor:
 
 def chosen_drive(options: dict[str, Any]) -> Drive:
     """The drive that an operating point's options mean."""
-    from trum_sym.drive import Drive
+    from trum_sym.inputs.drive import Drive
 
     numbers = ("prepressure", "frequency_difference", "periods", "on_periods", "load_torque", "switching_phase")
     return Drive(

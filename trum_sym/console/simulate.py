@@ -34,8 +34,8 @@ def simulate(
 
     Phases, surface, determinant, contact, friction, and the rotor's speed and angle.
     """
-    from trum_sym.files import check_target, write
-    from trum_sym.histories import simulate as simulate_point
+    from trum_sym.model.histories import simulate as simulate_point
+    from trum_sym.output.files import check_target, write
 
     if out is not None:
         check_target("--out", out)
@@ -51,6 +51,6 @@ def simulate(
         write("--out", histories, out)
         click.echo(f"{out}: {histories.sizes['time']} times of {len(histories.data_vars)} histories")
     else:
-        from trum_sym.tables import histories_table
+        from trum_sym.console.tables import histories_table
 
         click.echo(histories_table(histories))

@@ -51,7 +51,7 @@ def speed_table(
     """
     from trum_sym.console.optimize import ranges_of
     from trum_sym.errors import ParameterError
-    from trum_sym.files import check_target
+    from trum_sym.output.files import check_target
     from trum_sym.studies.speed_table import speed_table as make
     from trum_sym.studies.table_files import as_json_text, as_text
 

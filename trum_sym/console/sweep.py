@@ -61,9 +61,9 @@ def sweep(
     160,180,200     these
     @forces.csv     the column of the option's name; columns of one file vary together
     """  # noqa: D301
-    from trum_sym.drive import Drive
     from trum_sym.errors import ParameterError
-    from trum_sym.stator import Levels
+    from trum_sym.inputs.drive import Drive
+    from trum_sym.model.stator import Levels
     from trum_sym.sweeps.plan import make_plan
     from trum_sym.sweeps.run import check_out, estimate, run
 
@@ -110,7 +110,7 @@ def _summary(plan: Plan, summary: Summary) -> str:
 
 
 def _estimate(found: Estimate, out: Path | None) -> str:
-    from trum_sym.sweeps.progress import duration
+    from trum_sym.output.progress import duration
 
     plan, shape = found.plan, " x ".join(f"{axis.name} {axis.size}" for axis in found.plan.grid.axes)
     chunks = 1

@@ -10,7 +10,7 @@ import click
 from trum_sym.console.options import LEVELS, chosen_drive, chosen_motor, number_option, point_options
 
 if TYPE_CHECKING:
-    from trum_sym.operating_point import OperatingPoint
+    from trum_sym.model.operating_point import OperatingPoint
 
 __all__ = ["tolerance"]
 
@@ -77,10 +77,10 @@ def tolerance(
     **options: Any,  # noqa: ANN401
 ) -> None:  # fmt: skip
     """How uncertain parameters spread an operating point's figures, and which to measure first."""
-    from trum_sym.files import check_packages, check_target, write
+    from trum_sym.output.files import check_packages, check_target, write
 
     if plot is not None:
-        from trum_sym.uncertainty.pictures import check_picture
+        from trum_sym.plots.tolerance import check_picture
 
         check_picture("--plot", plot)
     if out is not None:
@@ -106,7 +106,7 @@ def tolerance(
     if out is not None:
         write("--out", study.dataset(), out)
     if plot is not None:
-        from trum_sym.uncertainty.pictures import draw
+        from trum_sym.plots.tolerance import draw
 
         draw("--plot", study, plot)
     from trum_sym.uncertainty.tables import as_json_text, as_text
@@ -134,7 +134,7 @@ def _take_point(path: Path, options: dict[str, Any]) -> float | None:
     import json
 
     from trum_sym.errors import ParameterError
-    from trum_sym.validate import Domain, number
+    from trum_sym.inputs.checks import Domain, number
 
     context = click.get_current_context()
     for name in _OF_POINT:

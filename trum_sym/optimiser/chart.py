@@ -8,8 +8,8 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from trum_sym.inputs.checks import Array
 from trum_sym.optimiser.model import Functions, Model
-from trum_sym.validate import Array
 
 __all__ = ["Chart", "basins", "chart", "crossings"]
 

@@ -13,9 +13,9 @@ from typing import Any
 
 import numpy as np
 
+from trum_sym.inputs.checks import Array
 from trum_sym.optimiser.extra import casadi
 from trum_sym.optimiser.model import Functions, Model
-from trum_sym.validate import Array
 
 __all__ = ["Task", "Visit", "descend"]
 

@@ -16,9 +16,9 @@ from types import MappingProxyType
 from typing import Any
 
 from trum_sym.errors import ParameterError, shorten
+from trum_sym.inputs.units import Dimension, parse_quantity, parse_unit
 from trum_sym.optimiser.extra import casadi
-from trum_sym.outputs import OUTPUTS
-from trum_sym.units import Dimension, parse_quantity, parse_unit
+from trum_sym.quantities import OUTPUTS
 
 __all__ = ["FIGURES", "Constraint", "Expression", "parse_constraint", "parse_expression"]
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from trum_sym.inputs.checks import Array
 from trum_sym.optimiser.descent import Visit
 from trum_sym.optimiser.model import Functions, Model
-from trum_sym.validate import Array
 
 __all__ = ["ALLOWED", "TOLERANCE", "Bounds", "Finished", "checked", "finish", "towards"]
 

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from trum_sym.inputs.checks import Array
 from trum_sym.optimiser.descent import Visit
 from trum_sym.optimiser.finish import Bounds, towards
 from trum_sym.optimiser.model import Functions, Model
-from trum_sym.validate import Array
 
 __all__ = ["compass", "stationarity"]
 

@@ -9,19 +9,19 @@ from typing import Any
 
 import numpy as np
 
-from trum_sym.drive import Drive
 from trum_sym.errors import ValidityWarning
-from trum_sym.kernels import call
-from trum_sym.modal import cycle_sums
-from trum_sym.motor import Motor
-from trum_sym.operating_point import Case, evaluate, prepare
+from trum_sym.inputs.checks import Array
+from trum_sym.inputs.drive import Drive
+from trum_sym.inputs.motor import Motor
+from trum_sym.model.cycle import cycle_sums
+from trum_sym.model.kernels import call
+from trum_sym.model.operating_point import Case, evaluate, prepare
+from trum_sym.model.pressure import peak_pressure
+from trum_sym.model.rotor import Orbit, solve_orbit
+from trum_sym.model.sensitivities import orbit_with_slopes
+from trum_sym.model.stator import Levels
 from trum_sym.optimiser.expressions import Expression, symbol
 from trum_sym.optimiser.extra import casadi
-from trum_sym.pressure import peak_pressure
-from trum_sym.rotor import Orbit, solve_orbit
-from trum_sym.slopes import orbit_with_slopes
-from trum_sym.stator import Levels
-from trum_sym.validate import Array
 
 __all__ = ["Box", "Functions", "Model", "functions"]
 

@@ -8,8 +8,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING
 
-from trum_sym.outputs import OUTPUTS
-from trum_sym.units import parse_unit
+from trum_sym.inputs.units import parse_unit
+from trum_sym.quantities import OUTPUTS
 
 if TYPE_CHECKING:
     from trum_sym.optimiser.solve import Problem

@@ -11,17 +11,17 @@ from typing import Any
 
 import numpy as np
 
-from trum_sym.drive import DRIVE_DOMAINS, Drive
 from trum_sym.errors import ParameterError, ValidityWarning
-from trum_sym.motor import Motor
+from trum_sym.inputs.checks import Domain, number
+from trum_sym.inputs.drive import DRIVE_DOMAINS, Drive
+from trum_sym.inputs.motor import Motor
+from trum_sym.inputs.units import parse_quantity
+from trum_sym.model.stator import Amplitude, Contact, Foundation, Levels, Resonance
 from trum_sym.optimiser.chart import basins, chart
 from trum_sym.optimiser.expressions import Constraint, Expression, parse_constraint, parse_expression, symbol
 from trum_sym.optimiser.model import Box, functions
 from trum_sym.optimiser.result import Evidence, Optimum
 from trum_sym.optimiser.solve import Answer, Problem, solve
-from trum_sym.stator import Amplitude, Contact, Foundation, Levels, Resonance
-from trum_sym.units import parse_quantity
-from trum_sym.validate import Domain, number
 
 __all__ = [
     "OBJECTIVES", "Bound", "aim_of", "box_of", "check_scalars", "one_number", "optimize", "warn_outside_fit",

@@ -7,8 +7,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from trum_sym.drive import Drive
-from trum_sym.motor import Motor
+from trum_sym.inputs.checks import Array
+from trum_sym.inputs.drive import Drive
+from trum_sym.inputs.motor import Motor
+from trum_sym.model.stator import Levels
 from trum_sym.optimiser.chart import Chart, basins, chart
 from trum_sym.optimiser.descent import Task, Visit, descend
 from trum_sym.optimiser.expressions import Constraint, Expression
@@ -16,8 +18,6 @@ from trum_sym.optimiser.extra import casadi
 from trum_sym.optimiser.finish import ALLOWED, Bounds, Finished, checked, finish
 from trum_sym.optimiser.kinks import compass, stationarity
 from trum_sym.optimiser.model import Box, Functions, Model, functions
-from trum_sym.stator import Levels
-from trum_sym.validate import Array
 
 __all__ = ["Answer", "Problem", "solve"]
 

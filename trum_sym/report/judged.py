@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from trum_sym.errors import ParameterError
-from trum_sym.figures.cycle import ARCSEC
-from trum_sym.motor import Motor
-from trum_sym.report.claims import VERDICTS, Claim, best, claims, reading_rows, readings
-from trum_sym.report.paper_tables import Table
-from trum_sym.report.readings import AXES, published
+from trum_sym.inputs.motor import Motor
+from trum_sym.paper.claims import VERDICTS, Claim, best, claims, reading_rows, readings
+from trum_sym.paper.cycle import ARCSEC
+from trum_sym.paper.readings import AXES, published
+from trum_sym.paper.tables import Table
 
 __all__ = ["Judged", "judge"]
 

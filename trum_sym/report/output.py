@@ -6,9 +6,9 @@ import tempfile
 from pathlib import Path
 
 from trum_sym.errors import ParameterError
-from trum_sym.files import write_bytes
-from trum_sym.ledger import ledger_page
-from trum_sym.motor import Motor
+from trum_sym.inputs.motor import Motor
+from trum_sym.output.files import write_bytes
+from trum_sym.paper.ledger import ledger_page
 from trum_sym.report.page import page
 
 __all__ = ["check_folder", "write_report"]

@@ -11,16 +11,16 @@ from typing import Any
 import click
 
 from trum_sym.errors import MissingExtraError
-from trum_sym.figures import svg
-from trum_sym.figures.catalogue import PICTURES
-from trum_sym.figures.style import COLOURS, GRID, INK
-from trum_sym.ledger import Record, load_ledger
-from trum_sym.motor import Motor
-from trum_sym.operating_point import evaluate
-from trum_sym.report.claims import PARTLY
+from trum_sym.inputs.motor import Motor
+from trum_sym.model.operating_point import evaluate
+from trum_sym.paper.claims import PARTLY
+from trum_sym.paper.ledger import Record, load_ledger
+from trum_sym.paper.tables import tables
+from trum_sym.plots import svg
+from trum_sym.plots.style import COLOURS, GRID, INK
+from trum_sym.report.catalogue import PICTURES
 from trum_sym.report.interactive import fragment
 from trum_sym.report.judged import Judged, judge
-from trum_sym.report.paper_tables import tables
 
 __all__ = ["page"]
 

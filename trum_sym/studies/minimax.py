@@ -9,11 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from trum_sym.errors import MissingExtraError
+from trum_sym.inputs.checks import Array
 from trum_sym.optimiser.chart import Chart, chart
 from trum_sym.optimiser.finish import ALLOWED, TOLERANCE
 from trum_sym.optimiser.model import Functions, Model, functions
 from trum_sym.optimiser.solve import Problem
-from trum_sym.validate import Array
 
 __all__ = ["Minimax", "Outcome"]
 

@@ -11,18 +11,18 @@ from itertools import pairwise
 
 import numpy as np
 
-from trum_sym.drive import Drive
 from trum_sym.errors import ParameterError
-from trum_sym.motor import Motor
+from trum_sym.inputs.checks import Domain, number
+from trum_sym.inputs.drive import Drive
+from trum_sym.inputs.motor import Motor
+from trum_sym.model.stator import Amplitude, Contact, Foundation, Levels, Resonance
 from trum_sym.optimiser.chart import chart
 from trum_sym.optimiser.expressions import Constraint, Expression, parse_expression
 from trum_sym.optimiser.finish import Finished
 from trum_sym.optimiser.model import Model, functions
 from trum_sym.optimiser.search import one_number
 from trum_sym.optimiser.solve import Answer, Problem, solve
-from trum_sym.stator import Amplitude, Contact, Foundation, Levels, Resonance
 from trum_sym.studies.posed import Bound, posed
-from trum_sym.validate import Domain, number
 
 __all__ = ["AGAINST", "ParetoFront", "ParetoPoint", "pareto"]
 

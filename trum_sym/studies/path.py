@@ -8,8 +8,8 @@ from itertools import pairwise
 
 import numpy as np
 
+from trum_sym.inputs.checks import Array
 from trum_sym.optimiser.chart import Chart, crossings
-from trum_sym.validate import Array
 
 __all__ = ["Candidates", "candidates", "choose"]
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from trum_sym.drive import Drive
 from trum_sym.errors import ParameterError
-from trum_sym.motor import Motor
+from trum_sym.inputs.drive import Drive
+from trum_sym.inputs.motor import Motor
+from trum_sym.model.stator import Levels
 from trum_sym.optimiser.search import Bound, aim_of, box_of, check_scalars, warn_outside_fit
 from trum_sym.optimiser.solve import Problem
-from trum_sym.stator import Levels
 
 __all__ = ["Bound", "posed"]
 

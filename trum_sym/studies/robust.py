@@ -12,17 +12,17 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from trum_sym.drive import DRIVE_DOMAINS, Drive
 from trum_sym.errors import ParameterError
-from trum_sym.motor import Motor, spec
+from trum_sym.inputs.checks import Domain, number
+from trum_sym.inputs.drive import DRIVE_DOMAINS, Drive
+from trum_sym.inputs.motor import Motor, spec
+from trum_sym.inputs.units import parse_quantity
+from trum_sym.model.stator import Amplitude, Contact, Foundation, Levels, Resonance
 from trum_sym.optimiser.model import Model
 from trum_sym.optimiser.search import one_number
 from trum_sym.optimiser.solve import Problem, solve
-from trum_sym.stator import Amplitude, Contact, Foundation, Levels, Resonance
 from trum_sym.studies.minimax import Minimax, Outcome
 from trum_sym.studies.posed import Bound, posed
-from trum_sym.units import parse_quantity
-from trum_sym.validate import Domain, number
 
 __all__ = ["RobustCase", "RobustPoint", "robust"]
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from trum_sym.errors import ParameterError
-from trum_sym.measurements import table_of
-from trum_sym.motor import spec
+from trum_sym.inputs.measurements import table_of
+from trum_sym.inputs.motor import spec
 
 __all__ = ["read_samples"]
 

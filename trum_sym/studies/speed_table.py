@@ -10,16 +10,16 @@ from pathlib import Path
 
 import numpy as np
 
-from trum_sym.drive import Drive
 from trum_sym.errors import ParameterError
-from trum_sym.motor import Motor
+from trum_sym.inputs.checks import Array, Domain, number
+from trum_sym.inputs.drive import Drive
+from trum_sym.inputs.motor import Motor
+from trum_sym.model.stator import Amplitude, Contact, Foundation, Levels, Resonance
 from trum_sym.optimiser.chart import chart
 from trum_sym.optimiser.model import Model
 from trum_sym.optimiser.search import one_number
-from trum_sym.stator import Amplitude, Contact, Foundation, Levels, Resonance
 from trum_sym.studies.posed import Bound, posed
 from trum_sym.studies.table_builder import Builder, Entry
-from trum_sym.validate import Array, Domain, number
 
 __all__ = ["Gap", "Segment", "SpeedTable", "speed_table"]
 
@@ -120,7 +120,7 @@ class SpeedTable:
         ParameterError
             For another suffix, a table without entries, or a file that cannot be written.
         """
-        from trum_sym.files import check_target, write_bytes
+        from trum_sym.output.files import check_target, write_bytes
         from trum_sym.studies.table_files import as_c, as_csv
 
         path = Path(target)

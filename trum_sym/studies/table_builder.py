@@ -8,11 +8,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from trum_sym.errors import ParameterError
+from trum_sym.inputs.checks import Array
 from trum_sym.optimiser.chart import Chart
 from trum_sym.optimiser.expressions import Constraint
 from trum_sym.optimiser.model import Model, functions
 from trum_sym.studies.path import Candidates, candidates, choose
-from trum_sym.validate import Array
 
 __all__ = ["TOLERANCE", "Builder", "Entry"]
 

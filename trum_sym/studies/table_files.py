@@ -7,8 +7,8 @@ import re
 
 import numpy as np
 
+from trum_sym.inputs.checks import Array
 from trum_sym.studies.speed_table import Segment, SpeedTable
-from trum_sym.validate import Array
 
 __all__ = ["as_c", "as_csv", "as_json_text", "as_text"]
 

@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from trum_sym.drive import DRIVE_DOMAINS
 from trum_sym.errors import ParameterError
-from trum_sym.motor import SPECS
+from trum_sym.inputs.checks import Array, ArrayLike, Domain, number
+from trum_sym.inputs.drive import DRIVE_DOMAINS
+from trum_sym.inputs.motor import SPECS
 from trum_sym.sweeps.notation import MAX_VALUES, Column, parse
-from trum_sym.validate import Array, ArrayLike, Domain, number
 
 __all__ = ["PARAMETERS", "Axis", "Grid", "chunk_shape", "read_ranges"]
 

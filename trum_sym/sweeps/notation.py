@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from trum_sym.errors import ParameterError
-from trum_sym.units import parse_quantity
-from trum_sym.validate import Array
+from trum_sym.inputs.checks import Array
+from trum_sym.inputs.units import parse_quantity
 
 __all__ = ["MAX_VALUES", "Column", "is_range", "parse"]
 

@@ -11,15 +11,15 @@ from typing import Any
 
 import numpy as np
 
-from trum_sym.drive import Drive, choice
 from trum_sym.errors import ConvergenceError, ParameterError
-from trum_sym.motor import SPECS, Motor
-from trum_sym.operating_point import OF_ORBIT
-from trum_sym.outputs import OUTPUTS
-from trum_sym.stator import Levels, warn_outside_fit
+from trum_sym.inputs.checks import ArrayLike, Domain, number
+from trum_sym.inputs.drive import Drive, choice
+from trum_sym.inputs.motor import SPECS, Motor
+from trum_sym.model.operating_point import OF_ORBIT
+from trum_sym.model.stator import Levels, warn_outside_fit
+from trum_sym.quantities import OUTPUTS
 from trum_sym.sweeps.grid import PARAMETERS, Grid, chunk_shape, read_ranges
 from trum_sym.sweeps.task import STATUS, Settings, Task, identity, sort_out
-from trum_sym.validate import ArrayLike, Domain, number
 
 __all__ = ["Plan", "make_plan"]
 

@@ -14,14 +14,14 @@ from typing import TYPE_CHECKING, TextIO
 
 import numpy as np
 
-from trum_sym.drive import Drive
 from trum_sym.errors import MissingExtraError, ParameterError, UnfinishedError
-from trum_sym.motor import Motor
-from trum_sym.stator import Contact, Foundation, Levels, Resonance
+from trum_sym.inputs.checks import ArrayLike
+from trum_sym.inputs.drive import Drive
+from trum_sym.inputs.motor import Motor
+from trum_sym.model.stator import Contact, Foundation, Levels, Resonance
+from trum_sym.output.progress import Progress
 from trum_sym.sweeps.engine import Cluster, Here, Pool, compute_all
 from trum_sym.sweeps.plan import Plan, make_plan
-from trum_sym.sweeps.progress import Progress
-from trum_sym.validate import ArrayLike
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -150,7 +150,7 @@ def check_out(name: str, target: Path | None) -> None:
     ------
     ParameterError, MissingExtraError
     """
-    from trum_sym.files import SUFFIXES, check_packages, check_target
+    from trum_sym.output.files import SUFFIXES, check_packages, check_target
 
     if target is None:
         return
@@ -200,7 +200,7 @@ def run(
         summary = _fill(store, pool, stream)
     dataset = store.dataset()
     if target is not None and not on_disk:
-        from trum_sym.files import write
+        from trum_sym.output.files import write
 
         write(name, dataset, target)
     return dataset, summary

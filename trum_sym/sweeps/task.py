@@ -16,13 +16,13 @@ import numpy.typing as npt
 
 import trum_sym
 from trum_sym import _kernels
-from trum_sym.batch import StoppedError, one_thread
-from trum_sym.drive import Drive, Start
 from trum_sym.errors import ConvergenceError, ParameterError
-from trum_sym.motor import SPECS, Motor
-from trum_sym.operating_point import OF_ORBIT, Case, figures, prepare
-from trum_sym.stator import Levels
-from trum_sym.validate import Array, ArrayLike
+from trum_sym.inputs.checks import Array, ArrayLike
+from trum_sym.inputs.drive import Drive, Start
+from trum_sym.inputs.motor import SPECS, Motor
+from trum_sym.model.batch import StoppedError, one_thread
+from trum_sym.model.operating_point import OF_ORBIT, Case, figures, prepare
+from trum_sym.model.stator import Levels
 
 __all__ = ["STATUS", "Found", "Settings", "Task", "compute", "identity", "sort_out"]
 
@@ -33,11 +33,15 @@ _DONE, _RUNAWAY, _UNCONVERGED, _REFUSED = range(4)
 
 @cache
 def identity() -> Mapping[str, str]:
-    """What decides about every bit of a figure: the package's version and code, kernels, their instruction set."""
+    """What decides about every bit of a figure: the package's version and code, kernels, their instruction set.
+
+    The code is that of the packages which compute figures.  A file's place does not count, only what it says.
+    """
     home = Path(trum_sym.__file__).parent
+    files = [file for package in ("inputs", "model", "sweeps") for file in (home / package).glob("*.py")]
     code = hashlib.sha256()
-    for file in sorted([*home.glob("*.py"), *home.glob("sweeps/*.py")]):
-        code.update(file.read_bytes())
+    for digest in sorted(hashlib.sha256(file.read_bytes()).digest() for file in files):
+        code.update(digest)
     return MappingProxyType({
         "package": f"trum-sym {version('trum-sym')}",
         "code_sha256": code.hexdigest(),
@@ -107,7 +111,7 @@ def compute(task: Task, stopped: Callable[[], bool] = lambda: False) -> Found:
     ------
     ParameterError
         If the kernels here are not those of the process that asks.
-    trum_sym.batch.StoppedError
+    trum_sym.model.batch.StoppedError
         If ``stopped`` says so.
     """
     for name, wanted in task.identity.items():

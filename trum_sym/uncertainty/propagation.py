@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from trum_sym.errors import MissingExtraError, ParameterError
-from trum_sym.validate import Array, Domain, number
+from trum_sym.inputs.checks import Array, Domain, number
 
 __all__ = ["CONFIDENCE", "LEVELS", "Estimate", "Indices", "Propagation", "Spread", "check_design", "propagate", "share"]
 

@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from trum_sym.drive import DRIVE_DOMAINS, Drive
 from trum_sym.errors import ParameterError
-from trum_sym.motor import SPECS, Motor, Spec, spec
-from trum_sym.operating_point import OperatingPoint, evaluate
-from trum_sym.outputs import OUTPUTS
-from trum_sym.stator import Amplitude, Contact, Foundation, Resonance
-from trum_sym.uncertainty.distributions import Distribution, checked, default_distribution, from_text
+from trum_sym.inputs.checks import Array, ArrayLike
+from trum_sym.inputs.distributions import Distribution, checked, default_distribution, from_text
+from trum_sym.inputs.drive import DRIVE_DOMAINS, Drive
+from trum_sym.inputs.motor import SPECS, Motor, Spec, spec
+from trum_sym.inputs.units import parse_quantity
+from trum_sym.model.operating_point import OperatingPoint, evaluate
+from trum_sym.model.stator import Amplitude, Contact, Foundation, Resonance
+from trum_sym.quantities import OUTPUTS
 from trum_sym.uncertainty.propagation import Estimate, Propagation, check_design, propagate, share
-from trum_sym.units import parse_quantity
-from trum_sym.validate import Array, ArrayLike
 
 if TYPE_CHECKING:
     import xarray as xr

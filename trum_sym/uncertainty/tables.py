@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from trum_sym.drive import DRIVE_DOMAINS
-from trum_sym.motor import SPECS
-from trum_sym.outputs import OUTPUTS
+from trum_sym.inputs.drive import DRIVE_DOMAINS
+from trum_sym.inputs.motor import SPECS
+from trum_sym.inputs.units import parse_unit
+from trum_sym.quantities import OUTPUTS
 from trum_sym.uncertainty.propagation import CONFIDENCE, Estimate, Indices
 from trum_sym.uncertainty.study import BALANCED, MISSED, Study
-from trum_sym.units import parse_unit
 
 if TYPE_CHECKING:
     import xarray as xr

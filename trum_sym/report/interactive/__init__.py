@@ -7,7 +7,7 @@ import json
 from pathlib import Path
 
 from trum_sym.errors import ParameterError
-from trum_sym.motor import SPECS, Motor
+from trum_sym.inputs.motor import SPECS, Motor
 
 __all__ = ["fragment"]
 

@@ -1,0 +1,210 @@
+"""generated/ is what the derivations give, byte for byte, and computes what they say, at 50 digits."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import mpmath as mp
+import numpy as np
+import pytest
+import sympy as sp
+
+import trum_sym as ts
+from derivations.codegen.emit import GENERATED, render, stale, write
+from derivations.codegen.kernels import kernels
+from derivations.nomenclature import CONSTANTS
+from trum_sym.model.kernels import call
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(scope="module")
+def files():
+    return render()
+
+
+def test_generated_files_are_what_the_derivations_give(files):
+    difference = stale(files)
+    assert not difference, f"run `python -m derivations generate`\n{difference}"
+
+
+def test_one_kernel_is_one_file_of_its_name(files):
+    names = {kernel.name for kernel in kernels()}
+    assert {name for name in files if name.endswith(".c")} == {f"{name}.c" for name in names}
+    assert [entry["name"] for entry in json.loads(files["manifest.json"])["kernels"]] == [k.name for k in kernels()]
+
+
+def test_every_file_states_its_operations_and_arguments(files):
+    manifest = json.loads(files["manifest.json"])
+    for entry in manifest["kernels"]:
+        text = files[f"{entry['name']}.c"]
+        assert f"{sum(entry['operations'].values())} operations" in text
+        for argument in entry["inputs"]:
+            assert f": {argument['name']} [{argument['unit']}]" in text
+
+
+def generate(folder, *arguments, seed="0"):
+    return subprocess.run(
+        [sys.executable, "-m", "derivations", "generate", *arguments],
+        cwd=folder, env={**os.environ, "PYTHONHASHSEED": seed}, capture_output=True, text=True,
+    )  # fmt: skip
+
+
+@pytest.fixture
+def tree(tmp_path):
+    """A copy of the derivations and what they generated, free to be broken."""
+    for name in ("derivations", "generated"):
+        shutil.copytree(ROOT / name, tmp_path / name, ignore=shutil.ignore_patterns("__pycache__"))
+    return tmp_path
+
+
+@pytest.mark.parametrize("seed", ["1", "4242"])
+def test_generation_does_not_depend_on_the_process_or_its_hash_seed(tree, seed):
+    shutil.rmtree(tree / "generated")
+    done = generate(tree, seed=seed)
+    assert done.returncode == 0, done.stderr
+    written = {path.name: path.read_bytes() for path in (tree / "generated").iterdir()}
+    ours = (path for path in GENERATED.iterdir() if not path.name.startswith("ledger."))
+    assert written == {path.name: path.read_bytes() for path in ours}
+
+
+def test_check_is_silent_and_0_when_nothing_is_stale(tree):
+    done = generate(tree, "--check")
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+@pytest.mark.parametrize(
+    ("module", "right", "wrong"),
+    [
+        ("contact.py", "sp.cos(_u) - sp.cos(theta)", "sp.cos(_u) + sp.cos(theta)"),
+        ("section.py", "1 - k_t * k_s", "1 + k_t * k_s"),
+    ],
+)
+def test_a_changed_sign_is_stale_and_changes_nothing(tree, module, right, wrong):
+    path = tree / "derivations" / module
+    text = path.read_text()
+    assert right in text
+    path.write_text(text.replace(right, wrong, 1))
+    before = {p.name: p.read_bytes() for p in (tree / "generated").iterdir()}
+    done = generate(tree, "--check")
+    assert done.returncode == 1
+    assert "(checked in)" in done.stdout
+    assert "stale" in done.stderr
+    assert before == {p.name: p.read_bytes() for p in (tree / "generated").iterdir()}
+
+
+@pytest.mark.parametrize(
+    ("module", "right", "wrong"),
+    [
+        ("phases.py", "(omega_n * a + xi * b)", "(omega_n * a - xi * b)"),
+        ("phases.py", "return omega_n + Delta_omega", "return omega_n - Delta_omega"),
+        ("beam.py", "theta.diff(x) ** 2 + kappa", "theta.diff(x) ** 3 + kappa"),
+    ],
+)
+def test_a_broken_proof_or_dimension_stops_the_generation(tree, module, right, wrong):
+    path = tree / "derivations" / module
+    text = path.read_text()
+    assert right in text
+    path.write_text(text.replace(right, wrong, 1))
+    assert generate(tree, "--check").returncode != 0
+
+
+def test_missing_and_extra_files_are_stale(files, tmp_path):
+    write(files, tmp_path)
+    assert stale(files, tmp_path) == ""
+    (tmp_path / "trum_regions.c").unlink()
+    (tmp_path / "trum_old.c").write_text("int old;\n")
+    assert "trum_regions.c" in stale(files, tmp_path)
+    assert "trum_old.c" in stale(files, tmp_path)
+    assert write(files, tmp_path) == ["trum_regions.c", "trum_old.c"]
+    assert stale(files, tmp_path) == ""
+
+
+expm1 = sp.Function("expm1")
+
+
+def expm1_exact(z):
+    return sp.exp(z) - 1
+
+
+def random_arguments(kernel, rng):
+    """Arguments around TRUM-60 and Table 3, each 20 % to either side."""
+    usual = ts.load_motor().symbols()
+    for name in ("trum_neutral_axis", "trum_section", "trum_wavenumber", "trum_layer_stiffness"):
+        usual.update(call(name, usual))
+    usual.update(
+        k_f=3e8, k_dx=3e8, omega_n=2.45e5, omega_q=2.65e5, Delta_omega=1.9e4, beta=280.0, theta=0.4, W=5.5e-6,
+        F_c=180.0, m=20, n=14, psi=0.7, s=-1, tau=8e-5, T=4.7e-4, a_A=3e-6, b_A=-0.7, a_B=-4e-6, b_B=0.5, g_A=1, g_B=0,
+        q_plus=80.0, q_minus=30.0, p_plus=3e6, p_minus=7e5,
+        a=3e-6, b=-0.7, T_load=0.3,
+        f_A_re=3e-6, f_A_im=-2e-6, f_B_re=-4e-6, f_B_im=1e-6, p_re=0.6, p_im=0.8, e_re=0.9, e_im=0.4,
+        d_re=0.8, d_im=0.5, W_c=5e-6, engagement=40.0, engagement_per_height=1e7, W_full=4e-7, share=-38.0,
+        fullness=0.008, fullness_root=0.2, sin_theta=0.39, phi=0.2, cos_phi=0.98, sin_phi=0.2, R_v=1.2, v=0.3, f=0.4,
+        x=3.1e-3, x_max=3e-3, w_A=3e-6, w_B=-4e-6,
+        R_v_rate=2e3, v_rate=-3e4, W_c_rate=-0.4, p_larger=1.4, p_smaller=1.1, step=2e-7,
+    )  # fmt: skip
+    for name, rate in (("a_A", 4e-11), ("b_A", 6e-6), ("a_B", -3e-11), ("b_B", 5e-6)):
+        usual |= {f"{name}_omega_n": rate, f"{name}_Delta_omega": -2 * rate}
+    for name in ("f_A_re", "f_A_im", "f_B_re", "f_B_im"):
+        usual |= {f"{name}_omega_n": 4e-11, f"{name}_Delta_omega": -5e-11}
+    whole = {"m", "n", "s", "g_A", "g_B", "n_s", "n_j"}
+    return {
+        symbol.name: float(usual[symbol.name]) * (1.0 if symbol.name in whole else rng.uniform(0.8, 1.2))
+        for symbol in kernel.inputs
+    }
+
+
+def exact_outputs(kernel):
+    """The outputs' expressions as functions of 50-digit numbers."""
+    constants = {symbol: sp.Float(value, 60) for symbol, value in CONSTANTS.items()}
+    return {
+        output: sp.lambdify(
+            list(kernel.inputs),
+            sp.sympify(expr).subs(constants).replace(expm1, expm1_exact),
+            [{"less": lambda x, y: mp.mpf(x < y)}, "mpmath"],
+        )
+        for output, expr in kernel.outputs.items()
+    }
+
+
+@pytest.mark.parametrize("kernel", [k for k in kernels() if k.along], ids=lambda kernel: kernel.name)
+def test_compiled_slopes_are_derivatives_at_50_digits(kernel):
+    """CasADi's derivative in double precision beside a difference quotient of the SymPy expression."""
+    rng, names = np.random.default_rng(17), list(kernel.inputs)
+    exact, step = exact_outputs(kernel), mp.mpf(10) ** -20
+    for _ in range(3):
+        arguments = random_arguments(kernel, rng)
+        ours = call(kernel.name, arguments)
+        with mp.workdps(60):
+            point = [mp.mpf(arguments[s.name]) for s in names]
+            for direction, rates in kernel.along.items():
+                rate = [
+                    sp.lambdify(names, sp.sympify(rates.get(symbol, sp.Integer(0))), "mpmath")(*point)
+                    for symbol in names
+                ]
+                ahead, behind = ([x + e * step * r for x, r in zip(point, rate, strict=True)] for e in (1, -1))
+                slopes = {name: (f(*ahead) - f(*behind)) / (2 * step) for name, f in exact.items()}
+                for name, value in slopes.items():
+                    size = max(abs(v) for other, v in slopes.items() if kernel.units[other] == kernel.units[name])
+                    assert abs(ours[f"{name}_{direction}"] - value) <= 1e-11 * size, (name, direction)
+
+
+@pytest.mark.parametrize("kernel", [k for k in kernels() if not k.along], ids=lambda kernel: kernel.name)
+def test_compiled_kernel_agrees_with_its_expression_at_50_digits(kernel):
+    rng = np.random.default_rng(17)
+    names = list(kernel.inputs)
+    exact = exact_outputs(kernel)
+    for _ in range(20):
+        arguments = random_arguments(kernel, rng)
+        ours = call(kernel.name, arguments)
+        with mp.workdps(50):
+            values = {name: f(*(mp.mpf(arguments[s.name]) for s in names)) for name, f in exact.items()}
+            # free motion and Q are sums that may cancel: compare with the largest output of the same unit
+            for name, value in values.items():
+                size = max(abs(v) for other, v in values.items() if kernel.units[other] == kernel.units[name])
+                assert abs(ours[name] - value) <= 1e-12 * size, name

@@ -1,0 +1,233 @@
+"""Branch coverage of the generated C and of its drivers, by gcov.
+
+python tests/driver/c_coverage.py          prints a table, and every branch of the drivers that nothing takes
+
+Every kernel is called with random arguments, with null arguments and results, and asked for its names; the drivers run
+through operating points at every level and edge.  ``tests/derivations/test_generated.py`` compares the same kernels
+with 50 digits, ``tests/driver/test_c_library.py`` with these.
+"""
+
+from __future__ import annotations
+
+import itertools
+import json
+import math
+import random
+import subprocess
+import sys
+import tempfile
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+FLAGS = ["-std=c99", "-Wall", "-Wextra", "-Wconversion", "-pedantic", "-Werror"]
+FOLDERS = [ROOT / "generated", ROOT / "trum_sym" / "_driver", ROOT / "examples" / "c"]
+
+# Branches that no input takes, by the beginning of their line, and why
+ONE_LANE = "one lane: the batches of the Python package take it"
+LAPS = "a limit of the search for the orbit that no point tried has met"
+NEVER = {
+    "trum_cycle.h": {"for (i = 0; i < 200": "a bracket halved this often is closed before"},
+    "trum_orbit.h": {
+        "static int in_lane(": ONE_LANE,
+        "static mask sel_mask(": ONE_LANE,
+        "if (l->record && in_lane(accepted, 0))": ONE_LANE,
+        "if (!in_lane(ended, i)) continue;": ONE_LANE,
+        "while (!busy[i] && ((taken": ONE_LANE,
+        "const int scratch = slopes_in": ONE_LANE,
+        "const long point = taken": ONE_LANE,
+        "jobs[i].slopes_out = slopes_out && taken": ONE_LANE,
+        "busy[i] = trum_load(&l, i, &jobs[i], &in[point]": ONE_LANE,
+        "busy[i] = busy[i] && taken": ONE_LANE,
+        "if (i > 0) put_mask(": ONE_LANE,
+        "const int beyond = r->written == r->count": "rounding of a history's last time, which may fall to either side",
+        "z = z < 0.0 ? 0.0 : z > 1.0": "rounding of a history's times, which may fall to either side",
+        "pinned = !coarse && (fabs(away)": LAPS,
+        "job->level *= 0.3": LAPS,
+        "job->level = excess < 1.0": LAPS,
+        "if (close && accurate && noise >": LAPS,
+        "} else if (close && (accurate || last)) {": LAPS,
+        "if (in[k].held > 0.5 && isnan(out[k].held)": "a motion that cannot be followed held nor free",
+        "if (last) {": LAPS,
+        "if (in_lane(l.lost, 0) || get(&l.patience, 0)": "a history repeats a lap that came to its end",
+    },
+}
+
+STARTS, CONTACTS = ("periodic", "steady", "rest"), ("winkler", "hertz")
+RESONANCES = ("quartic", "eq6", "printed", "euler")
+FOUNDATIONS = ("harmonic", "smeared", "printed", "none")
+LINE_OF_CONTACT = (
+    "layer_young_modulus=1e15 amplitude=5e-6 resonance_frequency=39e3 on_periods=20 start=steady load_torque=0"
+)
+HOSTILE = ("nan", "inf", "-inf", "0", "-1", "1e308", "-1e308", "1e-308", "1e30")
+
+
+def levels() -> list[str]:
+    """Table 3 at every level and start."""
+    every = itertools.product(STARTS, CONTACTS, RESONANCES, FOUNDATIONS)
+    found = [f"start={s} contact={c} resonance={r} foundation={f}" for s, c, r, f in every]
+    return found + [f"start={s} contact={c} amplitude=forced load_torque=0.05" for s in STARTS for c in CONTACTS]
+
+
+def edges() -> list[str]:
+    """Points that reach what Table 3 does not."""
+    return [
+        "tolerance=1e-9 load_torque=0.05",
+        "tolerance=1e-9 contact=hertz load_torque=0.05",
+        "tolerance=1e-6 start=rest load_torque=0.1 phase_lead=-1",
+        "load_torque=2",  # runaway
+        "load_torque=-2",
+        "load_torque=0 friction_coefficient=0",
+        "load_torque=0.01 friction_coefficient=0",
+        "prepressure=400 load_torque=0.1",
+        "prepressure=20 load_torque=0.01",
+        "prepressure=5000",  # the whole wave in contact
+        "prepressure=5000 contact=hertz",
+        "prepressure=50000 load_torque=0.1 start=rest",
+        "prepressure=50000 load_torque=0.1 start=rest contact=hertz amplitude=5e-6",
+        "on_periods=20 load_torque=0.05",
+        "on_periods=10 load_torque=0.05",
+        "periods=1 on_periods=1",
+        "periods=100 on_periods=60 load_torque=-0.1 switching_phase=1.3",
+        *(f"{LINE_OF_CONTACT} tolerance={x}" for x in (1e-2, 1e-4)),
+        "load_torque=0.05 tolerance=1e-2",
+        "rotor_inertia=1e-9 load_torque=0.05",
+        "rotor_inertia=1e-9 load_torque=0.05 tolerance=1e-6",
+        "rotor_inertia=10 load_torque=0.05",
+        "rotor_inertia=1e-14 load_torque=0.05 tolerance=1e-9",
+        "damping_ratio=0 start=rest",
+        "damping_ratio=0",
+        "damping_ratio=0 frequency_difference=0",
+        "damping_ratio=0 resonance_frequency=40000 frequency_difference=2000 periods=42 on_periods=21",
+        "frequency_difference=0 load_torque=0.05",
+        "frequency_difference=-36000",
+        "frequency_difference=-30000 load_torque=0.01",
+        "frequency_difference=-3000 phase_lead=-1 switching_phase=0.5 load_torque=-0.05",
+        "resonance_frequency=39703 amplitude=5.5e-6 neutral_axis=2.9e-3 wavenumber=300 layer_stiffness=3e10",
+        "resonance_frequency=39703 frequency_difference=3000 amplitude=5.5e-6 foundation=none",
+        "tooth_height=4.5e-3",
+        "fit_prepressure_min=220",
+        "slot_width=2.7e-3",
+        "on_periods=9",
+        "on_periods=21",
+        "phase_lead=0",
+        "tolerance=1",
+        "tolerance=1e-12",
+        "beam_density=1e300",
+        "voltage=1e30 amplitude=forced",
+        "voltage=1e-30 amplitude=forced",
+        "piezo_strain_constant=0 amplitude=forced",
+        "amplitude_factor=1e300",
+        "periods=20.5",
+        "damping_ratio=0 frequency_difference=-3000 start=rest",
+        "prepressure=1e5 resonance_frequency=40000",  # eq. 8 below zero
+        "resonance_frequency=40000 amplitude=5e-6 foundation=none beam_young_modulus=1e308 piezo_young_modulus=1e308",
+        "resonance_frequency=40000 amplitude=5e-6 foundation=none radius=1e-308",
+        "amplitude=forced foundation=smeared frequency_difference=5.053 prepressure=205.2 damping_ratio=0.000116 "
+        "voltage=1420 periods=4 on_periods=3",  # never settles
+        "nothing=1",
+        "prepressure",
+        "prepressure=",
+        "start=never",
+        "start=period",
+        *(f"{name}={value}" for name in ("prepressure", "periods", "load_torque", "radius") for value in HOSTILE),
+        *(f"amplitude=forced damping_ratio={x} frequency_difference={d}" for x in (1e-6, 0.1) for d in (1, 300)),
+        *(f"start=rest load_torque={x} prepressure={f}" for x in (0, 0.05, 0.2) for f in (120, 250)),
+    ]
+
+
+def wild(count: int, seed: int = 20211110, inertia: tuple[float, float] = (-9, 0)) -> list[str]:
+    """Points anywhere in a wide domain, of any tolerance; the inertia by its exponents."""
+    rng = random.Random(seed)
+    found = []
+    for i in range(count):
+        m = rng.randint(4, 40)
+        load = rng.uniform(-0.9, 0.9) * 0.0265 * 0.25 * 180
+        found.append(
+            f"rotor_inertia={10 ** rng.uniform(*inertia)} friction_coefficient={rng.uniform(0.05, 0.5)} periods={m} "
+            f"on_periods={rng.randint((m + 1) // 2, m)} prepressure={rng.uniform(20, 400)} load_torque={load} "
+            f"frequency_difference={rng.uniform(-5000, 5000)} switching_phase={rng.uniform(0, 6.28)} "
+            f"phase_lead={rng.choice((-1, 1))} start={STARTS[i % 3]} contact={CONTACTS[i % 2]} "
+            f"tolerance={10 ** rng.uniform(-9, -2)}"
+        )
+    return found
+
+
+def friction() -> list[str]:
+    """The friction kernels where the crest is more than a turn off: pi below and above the range of atan2."""
+    found = []
+    for phi, v in itertools.product((-6.0, -3.0, 0.3, 3.0, 6.0), (-2.0, -0.5, 0.3, 0.9, 2.0)):
+        found.append(f"kernel trum_friction 1.2 {math.cos(phi)} 40 {phi} -38 {math.sin(phi)} 0.39 0.4 {v}")
+        found.append(f"kernel trum_friction_slopes 1.2 {math.cos(phi)} 40 {phi} -38 {math.sin(phi)} 0.39 0.4 {v}")
+    return found + [f"kernel trum_interface 180 0.4 1 1.4 300 0.25 9 -0.4 0 {v} 1e-3 1e-3" for v in (-1, 1)]
+
+
+def script() -> str:
+    """What the harness is told to do."""
+    lines = [f"point {line}" for line in ("", *levels(), *edges(), *wild(120), *wild(40, 7, (-14, 5)))]
+    lines += friction()
+    lines += [f"simulate {count} load_torque=0.05 {more}" for count in (0, 1, 1000) for more in ("", "contact=hertz")]
+    lines += ["simulate 700 load_torque=0.05 start=rest tolerance=1e-6", "simulate 3 load_torque=2", "edges"]
+    return "\n".join(lines) + "\n"
+
+
+def build(folder: Path, flags: Iterable[str] = ()) -> Path:
+    """Compile the harness with the kernels."""
+    sources = [ROOT / "tests" / "driver" / "c_coverage.c", *sorted((ROOT / "generated").glob("trum_*.c"))]
+    command = ["cc", *FLAGS, *flags, *(f"-I{path}" for path in FOLDERS), *map(str, sources), "-lm", "-o", "harness"]
+    subprocess.run(command, cwd=folder, check=True)
+    return folder / "harness"
+
+
+Branch = tuple[str, int, int]
+
+
+def measured(folder: Path) -> Mapping[str, Mapping[Branch, int]]:
+    """How often each branch was taken: by file, then by function, line and the branch's place in it."""
+    counts: dict[str, dict[Branch, int]] = defaultdict(lambda: defaultdict(int))
+    for notes in sorted(folder.glob("*.gcno")):
+        out = subprocess.run(
+            ["gcov", "--json-format", "--stdout", "--branch-probabilities", notes.name],
+            cwd=folder, check=True, capture_output=True, text=True,
+        ).stdout  # fmt: skip
+        for part in (json.loads(line) for line in out.splitlines() if line):
+            for file in part["files"]:
+                if ROOT not in Path(file["file"]).parents:
+                    continue
+                for line in file["lines"]:
+                    for place, branch in enumerate(line["branches"]):
+                        key = (line.get("function_name", ""), line["line_number"], place)
+                        counts[Path(file["file"]).name][key] += branch["count"]
+                    counts[Path(file["file"]).name]  # a file without branches is listed as well
+    return counts
+
+
+def main() -> int:
+    """Print the table; 1 if a branch of the generated C is never taken, or one of the drivers without a reason."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        harness = build(folder, ["-O0", "--coverage"])
+        subprocess.run([harness], input=script(), text=True, check=True, cwd=folder, capture_output=True)
+        counts = measured(folder)
+    print(f"{'file':32}{'branches':>10}{'taken':>8}{'share':>9}")
+    missing = 0
+    for file, branches in sorted(counts.items()):
+        taken = sum(count > 0 for count in branches.values())
+        share = 100.0 * taken / len(branches) if branches else 100.0
+        print(f"{file:32}{len(branches):10}{taken:8}{share:8.2f}%")
+    for file, branches in sorted(counts.items()):
+        if file in ("c_coverage.c", "main.c"):  # their untaken branches are failures that did not happen
+            continue
+        path = next(folder / file for folder in FOLDERS if (folder / file).exists())
+        text = path.read_text().splitlines()
+        for line, sides in sorted(Counter(line for (_, line, _), count in branches.items() if not count).items()):
+            code = text[line - 1].strip()
+            reason = next((why for start, why in NEVER.get(file, {}).items() if code.startswith(start)), "")
+            missing += not reason
+            print(f"{file}:{line}, {sides} untaken, {reason or 'NO REASON'}: {code}")
+    return int(missing > 0)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

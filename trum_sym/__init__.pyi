@@ -1,0 +1,51 @@
+"""The public names, each from where it lives; read by type checkers and, on first use, by ``lazy_loader``."""
+
+from .calibration.calibrate import Calibration as Calibration
+from .calibration.calibrate import calibrate as calibrate
+from .errors import ConvergenceError as ConvergenceError
+from .errors import MissingExtraError as MissingExtraError
+from .errors import ParameterError as ParameterError
+from .errors import UnfinishedError as UnfinishedError
+from .errors import ValidityWarning as ValidityWarning
+from .inputs.distributions import Distribution as Distribution
+from .inputs.drive import Drive as Drive
+from .inputs.motor import Motor as Motor
+from .inputs.motor import Parameter as Parameter
+from .inputs.motor_file import load_motor as load_motor
+from .model.histories import simulate as simulate
+from .model.operating_point import OperatingPoint as OperatingPoint
+from .model.operating_point import evaluate as evaluate
+from .model.sensitivities import sensitivities as sensitivities
+from .optimiser.result import Optimum as Optimum
+from .optimiser.search import optimize as optimize
+from .studies.pareto import pareto as pareto
+from .studies.robust import robust as robust
+from .studies.speed_table import speed_table as speed_table
+from .sweeps.run import sweep as sweep
+from .uncertainty.study import tolerance as tolerance
+
+__all__ = [
+    "Calibration",
+    "ConvergenceError",
+    "Distribution",
+    "Drive",
+    "MissingExtraError",
+    "Motor",
+    "OperatingPoint",
+    "Optimum",
+    "Parameter",
+    "ParameterError",
+    "UnfinishedError",
+    "ValidityWarning",
+    "calibrate",
+    "evaluate",
+    "load_motor",
+    "optimize",
+    "pareto",
+    "robust",
+    "sensitivities",
+    "simulate",
+    "speed_table",
+    "sweep",
+    "tolerance",
+]

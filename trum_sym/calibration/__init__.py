@@ -1,0 +1,1 @@
+"""Uncertain parameters of a motor fitted to measured data."""

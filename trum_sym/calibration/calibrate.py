@@ -1,0 +1,338 @@
+"""Calibration: a motor's uncertain parameters from measured data, with intervals and what the data cannot separate."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from os import PathLike
+
+import numpy as np
+
+from trum_sym.calibration.least_squares import Residuals, Separation, fit, interval_factor
+from trum_sym.calibration.models import DecayModel, Model, PointModel
+from trum_sym.errors import ParameterError, ValidityWarning
+from trum_sym.inputs.checks import Array, Domain, number
+from trum_sym.inputs.drive import Drive, choice
+from trum_sym.inputs.measurements import Measurements, from_columns, read_measurements
+from trum_sym.inputs.motor import SPECS, Motor, Parameter, spec
+from trum_sym.inputs.motor_file import load_motor
+from trum_sym.model.stator import Amplitude, Contact, Foundation, Levels, Resonance
+from trum_sym.quantities import OUTPUTS
+
+__all__ = ["ERRORS", "Calibration", "Estimate", "calibrate"]
+
+ERRORS = ("absolute", "relative")
+_USUAL = {  # what is fitted if nothing else is asked for, by what was measured
+    "amplitude": ("amplitude_factor", "amplitude_exponent"),
+    "resonance_frequency": ("layer_stiffness",),
+    "displacement": ("damping_ratio",),
+    "velocity": ("damping_ratio",),
+    "envelope": ("damping_ratio",),
+}
+_USUAL_OTHERWISE = ("friction_coefficient", "contact_radius")
+_LAW = ("amplitude_factor", "amplitude_exponent")
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """One fitted parameter, in SI.
+
+    Attributes
+    ----------
+    value, low, high : float
+        The best value and the ends of its interval, symmetric by construction (linearised, Student's t).
+    standard_error : float
+    before : float
+        The motor's value, at which the search began.
+    in_motor : bool
+        Whether it is a parameter of the motor; the others belong to the record alone.
+    exact_slopes : bool
+        Whether its derivatives are exact; otherwise central differences.
+    """
+
+    name: str
+    unit: str
+    value: float
+    low: float
+    high: float
+    standard_error: float
+    before: float
+    in_motor: bool
+    exact_slopes: bool
+
+
+@dataclass(frozen=True)
+class Calibration:
+    """What the data say about the motor.
+
+    Attributes
+    ----------
+    status : str
+        ``"solved"``, or ``"unidentifiable"``: the data do not fix these parameters, whatever the figures look like.
+    message : str
+        In words; for an unidentifiable fit, which combination stays open.
+    motor : Motor
+        With the fitted values in place; the motor as it came if the status is not ``"solved"``.
+    estimates : tuple of Estimate
+    covariance, correlation : (k, k) array
+        Of the estimates in their order.
+    residuals, separation
+        See ``Residuals`` and ``Separation`` in :mod:`trum_sym.calibration.least_squares`.
+    explained : float
+        Share of the measured columns' variance that the fit explains, R^2.
+    """
+
+    data: str
+    observed: tuple[str, ...]
+    errors: str
+    confidence: float
+    status: str
+    message: str
+    motor: Motor
+    estimates: tuple[Estimate, ...]
+    covariance: Array
+    correlation: Array
+    residuals: Residuals
+    residual_unit: str
+    separation: Separation
+    explained: float
+    iterations: int
+
+    def __getitem__(self, name: str) -> Estimate:
+        """The estimate of a parameter."""
+        for estimate in self.estimates:
+            if estimate.name == name:
+                return estimate
+        raise KeyError(name)
+
+    def save(self, target: str | PathLike[str], base: str | PathLike[str] = "trum60") -> None:
+        """Write a motor file: ``base`` with the fitted values in place, its other lines as they are.
+
+        Raises
+        ------
+        ParameterError
+            If the status is not ``"solved"``, or the file cannot be written.
+        """
+        from trum_sym.inputs.motor_writer import write_motor
+
+        if self.status != "solved":
+            raise ParameterError("calibration", self.status, f"a solved one; {self.message}")
+        write_motor(self.motor, base, target)
+
+
+def calibrate(
+    data: str | PathLike[str] | Measurements | Mapping[str, object],
+    motor: Motor | str | PathLike[str] = "trum60",
+    *,
+    parameters: Sequence[str] | None = None,
+    drive: Drive | None = None,
+    errors: str = "absolute",
+    confidence: float = 0.95,
+    contact: Contact = "winkler",
+    resonance: Resonance = "quartic",
+    foundation: Foundation = "harmonic",
+    amplitude: Amplitude = "measured",
+    sampling_period: float | None = None,
+    progress: bool = False,
+) -> Calibration:
+    """Fit parameters of the motor to measured data by least squares.
+
+    Parameters
+    ----------
+    data : path, Measurements or mapping
+        A CSV file with units in its headers, or columns in SI units by name: fields of the drive and at least one
+        figure of :func:`trum_sym.evaluate`, or ``time`` and one of ``displacement``, ``velocity``, ``envelope``.
+        Several measured columns need a ``NAME_uncertainty`` each, which weighs them.
+    motor : Motor, name or path
+        Its values are where the search begins, and stay where they are not fitted.
+    parameters : sequence of str, optional
+        Any continuous ones of the motor.  If not given: eq. 8's factor and exponent for ``amplitude``, the layer's
+        stiffness for ``resonance_frequency``, the damping ratio for a decay, else friction and contact radius.
+    drive : Drive, optional
+        What the data have no column for; Table 3 if not given.
+    errors : {"absolute", "relative"}
+        Whether the measured columns scatter by the same amount in every row, or by the same share of their value
+        (then logarithms are compared).  An uncertainty column multiplies either.
+    confidence : float
+        Of the intervals.
+    contact, resonance, foundation, amplitude, sampling_period
+        As for :func:`trum_sym.evaluate`.
+    progress : bool
+        Whether to count the steps on the standard error.
+
+    Returns
+    -------
+    Calibration
+
+    Raises
+    ------
+    ParameterError
+        For bad input; names the column, row or parameter.
+    ConvergenceError
+        If the fit does not settle, or the model has no answer where the search begins.
+    MissingExtraError
+        Without SciPy.
+    """
+    measured = _measurements(data)
+    machine = motor if isinstance(motor, Motor) else load_motor(motor)
+    choice("errors", errors, ERRORS)
+    confidence = float(number("confidence", confidence, Domain(low=0.0, high=1.0), "1"))
+    names = _names(measured, parameters)
+    drive = Drive() if drive is None else drive
+    if not isinstance(drive, Drive) or any(np.ndim(value) for value in drive.numbers().values()):
+        raise ParameterError("drive", drive, "a Drive of single numbers; what varies is a column of the data")
+    if any(np.ndim(parameter.value) for _, parameter in machine.parameters()):
+        raise ParameterError("motor", machine.name, "a motor of single numbers, not arrays")
+    levels = Levels(contact, resonance, foundation, amplitude)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ValidityWarning)  # the search may leave eq. 8's range, or set it
+        model: Model
+        if measured.is_decay:
+            model = DecayModel(measured, machine, names, drive, levels)
+        else:
+            model = PointModel(measured, machine, names, drive, levels, sampling_period)
+        return _fitted(model, measured, machine, names, errors, confidence, progress)
+
+
+def _measurements(data: object) -> Measurements:
+    if isinstance(data, Measurements):
+        return data
+    if isinstance(data, Mapping):
+        return from_columns("data", data, {}, synthetic=False)
+    if not isinstance(data, str | PathLike) or not str(data):
+        raise ParameterError("data", data, "the path of a CSV file, or columns by name")
+    return read_measurements(data)
+
+
+def _names(data: Measurements, parameters: Sequence[str] | None) -> tuple[str, ...]:
+    """The motor's parameters that are to be fitted."""
+    if parameters is None:
+        usual = {_USUAL.get(observed, _USUAL_OTHERWISE) for observed in data.observed}
+        parameters = usual.pop() if len(usual) == 1 else _USUAL_OTHERWISE
+    if isinstance(parameters, str) or not parameters:
+        raise ParameterError("parameters", parameters, "names of the motor file in a list")
+    for place, name in enumerate(parameters):
+        if spec(name).domain.integer:
+            raise ParameterError("parameters", name, "parameters that vary continuously")
+        if name in parameters[:place]:
+            raise ParameterError("parameters", name, "each name once")
+    return tuple(parameters)
+
+
+def _fitted(
+    model: Model,
+    data: Measurements,
+    motor: Motor,
+    names: tuple[str, ...],
+    errors: str,
+    confidence: float,
+    progress: bool,
+) -> Calibration:
+    measured, count = model.measured, len(model.names)
+    if measured.size <= count:
+        raise ParameterError("data", f"{measured.size} measured values", f"more than the {count} fitted parameters")
+    weights = 1.0 if model.uncertainty is None else 1.0 / model.uncertainty
+    if errors == "relative":
+        if np.any(measured <= 0):
+            raise ParameterError("errors", "relative", "measured values all > 0, or errors absolute")
+        weights = weights * (1.0 if model.uncertainty is None else measured)
+
+    def residuals(values: Array) -> Array:
+        found = model.predict(values)
+        if errors == "relative":
+            with np.errstate(invalid="ignore", divide="ignore"):
+                return np.asarray(weights * np.log(found / measured))
+        return np.asarray(weights * (found - measured))
+
+    def jacobian(values: Array) -> Array:
+        slopes = model.slopes(values)
+        if errors == "relative":
+            slopes = slopes / model.predict(values)[:, np.newaxis]
+        return np.asarray(slopes * np.broadcast_to(weights, measured.shape)[:, np.newaxis])
+
+    columns = np.split(_compared(measured, weights, errors), len(data.observed))
+    whole = np.concatenate([column - np.mean(column) for column in columns])
+    found = fit(
+        model.names, residuals, jacobian, model.start, model.bounds, size=float(np.max(np.abs(whole))), judged=names,
+        confidence=confidence, resolution=model.resolution, on_step=_counter() if progress else lambda: None,
+    )  # fmt: skip
+    width = interval_factor(confidence, found.residuals.degrees_of_freedom)
+    error = np.sqrt(np.diag(found.covariance))
+    if not np.isfinite(found.separation.half_width):  # what rounding makes of it is no error
+        error[[model.names.index(name) for name in names]] = np.inf
+    estimates = tuple(
+        Estimate(
+            name, model.units[k], float(value), float(value - width * error[k]), float(value + width * error[k]),
+            float(error[k]), float(model.before[k]), name in names, model.exact[k],
+        )
+        for k, (name, value) in enumerate(zip(model.names, found.values, strict=True))
+    )  # fmt: skip
+    separation, ends = found.separation, _at_ends(model, found.values, names)
+    message = separation.message or ends
+    solved = not message
+    with np.errstate(invalid="ignore"):
+        correlation = np.where(np.isfinite(np.outer(error, error)), found.covariance / np.outer(error, error), np.nan)
+    left = found.residuals
+    return Calibration(
+        data=data.label, observed=data.observed, errors=errors, confidence=confidence,
+        status="solved" if solved else "unidentifiable", message=message,
+        motor=_with_estimates(motor, estimates, data) if solved else motor,
+        estimates=estimates, covariance=found.covariance, correlation=correlation, residuals=left,
+        residual_unit=_residual_unit(data, model, errors), separation=separation,
+        explained=1 - left.standard_deviation**2 * left.degrees_of_freedom / float(whole @ whole or np.nan),
+        iterations=found.iterations,
+    )  # fmt: skip
+
+
+def _compared(measured: Array, weights: Array | float, errors: str) -> Array:
+    return np.asarray(weights * (np.log(measured) if errors == "relative" else measured))
+
+
+def _at_ends(model: Model, values: Array, names: tuple[str, ...]) -> str:
+    """Says which parameter ran to the end of what it may be: then the interval means nothing."""
+    for k, name in enumerate(model.names):
+        low, high = model.bounds[0][k], model.bounds[1][k]
+        reach = 1e-6 * (abs(model.start[k]) or 1.0)
+        if name in names and (values[k] - low <= reach or high - values[k] <= reach):
+            return f"the fit drives {name} to the end of its range, {values[k]:.6g}: no motor of this model fits"
+    return ""
+
+
+def _residual_unit(data: Measurements, model: Model, errors: str) -> str:
+    if errors == "relative" or model.uncertainty is not None:
+        return "1"
+    (name,) = data.observed
+    return OUTPUTS[name].unit if name in OUTPUTS else model.units[-1]
+
+
+def _with_estimates(motor: Motor, estimates: tuple[Estimate, ...], data: Measurements) -> Motor:
+    """The motor with the fitted values; eq. 8 carries the range on which it was fitted."""
+    changed = {}
+    for e in estimates:
+        if e.in_motor:
+            symbol = SPECS[e.name].symbol
+            changed[e.name] = Parameter(
+                e.value, e.unit, symbol, "calibrated", interval=(e.low, e.high), data=data.label
+            )
+    if set(_LAW) & set(changed) and "prepressure" in data.inputs:
+        force = data.columns["prepressure"]
+        for name, value in (("fit_prepressure_min", force.min()), ("fit_prepressure_max", force.max())):
+            changed[name] = Parameter(float(value), SPECS[name].unit, SPECS[name].symbol, data.label)
+    return replace(motor, **changed)  # type: ignore[arg-type]
+
+
+def _counter() -> Callable[[], None]:
+    import sys
+
+    import click
+
+    count = 0
+
+    def step() -> None:
+        nonlocal count
+        count += 1
+        click.echo(f"\rcalibrate: step {count}", err=True, nl=False)
+        sys.stderr.flush()
+
+    return step

@@ -1,0 +1,139 @@
+"""A calibration for people (tables) and for programs (JSON)."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import numpy as np
+
+from trum_sym.calibration.calibrate import Calibration, Estimate
+from trum_sym.inputs.checks import Array
+from trum_sym.inputs.motor import Motor
+
+__all__ = ["calibration_json", "calibration_table"]
+
+_SHOWN_CORRELATION = 0.9
+
+
+def _number(value: float) -> float | None:
+    return float(value) if math.isfinite(value) else None
+
+
+def _matrix(values: Array) -> list[list[float | None]]:
+    return [[_number(x) for x in row] for row in values]
+
+
+def calibration_json(found: Calibration) -> str:
+    """One JSON object in SI units; null where a figure has no meaning or is infinite."""
+    left, apart = found.residuals, found.separation
+    record = {
+        "status": found.status,
+        "message": found.message,
+        "data": found.data,
+        "observed": list(found.observed),
+        "rows": left.count // len(found.observed),
+        "errors": found.errors,
+        "confidence": found.confidence,
+        "parameters": {e.name: _estimate(e) for e in found.estimates if e.in_motor},
+        "of_the_record": {e.name: _estimate(e) for e in found.estimates if not e.in_motor},
+        "order": [e.name for e in found.estimates],
+        "covariance": _matrix(found.covariance),
+        "correlation": _matrix(found.correlation),
+        "residuals": {
+            "degrees_of_freedom": left.degrees_of_freedom,
+            "standard_deviation": left.standard_deviation,
+            "unit": found.residual_unit,
+            "largest": left.largest,
+            "largest_row": left.largest_row,
+            "lag_correlation": left.lag_correlation,
+            "explained": _number(found.explained),
+        },
+        "identifiability": {
+            "separated": apart.separated,
+            "singular_values": [_number(x) for x in apart.singular_values],
+            "condition_number": _number(apart.condition_number),
+            "least_seen": apart.direction,
+            "half_width": _number(apart.half_width),
+        },
+        "iterations": found.iterations,
+    }
+    return json.dumps(record, indent=1, allow_nan=False)
+
+
+def _estimate(e: Estimate) -> dict[str, object]:
+    known = math.isfinite(e.standard_error)
+    return {
+        "value": e.value if known else None,
+        "unit": e.unit,
+        "low": _number(e.low),
+        "high": _number(e.high),
+        "standard_error": _number(e.standard_error),
+        "before": _number(e.before),
+        "exact_slopes": e.exact_slopes,
+    }
+
+
+def calibration_table(found: Calibration, motor: Motor) -> str:
+    """What was fitted beside what the motor had, what is left, and what the data can tell apart."""
+    from tabulate import tabulate
+
+    rows = []
+    for e in found.estimates:
+        parameter = getattr(motor, e.name) if e.in_motor else None
+        source = parameter.source if parameter is not None else "modelled" if e.in_motor else "of the record"
+        before = f"{e.before:.6g}" if math.isfinite(e.before) else ""
+        ends = f"{e.low:.6g} to {e.high:.6g}" if math.isfinite(e.standard_error) else "open"
+        value = f"{e.value:.6g}" if math.isfinite(e.standard_error) else "open"
+        rows.append((e.name, value, ends, "" if e.unit == "1" else e.unit, before, source))
+    interval = f"{100 * found.confidence:g} % interval"
+    table = tabulate(
+        rows, headers=("", "fitted", interval, "unit", "before", "source before"), disable_numparse=True,
+        colalign=("left", "right", "right", "left", "right", "left"),
+    )  # fmt: skip
+    left, apart = found.residuals, found.separation
+    unit = "" if found.residual_unit == "1" else f" {found.residual_unit}"
+    count = left.count // len(found.observed)
+    lines = [
+        f"{motor.name} fitted to {found.data}: {count} rows of {' and '.join(found.observed)}, {found.errors} errors",
+        "",
+        table,
+        "",
+        f"residuals: standard deviation {left.standard_deviation:.3g}{unit} with {left.degrees_of_freedom} degrees of "
+        f"freedom, largest {left.largest:+.3g}{unit} in {_place(found, count)}, R^2 {found.explained:.6f}, "
+        f"neighbours' correlation {left.lag_correlation:+.2f}",
+        "separation: "
+        + (f"condition {apart.condition_number:.3g}; " if math.isfinite(apart.half_width) else "none; ")
+        + "least seen "
+        + ", ".join(f"{name} {100 * change:+.3g} %" for name, change in apart.direction.items())
+        + (f", known to {100 * apart.half_width:.3g} %" if math.isfinite(apart.half_width) else ""),
+    ]
+    lines += _related(found)
+    lines += _suspicious(found)
+    if found.status != "solved":
+        lines += ["", f"{found.status}: {found.message}"]
+    return "\n".join(lines)
+
+
+def _place(found: Calibration, rows: int) -> str:
+    column, row = divmod(found.residuals.largest_row - 1, rows)
+    return f"row {row + 1}" + (f" of {found.observed[column]}" if len(found.observed) > 1 else "")
+
+
+def _related(found: Calibration) -> list[str]:
+    """Pairs of the motor's parameters that must be used together."""
+    notes = []
+    for i, first in enumerate(found.estimates):
+        for j in range(i):
+            second, r = found.estimates[j], found.correlation[i, j]
+            if first.in_motor and second.in_motor and np.isfinite(r) and abs(r) > _SHOWN_CORRELATION:
+                notes.append(f"correlated {r:+.4f}: {second.name} and {first.name} hold together, not each for itself")
+    return notes
+
+
+def _suspicious(found: Calibration) -> list[str]:
+    """Whether neighbouring residuals go together, which scatter does not do."""
+    left = found.residuals
+    if left.count >= 8 and left.lag_correlation > 2 / math.sqrt(left.count):
+        return ["neighbouring residuals go together: the model's form may not fit, and the intervals are too narrow"]
+    return []

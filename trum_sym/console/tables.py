@@ -1,0 +1,107 @@
+"""An operating point for people (a table beside the published figures) and for programs (JSON)."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from trum_sym.inputs.drive import Drive
+from trum_sym.inputs.motor import Motor, Published
+from trum_sym.inputs.units import parse_unit
+from trum_sym.model.operating_point import OperatingPoint
+from trum_sym.quantities import OUTPUTS
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["as_json_text", "as_table", "histories_table"]
+
+
+def as_json_text(point: OperatingPoint) -> str:
+    """The point as a JSON object; null where a figure has no meaning or is infinite."""
+    figures = {
+        name: None if isinstance(value, float) and not math.isfinite(value) else value
+        for name, value in point.as_dict().items()
+    }
+    return json.dumps(figures, indent=1, allow_nan=False)
+
+
+def histories_table(histories: xr.Dataset) -> str:
+    """What the histories span: lowest, mean and highest value of each, in SI units."""
+    from tabulate import tabulate
+
+    rows = [
+        (name, *(f"{float(value):.6g}" for value in (h.min(), h.mean(), h.max())), h.units, h.long_name)
+        for name, h in histories.data_vars.items()
+    ]
+    table = tabulate(
+        rows, headers=("", "lowest", "mean", "highest", "unit", ""), disable_numparse=True,
+        colalign=("left", "right", "right", "right", "left", "left"),
+    )  # fmt: skip
+    count, known = histories.sizes["time"], histories.attrs
+    title = (
+        f"{known['title']}, start {known['start']}\n{known['cycles']} cycles of {1e3 * known['cycle_time']:.6g} ms, "
+        f"{count} times; --out FILE.nc or FILE.csv writes them"
+    )
+    notes = ["", "no speed balances the load: it exceeds what friction can transmit"] if known["runaway"] else []
+    if not (known["runaway"] or known["converged"]):
+        notes = ["", "the rotor's speed did not settle to its tolerance"]
+    return "\n".join([title, "", table, *notes])
+
+
+def _published(motor: Motor, drive: Drive) -> dict[str, Published]:
+    """What is published for this very drive, by figure."""
+    settings = drive.numbers()
+    return {
+        entry.output: entry
+        for entry in motor.published
+        if all(bool(np.isclose(settings[name], value, rtol=1e-9)) for name, value in entry.drive.items())
+    }
+
+
+def _convert(value: float, unit: str, shown: str) -> float:
+    return parse_unit(unit).to_si(value) / parse_unit(shown).to_si(1.0)
+
+
+def as_table(motor: Motor, drive: Drive, point: OperatingPoint, levels: Mapping[str, object]) -> str:
+    """The point as a table: our value, the published one where there is one, the difference, the unit."""
+    from tabulate import tabulate
+
+    published = _published(motor, drive)
+    rows = []
+    for name, (label, unit, shown) in OUTPUTS.items():
+        value, entry = getattr(point, name), published.get(name)
+        ours = f"{_convert(value, unit, shown):.6g}" if np.isfinite(value) else "-"
+        paper = difference = source = ""
+        if entry is not None:
+            theirs = _convert(entry.value, entry.unit, shown)
+            paper, source = f"{theirs:.6g}", entry.source
+            if np.isfinite(value) and theirs:
+                difference = f"{100 * (_convert(value, unit, shown) / theirs - 1):+.2f} %"
+        rows.append((label, ours, "" if shown == "1" else shown, paper, difference, source))
+    table = tabulate(
+        rows, headers=("", "ours", "unit", "paper", "difference", "printed in"), disable_numparse=True,
+        colalign=("left", "right", "left", "right", "right", "left"),
+    )  # fmt: skip
+    title = (
+        f"{motor.name} at {drive.prepressure:g} N, {drive.frequency_difference:+g} Hz, {drive.on_periods:g} of "
+        f"{drive.periods:g} periods on, load {drive.load_torque:g} N m\n"
+        f"start {point.start}, phase lead {drive.phase_lead:+g}, switching phase {drive.switching_phase:g} rad\n"
+        + ", ".join(f"{name} {level}" for name, level in levels.items() if level is not None)
+    )
+    return "\n".join([title, "", table, *_notes(drive, point)])
+
+
+def _notes(drive: Drive, point: OperatingPoint) -> list[str]:
+    """What the figures alone do not say about the rotor."""
+    if np.isnan(float(point.mean_speed)):
+        return ["", "no speed balances the load: it exceeds what friction can transmit"]
+    notes = [] if point.converged else ["", "the rotor's speed did not settle to its tolerance"]
+    load, speed, stall = (float(x) for x in (drive.load_torque, point.mean_speed, point.stall_torque))
+    if speed * load < 0 and abs(load) > abs(stall):
+        notes += ["", "the load exceeds the stall torque and drives the rotor back"]
+    return notes

@@ -1,0 +1,264 @@
+"""Measured data: a CSV file whose headers carry units, read into columns in SI."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+from types import MappingProxyType
+
+import numpy as np
+
+from trum_sym.errors import ParameterError
+from trum_sym.inputs.checks import Array, Domain, number
+from trum_sym.inputs.drive import DRIVE_DOMAINS
+from trum_sym.inputs.units import Unit, parse_unit
+from trum_sym.quantities import OUTPUTS
+
+__all__ = ["INPUTS", "SIGNALS", "UNCERTAINTY", "Measurements", "from_columns", "read_measurements", "table_of"]
+
+INPUTS = MappingProxyType(
+    {**DRIVE_DOMAINS, "phase_lead": (Domain(low=-1, low_open=False, high=1, high_open=False), "1")}
+)
+SIGNALS = ("displacement", "velocity", "envelope")  # of a decay, each against time
+UNCERTAINTY = "_uncertainty"
+
+_POSITIVE = (
+    "amplitude",
+    "resonance_frequency",
+    "drive_frequency",
+    "cycle_time",
+    "neutral_axis",
+    "wavenumber",
+    "envelope",
+)
+_MAX_BYTES = 200_000_000
+
+
+@dataclass(frozen=True)
+class Measurements:
+    """Columns of one length, in SI units, by name.
+
+    Attributes
+    ----------
+    name : str
+        What the data are called: the file's name, or what the caller says.
+    columns : mapping of str to (n,) array
+        Fields of the drive, figures of an operating point, or time and a signal; ``NAME_uncertainty`` is
+        the standard uncertainty of a figure, row by row.
+    units : mapping of str to str
+        The unit that each column was given in.
+    synthetic : bool
+        Whether the file says of itself that a model made it.
+    """
+
+    name: str
+    columns: Mapping[str, Array]
+    units: Mapping[str, str]
+    synthetic: bool = False
+
+    def __len__(self) -> int:
+        return next(iter(self.columns.values())).size
+
+    @property
+    def label(self) -> str:
+        """The name, and that it is synthetic if it is."""
+        return f"{self.name} (synthetic)" if self.synthetic else self.name
+
+    @property
+    def is_decay(self) -> bool:
+        """Whether these are vibrations against time."""
+        return "time" in self.columns
+
+    @property
+    def observed(self) -> tuple[str, ...]:
+        """The measured columns: figures, or the signal of a decay."""
+        return tuple(n for n in self.columns if n in (*OUTPUTS, *SIGNALS))
+
+    @property
+    def inputs(self) -> tuple[str, ...]:
+        """The columns that say how the motor was driven."""
+        return tuple(n for n in self.columns if n in INPUTS)
+
+
+def from_columns(name: str, columns: Mapping[str, object], units: Mapping[str, str], synthetic: bool) -> Measurements:
+    """Check columns in SI units.
+
+    Raises
+    ------
+    ParameterError
+        For an unknown or missing column, a value that is not finite or outside its domain, or unequal lengths.
+    """
+    checked: dict[str, Array] = {}
+    for column, values in columns.items():
+        wanted, domain = _expected(column)
+        array = np.atleast_1d(np.asarray(number(column, values, domain, wanted or "its SI unit")))
+        if array.ndim != 1:
+            raise ParameterError(column, f"shape {array.shape}", "one row of numbers")
+        checked[column] = array
+    lengths = {column: array.size for column, array in checked.items()}
+    for column, length in lengths.items():
+        if length != next(iter(lengths.values())):
+            first = next(iter(lengths))
+            raise ParameterError(column, f"{length} rows", f"as many as {first}, {lengths[first]}")
+    data = Measurements(name, MappingProxyType(checked), MappingProxyType(dict(units)), synthetic)
+    _check_columns(data)
+    return data
+
+
+def _expected(column: str) -> tuple[str | None, Domain]:
+    """SI unit (None: the user's choice) and domain of a column."""
+    of = column.removesuffix(UNCERTAINTY)
+    if of in OUTPUTS or of in SIGNALS:
+        unit = OUTPUTS[of].unit if of in OUTPUTS else {"displacement": "m", "velocity": "m/s"}.get(of)
+        return unit, Domain(low=0.0) if of != column or of in _POSITIVE else Domain()
+    if column in INPUTS:
+        domain, unit = INPUTS[column]
+        return unit, domain
+    if column == "time":
+        return "s", Domain()
+    known = (*INPUTS, *OUTPUTS, "time", *SIGNALS)
+    from difflib import get_close_matches
+
+    close = get_close_matches(column, known, n=3, cutoff=0.5)
+    hint = f"; close names: {', '.join(close)}" if close else ""
+    raise ParameterError("column", column, f"a field of the drive, a figure of evaluate, or time with a signal{hint}")
+
+
+def _check_columns(data: Measurements) -> None:
+    """Whether the columns together make data that can be fitted."""
+    names = set(data.columns)
+    signals = names & set(SIGNALS)
+    if data.is_decay:
+        if len(signals) != 1:
+            raise ParameterError("data", " and ".join(sorted(names)), f"time and one of {', '.join(SIGNALS)}")
+        odd = sorted(names - {"time"} - signals)
+        if odd:
+            raise ParameterError(
+                "column", odd[0], f"time and {signals.pop()} only: a decay record has no other columns"
+            )
+        if np.any(np.diff(data.columns["time"]) <= 0):
+            row = int(np.argmax(np.diff(data.columns["time"]) <= 0)) + 2
+            raise ParameterError(f"time: row {row}", data.columns["time"][row - 1], "times that rise from row to row")
+        return
+    if signals:
+        raise ParameterError("data", f"{signals.pop()} without time", "a column time beside it")
+    if not data.observed:
+        raise ParameterError(
+            "data", "no measured column", f"at least one of {', '.join(OUTPUTS)}, or time and a signal"
+        )
+    for column in names:
+        of = column.removesuffix(UNCERTAINTY)
+        if of != column and of not in names:
+            raise ParameterError("column", column, f"a column {of} beside it")
+    if len(data.observed) > 1:
+        for column in data.observed:
+            if column + UNCERTAINTY not in names:
+                raise ParameterError(
+                    "data", " and ".join(data.observed),
+                    f"one measured column, or a column {column}{UNCERTAINTY} to weigh it against the others",
+                )  # fmt: skip
+
+
+def read_measurements(source: str | PathLike[str]) -> Measurements:
+    """Read a CSV file such as ``prepressure [N],amplitude [um]``.
+
+    Lines that begin with ``#`` are comments; one that begins with ``# synthetic`` says that a model made the data.
+
+    Raises
+    ------
+    ParameterError
+        If the file cannot be read, a header has no known name or a wrong unit, or a cell is no finite number.
+    """
+    path = Path(source)
+    found, units, comments = table_of(path, lambda name: _expected(name)[0])
+    synthetic = any(comment.lstrip("# ").casefold().startswith("synthetic") for comment in comments)
+    return from_columns(path.name, found, units, synthetic)
+
+
+def table_of(path: Path, unit_of: Callable[[str], str | None]) -> tuple[dict[str, Array], dict[str, str], list[str]]:
+    """Columns in SI, the unit each was given in, and the comments of a CSV file with units in its headers.
+
+    Parameters
+    ----------
+    path, unit_of : Path, callable
+        The file; the SI unit of a column by name, None if any will do; raises a ParameterError for a name that is none.
+    """
+    comments, rows = _rows(path)
+    if not rows:
+        raise ParameterError("data", str(path), "a CSV file with a header line such as prepressure [N],amplitude [um]")
+    (_, header), *body = rows
+    columns = [_header(cell, unit_of) for cell in header]
+    names = [name for name, _, _ in columns]
+    for place, name in enumerate(names):
+        if name in names[:place]:
+            raise ParameterError("column", name, "each column once")
+    if not body:
+        raise ParameterError("data", f"{path.name} with a header and no rows", "at least one row of numbers")
+    found: dict[str, list[float]] = {name: [] for name in names}
+    for line, cells in body:
+        if len(cells) != len(names):
+            raise ParameterError(f"data: line {line}", f"{len(cells)} cells", f"{len(names)}, one for each column")
+        for (name, unit, given), cell in zip(columns, cells, strict=True):
+            found[name].append(_cell(f"{name}: line {line}", cell, unit, given))
+    units = {name: given for name, _, given in columns}
+    return {name: np.array(values) for name, values in found.items()}, units, comments
+
+
+def _rows(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
+    """Comments, and cells with their line numbers."""
+    try:
+        if path.stat().st_size > _MAX_BYTES:
+            raise ParameterError("data", f"{path.stat().st_size} bytes", f"at most {_MAX_BYTES} bytes")
+        text = path.read_text("utf-8-sig")
+    except FileNotFoundError:
+        raise ParameterError("data", str(path), "the path of a CSV file that exists") from None
+    except (OSError, ValueError) as error:
+        if isinstance(error, ParameterError):
+            raise
+        reason = error.strerror if isinstance(error, OSError) else "not UTF-8 text"
+        raise ParameterError("data", str(path), f"a readable CSV file ({reason})") from None
+    numbered = [(k, line) for k, line in enumerate(text.splitlines(), 1) if line.strip()]
+    comments = [line for _, line in numbered if line.startswith("#")]
+    data = [(k, line) for k, line in numbered if not line.startswith("#")]
+    try:
+        cells = list(csv.reader((line for _, line in data), strict=True))
+    except csv.Error as error:
+        raise ParameterError("data", str(path), f"a CSV file ({error})") from None
+    if len(cells) != len(data):
+        raise ParameterError("data", str(path), "a CSV file with one row a line")
+    return comments, [(k, row) for (k, _), row in zip(data, cells, strict=True)]
+
+
+def _header(cell: str, unit_of: Callable[[str], str | None]) -> tuple[str, Unit, str]:
+    """Name, unit and the unit's text of ``name [unit]``; a pure number needs no unit."""
+    name, bracket, rest = (part.strip() for part in cell.partition("["))
+    wanted = unit_of(name)
+    if bracket and not rest.endswith("]"):
+        raise ParameterError("column", cell, "a header such as prepressure [N]")
+    given = rest.removesuffix("]").strip() if bracket else ""
+    if not given:
+        if wanted != "1":
+            raise ParameterError("column", cell, f"a unit in brackets: {name} [{wanted or 'm'}]")
+        given = "1"
+    allowed = f"a unit that converts to {wanted}" if wanted not in (None, "1") else "1, or a unit"
+    try:
+        unit = parse_unit(given)
+    except ValueError as error:
+        raise ParameterError(f"column {name}", given, f"{allowed} ({error})") from None
+    if wanted is not None and unit.dimension != parse_unit(wanted).dimension:
+        raise ParameterError(f"column {name}", given, allowed)
+    return name, unit, given
+
+
+def _cell(name: str, text: str, unit: Unit, given: str) -> float:
+    allowed = f"a finite number in {given}" if given != "1" else "a finite number"
+    try:
+        value = unit.to_si(float(text))
+    except (ValueError, OverflowError):
+        raise ParameterError(name, text, allowed) from None
+    if not np.isfinite(value):
+        raise ParameterError(name, text, allowed)
+    return value

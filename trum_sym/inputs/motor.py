@@ -1,0 +1,221 @@
+"""The motor: a frozen set of parameters, each with its unit, symbol and source."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, fields, replace
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from trum_sym.errors import ParameterError
+from trum_sym.inputs.checks import ArrayLike, Domain, broadcast_shape, number
+from trum_sym.inputs.units import parse_quantity
+
+if TYPE_CHECKING:
+    from trum_sym.inputs.distributions import Distribution
+
+__all__ = ["SPECS", "Motor", "Parameter", "Published", "Spec", "spec"]
+
+_POSITIVE = Domain(low=0.0)
+_SIZE = Domain(low=0.0, high=10.0)  # m
+_VIBRATION = Domain(low=0.0, high=1e-2)  # m
+_NOT_NEGATIVE = Domain(low=0.0, low_open=False)
+_COUNT = Domain(low=1, low_open=False, integer=True)
+_POISSON = Domain(low=-1.0, high=0.5, high_open=False)
+_REAL = Domain()
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One value of a motor file.
+
+    Attributes
+    ----------
+    value : float or ndarray
+        In the SI unit ``unit``.
+    unit : str
+        SI unit; ``"1"`` for a pure number.
+    symbol : str
+        The symbol in the equations.
+    source : str
+        Where the value comes from: ``"Table 1"``, ``"measured ..."``, ``"assumed"``, ``"set"``, ...
+    range : (float, float) or None
+        For assumed values: what is plausible, in ``unit``.
+    reason : str
+        For assumed values: why this value and range.
+    interval : (float, float) or None
+        For calibrated values: the confidence interval, in ``unit``.
+    data : str
+        For calibrated values: the name of the data.
+    distribution : Distribution or None
+        How the value spreads, where the motor file says more than a range.
+    """
+
+    value: ArrayLike
+    unit: str
+    symbol: str
+    source: str
+    range: tuple[float, float] | None = None
+    reason: str = ""
+    interval: tuple[float, float] | None = None
+    data: str = ""
+    distribution: Distribution | None = None
+
+
+@dataclass(frozen=True)
+class Spec:
+    """What a parameter must be: SI unit, symbol, domain, and whether a motor file must give it."""
+
+    unit: str
+    symbol: str
+    domain: Domain
+    required: bool
+
+
+def _p(unit: str, symbol: str, domain: Domain = _POSITIVE) -> Any:  # noqa: ANN401
+    return field(metadata={"spec": Spec(unit, symbol, domain, required=True)})
+
+
+def _optional(unit: str, symbol: str, domain: Domain = _POSITIVE) -> Any:  # noqa: ANN401
+    return field(default=None, metadata={"spec": Spec(unit, symbol, domain, required=False)})
+
+
+@dataclass(frozen=True)
+class Published:
+    """A figure that a publication states for one drive, to be shown beside ours."""
+
+    output: str
+    value: float
+    unit: str
+    source: str
+    drive: Mapping[str, float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Motor:
+    """A travelling-wave rotary ultrasonic motor: every number with unit and source.
+
+    The names are those of the motor file and of ``--set``.  The last five are optional: a measured
+    value there replaces the modelled one.
+    """
+
+    name: str
+    # Stator ring: metal beam with teeth
+    radius: Parameter = _p("m", "R", _SIZE)
+    tooth_count: Parameter = _p("1", "n_s", _COUNT)
+    perimeter: Parameter = _p("m", "l_s", _SIZE)
+    slot_width: Parameter = _p("m", "b_s", _SIZE)
+    beam_width: Parameter = _p("m", "b_e", _SIZE)
+    beam_thickness: Parameter = _p("m", "h_e", _SIZE)
+    tooth_height: Parameter = _p("m", "h_t", _SIZE)
+    beam_density: Parameter = _p("kg/m^3", "rho_e")
+    beam_young_modulus: Parameter = _p("Pa", "E_e")
+    beam_shear_modulus: Parameter = _p("Pa", "G_e")
+    beam_poisson_ratio: Parameter = _p("1", "mu_e", _POISSON)
+    # Piezoelectric ring
+    piezo_width: Parameter = _p("m", "b_p", _SIZE)
+    piezo_thickness: Parameter = _p("m", "h_p", _SIZE)
+    piezo_density: Parameter = _p("kg/m^3", "rho_p")
+    piezo_young_modulus: Parameter = _p("Pa", "E_p")
+    piezo_shear_modulus: Parameter = _p("Pa", "G_p")
+    piezo_poisson_ratio: Parameter = _p("1", "mu_p", _POISSON)
+    piezo_strain_constant: Parameter = _p("C/N", "d_31", _REAL)
+    piezo_compliance: Parameter = _p("m^2/N", "s_11E")
+    voltage: Parameter = _p("V", "U_s")
+    # Friction layer
+    layer_width: Parameter = _p("m", "b_m", _SIZE)
+    layer_thickness: Parameter = _p("m", "h_m", _SIZE)
+    layer_density: Parameter = _p("kg/m^3", "rho_m")
+    layer_young_modulus: Parameter = _p("Pa", "E_m")
+    layer_poisson_ratio: Parameter = _p("1", "mu_m", _POISSON)
+    # Vibration
+    crests: Parameter = _p("1", "n_j", _COUNT)
+    shear_correction: Parameter = _p("1", "kappa", Domain(low=0.0, high=1.0, high_open=False))
+    damping_ratio: Parameter = _p("1", "xi", Domain(low=0.0, low_open=False, high=1.0))
+    free_amplitude: Parameter = _p("m", "W_max", _VIBRATION)
+    amplitude_factor: Parameter = _p("1", "C_f")
+    amplitude_exponent: Parameter = _p("1", "varsigma", _NOT_NEGATIVE)
+    fit_prepressure_min: Parameter = _p("N", "F_min")
+    fit_prepressure_max: Parameter = _p("N", "F_max")
+    # Contact and rotor
+    friction_coefficient: Parameter = _p("1", "mu", _NOT_NEGATIVE)
+    contact_radius: Parameter = _p("m", "r_c", _SIZE)
+    curvature_radius: Parameter = _p("m", "r_t", _SIZE)
+    rotor_inertia: Parameter = _p("kg*m^2", "J", Domain(low=1e-15, high=1e6))
+    # A measured value replaces the modelled one
+    resonance_frequency: Parameter | None = _optional("Hz", "f_n", Domain(low=0.0, high=1e9))
+    amplitude: Parameter | None = _optional("m", "W_maxf", _VIBRATION)
+    neutral_axis: Parameter | None = _optional("m", "D", _SIZE)
+    wavenumber: Parameter | None = _optional("1/m", "k_c")
+    layer_stiffness: Parameter | None = _optional("N/m^2", "k_N")
+    published: tuple[Published, ...] = ()
+    text: str = field(default="", repr=False, compare=False)  # of the motor file, whatever was set since
+
+    def __post_init__(self) -> None:
+        """Checks every value, and the sizes that must fit each other."""
+        for name, parameter in self.parameters():
+            number(name, parameter.value, SPECS[name].domain, parameter.unit)
+        broadcast_shape({name: parameter.value for name, parameter in self.parameters()})
+        _ordered(self, "tooth_height", "beam_thickness")
+        _ordered(self, "fit_prepressure_min", "fit_prepressure_max")
+        gaps = self.tooth_count.value * self.slot_width.value
+        if np.any(gaps >= self.perimeter.value):
+            raise ParameterError("slot_width", self.slot_width.value, "less than perimeter / tooth_count")
+
+    def parameters(self) -> Iterator[tuple[str, Parameter]]:
+        """The parameters that are set, by name."""
+        for name in SPECS:
+            parameter = getattr(self, name)
+            if parameter is not None:
+                yield name, parameter
+
+    def symbols(self) -> dict[str, ArrayLike]:
+        """The values by the symbols of the equations, as the kernels name their arguments."""
+        return {parameter.symbol: parameter.value for _, parameter in self.parameters()}
+
+    def with_values(self, values: Mapping[str, float | ArrayLike | str], source: str = "set") -> Motor:
+        """A motor with some values replaced; text may carry a unit, ``"26.5 mm"``.
+
+        Parameters
+        ----------
+        values : mapping
+            New values by parameter name; plain numbers are in the parameter's SI unit.
+        source : str
+            Recorded as the new values' source.
+
+        Raises
+        ------
+        ParameterError
+            For an unknown name, or a value outside the parameter's domain.
+        """
+        changed = {}
+        for name, given in values.items():
+            wanted = spec(name)
+            value = parse_quantity(name, given, wanted.unit) if isinstance(given, str) else given
+            checked = number(name, value, wanted.domain, wanted.unit)
+            changed[name] = Parameter(checked, wanted.unit, wanted.symbol, source)
+        return replace(self, **changed)  # type: ignore[arg-type]
+
+
+def _ordered(motor: Motor, low: str, high: str) -> None:
+    small, large = getattr(motor, low), getattr(motor, high)
+    if np.any(small.value >= large.value):
+        raise ParameterError(low, small.value, f"less than {high} ({np.max(large.value):g} {large.unit})")
+
+
+SPECS: Mapping[str, Spec] = MappingProxyType(
+    {f.name: f.metadata["spec"] for f in fields(Motor) if "spec" in f.metadata}
+)
+
+
+def spec(name: str) -> Spec:
+    """The specification of a parameter; a ParameterError for a name that is none."""
+    if name not in SPECS:
+        from difflib import get_close_matches
+
+        close = get_close_matches(name, SPECS, n=3, cutoff=0.5)
+        hint = f"; close names: {', '.join(close)}" if close else ""
+        raise ParameterError("motor parameter", name, f"a name of the motor file{hint}")
+    return SPECS[name]

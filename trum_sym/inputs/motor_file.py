@@ -1,0 +1,208 @@
+"""Motor files: TOML in, a checked :class:`~trum_sym.inputs.motor.Motor` out."""
+
+from __future__ import annotations
+
+import tomllib
+from os import PathLike
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+from trum_sym.errors import ParameterError
+from trum_sym.inputs.checks import ArrayLike, Domain, number
+from trum_sym.inputs.distributions import Distribution, checked
+from trum_sym.inputs.drive import DRIVE_DOMAINS
+from trum_sym.inputs.motor import SPECS, Motor, Parameter, Published, Spec, spec
+from trum_sym.inputs.units import Unit, parse_unit
+from trum_sym.quantities import OUTPUTS
+
+__all__ = ["load_motor", "motor_text"]
+
+_KEYS = (
+    "value", "unit", "symbol", "source", "range", "reason", "note", "interval", "data", "distribution", "mean",
+    "standard_deviation",
+)  # fmt: skip
+
+
+def _unit(name: str, given: str, wanted: str) -> Unit:
+    """The given unit, if it converts to the wanted one."""
+    allowed = f"a unit that converts to {wanted}" if wanted != "1" else "1, or a unit that converts to a pure number"
+    try:
+        unit = parse_unit(given)
+    except ValueError as error:
+        raise ParameterError(name, given, f"{allowed} ({error})") from None
+    if unit.dimension != parse_unit(wanted).dimension:
+        raise ParameterError(name, given, allowed)
+    return unit
+
+
+def _in_si(name: str, raw: object, unit: Unit, given: str) -> float:
+    allowed = f"a number in {given}" if given != "1" else "a number"
+    if isinstance(raw, bool) or not isinstance(raw, int | float):
+        raise ParameterError(name, raw, allowed)
+    try:
+        return unit.to_si(float(raw))
+    except OverflowError:
+        raise ParameterError(name, raw, allowed) from None
+
+
+def _read_parameter(name: str, entry: object) -> Parameter:
+    wanted = spec(name)
+    if not isinstance(entry, dict):
+        raise ParameterError(name, entry, "a table with value, unit and source")
+    unknown = sorted(set(entry) - set(_KEYS))
+    if unknown:
+        raise ParameterError(name, unknown[0], f"no other keys than {', '.join(_KEYS)}")
+    for key in ("value", "unit", "source"):
+        if key not in entry:
+            raise ParameterError(f"{name}.{key}", "nothing", f"{key} in the motor file")
+    for key in ("unit", "symbol", "source", "reason", "data", "note"):
+        if not isinstance(entry.get(key, ""), str):
+            raise ParameterError(f"{name}.{key}", entry[key], "text")
+    symbol, source, reason = (
+        entry.get("symbol", wanted.symbol),
+        entry["source"].strip(),
+        entry.get("reason", "").strip(),
+    )
+    if symbol != wanted.symbol:
+        raise ParameterError(f"{name}.symbol", symbol, f"{wanted.symbol}, the equations' symbol")
+    if not source:
+        raise ParameterError(f"{name}.source", source, "where the value comes from")
+    unit = _unit(f"{name}.unit", entry["unit"], wanted.unit)
+    si = _in_si(f"{name}.value", entry["value"], unit, entry["unit"])
+    value = number(name, si, wanted.domain, wanted.unit)
+    limits = _read_ends(f"{name}.range", entry.get("range"), value, unit, entry["unit"])
+    interval = _read_ends(f"{name}.interval", entry.get("interval"), value, unit, entry["unit"])
+    data = entry.get("data", "").strip()
+    if source.casefold() == "assumed" and (limits is None or not reason):
+        raise ParameterError(name, "source = 'assumed'", "a range and a reason beside it")
+    if source.casefold() == "calibrated" and (interval is None or not data):
+        raise ParameterError(name, "source = 'calibrated'", "an interval and data, the name of the data, beside it")
+    moments = {
+        key: _in_si(f"{name}.{key}", entry[key], unit, entry["unit"])
+        for key in ("mean", "standard_deviation")
+        if key in entry
+    }
+    distribution = _read_distribution(name, entry.get("distribution"), float(value), limits, moments, wanted)
+    return Parameter(value, wanted.unit, wanted.symbol, source, limits, reason, interval, data, distribution)
+
+
+def _read_ends(name: str, raw: object, value: ArrayLike, unit: Unit, given: str) -> tuple[float, float] | None:
+    """Two numbers around a value, in SI."""
+    if raw is None:
+        return None
+    if not isinstance(raw, list) or len(raw) != 2:
+        raise ParameterError(name, raw, "two numbers, low and high")
+    low, high = (_in_si(name, end, unit, given) for end in raw)
+    if not -float("inf") < low <= value <= high < float("inf"):
+        raise ParameterError(name, raw, "finite numbers with low <= value <= high")
+    return low, high
+
+
+def _read_distribution(
+    name: str,
+    kind: object,
+    value: float,
+    limits: tuple[float, float] | None,
+    moments: dict[str, float],
+    wanted: Spec,
+) -> Distribution | None:
+    """What is said beyond the range.
+
+    A triangular distribution has its peak at the value, a normal or lognormal one its mean unless another is given;
+    without a standard deviation, the range reaches two of them to either side of its middle.
+    """
+    if kind is None:
+        if moments:
+            raise ParameterError(
+                f"{name}.{next(iter(moments))}", "no distribution", "distribution = 'normal' beside it"
+            )
+        return None
+    if not isinstance(kind, str):
+        raise ParameterError(f"{name}.distribution", kind, "text")
+    if kind in ("uniform", "triangular") and moments:
+        raise ParameterError(f"{name}.{next(iter(moments))}", f"a {kind} distribution", "a range only")
+    if limits is None and "standard_deviation" not in moments:
+        raise ParameterError(f"{name}.distribution", kind, "a range or, if normal, a standard_deviation beside it")
+    low, high = limits or (-float("inf"), float("inf"))
+    if kind in ("uniform", "triangular"):
+        distribution = Distribution(kind, low, high, mode=value if kind == "triangular" else None)
+    else:
+        deviation = moments.get("standard_deviation", (high - low) / 4)
+        distribution = Distribution(kind, low, high, moments.get("mean", value), deviation)
+    checked(name, distribution, wanted)
+    return distribution
+
+
+def _read_published(entry: object) -> Published:
+    keys = {"output", "value", "unit", "source", "drive"}
+    if not isinstance(entry, dict) or set(entry) != keys or not isinstance(entry["drive"], dict):
+        raise ParameterError("published", entry, "tables with output, value, unit, source and a table drive")
+    for key in ("output", "unit", "source"):
+        if not isinstance(entry[key], str):
+            raise ParameterError(f"published.{key}", entry[key], "text")
+    if entry["output"] not in OUTPUTS:
+        raise ParameterError("published.output", entry["output"], f"one of {', '.join(OUTPUTS)}")
+    unit = _unit("published.unit", entry["unit"], OUTPUTS[entry["output"]].unit)
+    number("published.value", _in_si("published.value", entry["value"], unit, entry["unit"]), Domain(), entry["unit"])
+    for name, value in entry["drive"].items():
+        if name not in DRIVE_DOMAINS:
+            raise ParameterError("published.drive", name, f"one of {', '.join(DRIVE_DOMAINS)}")
+        domain, drive_unit = DRIVE_DOMAINS[name]
+        bare = _in_si(f"published.drive.{name}", value, parse_unit(drive_unit), drive_unit)
+        number(f"published.drive.{name}", bare, domain, drive_unit)
+    return Published(**{**entry, "drive": MappingProxyType(entry["drive"])})
+
+
+def motor_text(source: str | PathLike[str]) -> str:
+    """The text of a motor file, by name or path."""
+    path = Path(__file__).parents[1] / "data" / "trum60.toml" if str(source) == "trum60" else Path(source)
+    try:
+        return path.read_text("utf-8")
+    except FileNotFoundError:
+        raise ParameterError("motor", str(source), "trum60 or the path of a TOML file that exists") from None
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "not UTF-8 text"
+        raise ParameterError("motor", str(source), f"a readable TOML file ({reason})") from None
+
+
+def _read_toml(source: str | PathLike[str], text: str) -> dict[str, Any]:
+    try:
+        return tomllib.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise ParameterError("motor", str(source), f"a valid TOML file ({error})") from None
+
+
+def load_motor(source: str | PathLike[str] = "trum60") -> Motor:
+    """Read a motor by name (``"trum60"`` ships with the package) or from a TOML file.
+
+    Returns
+    -------
+    Motor
+        Frozen; every value in SI with unit and source.
+
+    Raises
+    ------
+    ParameterError
+        If the file is missing, is not TOML, or an entry is unknown, incomplete, of a wrong unit or
+        outside its domain.
+    """
+    if not isinstance(source, str | PathLike) or not str(source):
+        raise ParameterError("motor", source, "trum60 or the path of a TOML file")
+    text = motor_text(source)
+    data = _read_toml(source, text)
+    unknown = sorted(set(data) - {"name", "parameters", "published"})
+    if unknown:
+        raise ParameterError("motor file", unknown[0], "name, parameters and published at the top level")
+    if not isinstance(data.get("name"), str) or not data["name"].strip():
+        raise ParameterError("motor file: name", data.get("name", "nothing"), "the motor's name as text")
+    if not isinstance(data.get("parameters"), dict):
+        raise ParameterError("motor file: parameters", data.get("parameters", "nothing"), "a table [parameters]")
+    if not isinstance(data.get("published", []), list):
+        raise ParameterError("published", data["published"], "an array of tables [[published]]")
+    parameters = {name: _read_parameter(name, entry) for name, entry in data["parameters"].items()}
+    missing = [name for name, wanted in SPECS.items() if wanted.required and name not in parameters]
+    if missing:
+        raise ParameterError("motor file: parameters", f"no {', '.join(missing)}", "every required parameter")
+    published = tuple(_read_published(entry) for entry in data.get("published", []))
+    return Motor(name=data["name"], published=published, text=text, **parameters)

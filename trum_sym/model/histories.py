@@ -1,0 +1,219 @@
+"""Time histories of the rotor's periodic orbit, as a labelled data set (Sects. 3, 4)."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping
+from importlib.metadata import version
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from trum_sym.errors import MissingExtraError, ParameterError, ValidityWarning
+from trum_sym.inputs.checks import Array, ArrayLike, Domain, number
+from trum_sym.inputs.drive import Drive
+from trum_sym.inputs.motor import Motor
+from trum_sym.model.cycle import modal_values, response, scaled
+from trum_sym.model.kernels import call
+from trum_sym.model.operating_point import OperatingPoint, evaluate
+from trum_sym.model.rotor import history, orbit_values, solve_orbit
+from trum_sym.model.stator import Amplitude, Contact, Foundation, Levels, Resonance, solve_stator
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["REGIONS", "VARIABLES", "simulate", "surface_and_contact"]
+
+REGIONS = ("A off", "B off", "both on")
+"""What ``region`` 0, 1, 2 mean: the paper's T_redu, T_addredu, T_add."""
+
+VARIABLES = {
+    "w_A": ("m", "modal displacement of phase A"),
+    "w_B": ("m", "modal displacement of phase B"),
+    "zeta_z": ("m", "displacement of the surface towards the rotor at x = 0 (eq. 11)"),
+    "zeta_x": ("m", "displacement of the surface along the circumference at x = 0 (eq. 11)"),
+    "Q": ("m^2/s", "direction determinant (eq. A5)"),
+    "crest_speed": ("m/s", "speed of the surface along the circumference at the wave's crest"),
+    "theta": ("rad", "contact half-angle, pi for a whole wave in contact (eq. 31)"),
+    "friction": ("1", "net friction, share of mu F_c (eqs. 34 to 37)"),
+    "rotor_speed": ("rad/s", "speed of the rotor (eq. 38)"),
+    "rotor_angle": ("rad", "angle of the rotor since t1 of the first cycle"),
+}
+"""Unit and meaning of every variable."""
+
+_MAX_SAMPLES = 50_000_000
+
+
+def simulate(
+    motor: Motor,
+    drive: Drive | None = None,
+    *,
+    cycles: float = 1,
+    samples_per_period: float = 64,
+    contact: Contact = "winkler",
+    resonance: Resonance = "quartic",
+    foundation: Foundation = "harmonic",
+    amplitude: Amplitude = "measured",
+    sampling_period: float | None = None,
+    tolerance: float = 1e-3,
+) -> xr.Dataset:
+    """Time histories of one operating point on its periodic orbit.
+
+    Parameters
+    ----------
+    motor, drive, contact, resonance, foundation, amplitude, sampling_period, tolerance
+        As for :func:`trum_sym.evaluate`, but every number a single one.
+    cycles : whole number
+        Drive cycles.  The orbit repeats itself, the rotor's angle goes on.
+    samples_per_period : whole number
+        Samples in a drive period, the first of them at its start.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over the one dimension ``time`` (s since t1, ``cycles * periods * samples_per_period`` values, the end not
+        included) with the coordinate ``region``, an index into :data:`REGIONS`.  Variables are those of
+        :data:`VARIABLES`; ``attrs`` of each holds unit and meaning, those of the set every setting, every figure of
+        ``evaluate`` and the package's version.  Where no speed balances the load, ``runaway`` is 1 there, and
+        ``friction``, ``rotor_speed`` and ``rotor_angle`` are NaN.
+
+    Raises
+    ------
+    ParameterError
+        For bad input; names the parameter, what it got, what is allowed.
+    ConvergenceError
+        If the forced amplitude and the resonance do not settle.
+    MissingExtraError
+        Without xarray.
+    """
+    try:
+        import xarray as xr
+    except ImportError:
+        raise MissingExtraError("simulate", "xarray", "data") from None
+    count_domain = Domain(low=1, low_open=False, high=_MAX_SAMPLES, high_open=False, integer=True)
+    repeats = int(_single("cycles", number("cycles", cycles, count_domain, "1")))
+    per_period = int(_single("samples_per_period", number("samples_per_period", samples_per_period, count_domain, "1")))
+    drive = Drive() if drive is None else drive
+    levels = Levels(contact, resonance, foundation, amplitude)
+    if isinstance(drive, Drive) and isinstance(motor, Motor):  # evaluate refuses all else
+        _check_single(motor, drive, sampling_period)
+        if repeats * per_period * int(drive.periods) > _MAX_SAMPLES:
+            allowed = f"at most {_MAX_SAMPLES} samples, cycles * periods * samples_per_period"
+            raise ParameterError("cycles", repeats, allowed)
+    point = evaluate(
+        motor, drive, contact=contact, resonance=resonance, foundation=foundation, amplitude=amplitude,
+        sampling_period=sampling_period, tolerance=tolerance,
+    )  # fmt: skip
+    count = int(drive.periods) * per_period
+    columns, region = _cycle(motor, drive, levels, tolerance, point, count)
+    advance = columns.pop("advance")
+    laps = np.repeat(np.arange(repeats), count)
+    data = {name: np.tile(column, repeats) for name, column in columns.items()}
+    data["rotor_angle"] += laps * advance
+    time = point.cycle_time * (laps + np.tile(np.arange(count), repeats) / count)
+    settings = {"cycles": repeats, "samples_per_period": per_period, "tolerance": tolerance}
+    return xr.Dataset(
+        {
+            name: ("time", data[name], {"units": unit, "long_name": meaning})
+            for name, (unit, meaning) in VARIABLES.items()
+        },
+        coords={
+            "time": ("time", time, {"units": "s", "long_name": "time since t1 of the first cycle"}),
+            "region": (
+                "time",
+                np.tile(region, repeats),
+                {"flag_values": [0, 1, 2], "flag_meanings": " ".join(name.replace(" ", "_") for name in REGIONS)},
+            ),
+        },
+        attrs=_attributes(motor, drive, levels, point, {**settings, "sampling_period": sampling_period}),
+    )
+
+
+def _single(name: str, value: ArrayLike) -> ArrayLike:
+    if np.ndim(value):
+        raise ParameterError(name, f"an array of shape {np.shape(value)}", "a single number")
+    return value
+
+
+def _check_single(motor: Motor, drive: Drive, sampling_period: ArrayLike | None) -> None:
+    """Raise a ParameterError for an array: a history is that of one point."""
+    numbers = {**drive.numbers(), **{name: parameter.value for name, parameter in motor.parameters()}}
+    if sampling_period is not None:
+        numbers["sampling_period"] = sampling_period
+    for name, value in numbers.items():
+        _single(name, value)
+
+
+def _cycle(
+    motor: Motor, drive: Drive, levels: Levels, tolerance: float, point: OperatingPoint, count: int
+) -> tuple[dict[str, Array], np.ndarray[tuple[int, ...], np.dtype[np.int8]]]:
+    """One cycle at ``count`` equal times from t1 on, what the rotor's angle advances in it, and the regions."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ValidityWarning)  # evaluate has warned
+        stator = solve_stator(motor, drive, levels)
+    radius = float(motor.contact_radius.value)
+    values = scaled(modal_values(stator.omega_n, motor.damping_ratio.value, drive), stator.W)
+    samples = np.arange(count)
+    found = response(point.cycle_time * samples / count, values, stator.D, stator.k_c)
+    symbols = {**motor.symbols(), **stator.values, "F_c": drive.prepressure, "T_load": drive.load_torque}
+    arguments = orbit_values(values, symbols, levels.contact, tolerance)
+    touching = surface_and_contact(arguments, found)
+    columns = {
+        "w_A": found["w_A"],
+        "w_B": found["w_B"],
+        **call("trum_displacement", {**found, "D": stator.D, "k_c": stator.k_c, "x": 0.0}),
+        "Q": found["Q"],
+        "crest_speed": touching["R_v"] * np.asarray(touching["cos_phi"]),
+        "theta": touching["theta"],
+    }
+    speed = angle = columns["friction"] = np.full(count, np.nan)
+    advance = np.nan
+    if np.isfinite(point.mean_speed):
+        lap = history(arguments, solve_orbit(arguments, symbols).raw, count)  # the last one at the cycle's end
+        path = lap["distance"] / radius
+        speed, angle, advance = np.roll(lap["speed"], 1) / radius, np.append(0.0, path[:-1]), path[-1]
+        columns["friction"] = call("trum_friction", {**touching, "v": speed * radius})["f"]
+    columns |= {"rotor_speed": speed, "rotor_angle": angle, "advance": advance}
+    off = (int(drive.periods) - int(drive.on_periods)) * count // int(drive.periods)
+    region = (samples >= off).astype(np.int8) + (samples >= 2 * off)
+    return {name: np.array(column, np.float64) for name, column in columns.items()}, region.astype(np.int8)
+
+
+def surface_and_contact(values: Mapping[str, ArrayLike], found: Mapping[str, ArrayLike]) -> dict[str, ArrayLike]:
+    """Wave, surface speed and contact at instants of known displacement and velocity."""
+    now: dict[str, ArrayLike] = {**values, "g_A": 0.0, "g_B": 0.0}
+    for phase in "AB":  # the wave's kernel takes the phases as free motions that turn: here by nothing
+        phasor = call("trum_phasor", {**values, "a": found[f"w_{phase}"], "b": found[f"v_{phase}"]})
+        now |= {f"f_{phase}_re": phasor["re"], f"f_{phase}_im": phasor["im"]}
+    now |= {"e_re": 1.0, "e_im": 0.0, "d_re": 1.0, "d_im": 0.0, "p_re": 1.0, "p_im": 0.0}
+    now |= call("trum_wave", now)
+    if values["hertz"]:
+        return {**now, **call("trum_contact_hertz", now)}
+    now |= call("trum_filling", now)
+    now["fullness_root"] = np.cbrt(now["fullness"])
+    return {**now, **call("trum_contact_winkler", now)}
+
+
+def _attributes(
+    motor: Motor, drive: Drive, levels: Levels, point: OperatingPoint, settings: Mapping[str, float | None]
+) -> dict[str, str | float | int]:
+    """Every setting, figure and flag, as text and numbers that any file format holds."""
+    figures = {name: value for name, value in point.as_dict().items() if name not in ("motor", "converged")}
+    attributes = {
+        "title": f"{motor.name}: time histories on the periodic orbit",
+        "source": f"trum-sym {version('trum-sym')}",
+        "motor": motor.name,
+        **drive.numbers(),
+        "start": drive.start,
+        "contact": levels.contact,
+        "resonance_level": levels.resonance,
+        "foundation": levels.foundation,
+        "amplitude_level": levels.amplitude,
+        **{name: "none" if value is None else value for name, value in settings.items()},
+        **figures,
+        "converged": int(bool(point.converged)),
+        "runaway": int(bool(np.isnan(float(point.mean_speed)))),
+    }
+    for name, parameter in motor.parameters():
+        attributes[f"motor_{name}"] = f"{float(parameter.value):.12g} {parameter.unit} ({parameter.source})"
+    return {name: value if isinstance(value, str | int) else float(value) for name, value in attributes.items()}  # type: ignore[arg-type]

@@ -1,0 +1,47 @@
+"""The compiled kernels, called by the names of their arguments."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from trum_sym.inputs.checks import ArrayLike
+
+try:
+    from trum_sym import _kernels
+except ImportError as error:  # pragma: no cover - an installed package has them
+    raise ImportError(
+        f"the compiled kernels are not beside {__file__}: this is a source tree; install it with "
+        "`pip install -e .`, or leave its folder to use the installed package"
+    ) from error
+
+__all__ = ["call", "signature"]
+
+_SIGNATURES = {name: (i.split(), o.split()) for name, (i, o) in _kernels.signatures.items()}
+
+
+def signature(kernel: str) -> tuple[list[str], list[str]]:
+    """The names of a kernel's arguments and outputs, in order."""
+    return _SIGNATURES[kernel]
+
+
+def call(kernel: str, values: Mapping[str, ArrayLike]) -> dict[str, ArrayLike]:
+    """Evaluate a kernel; arrays broadcast.
+
+    Parameters
+    ----------
+    kernel : str
+        A name of ``generated/manifest.json``, or of the driver.
+    values : mapping
+        At least the kernel's arguments, by symbol, in SI units.
+
+    Returns
+    -------
+    dict
+        The kernel's outputs by name.
+    """
+    inputs, outputs = _SIGNATURES[kernel]
+    with np.errstate(all="ignore"):
+        results = getattr(_kernels, kernel)(*(values[name] for name in inputs))
+    return dict(zip(outputs, results if len(outputs) > 1 else (results,), strict=True))

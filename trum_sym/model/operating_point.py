@@ -1,0 +1,280 @@
+"""One operating point, or an array of them: motor and drive in, figures out."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+
+from trum_sym.errors import ParameterError
+from trum_sym.inputs.checks import Array, ArrayLike, Domain, broadcast_shape, number
+from trum_sym.inputs.drive import Drive, choice
+from trum_sym.inputs.motor import Motor
+from trum_sym.model.cycle import check_steady_state, cycle_sums, modal_values, scaled
+from trum_sym.model.kernels import call
+from trum_sym.model.rotor import Orbit, encoder_deviation, history, orbit_values, solve_orbit
+from trum_sym.model.stator import (
+    AMPLITUDES,
+    CONTACTS,
+    FOUNDATIONS,
+    RESONANCES,
+    Amplitude,
+    Contact,
+    Foundation,
+    Levels,
+    Resonance,
+    Stator,
+    solve_stator,
+)
+
+__all__ = ["FIGURES", "OF_CYCLE", "OF_ORBIT", "Case", "OperatingPoint", "evaluate", "figures", "prepare"]
+
+OF_CYCLE = frozenset(("q_ratio", "q_square_ratio", "q_average", "q_volatility"))
+"""The figures that take the sums over a cycle."""
+OF_ORBIT = frozenset((
+    "mean_speed", "min_speed", "max_speed", "speed_volatility", "stall_torque", "contact_fraction", "converged",
+    "runaway",
+))  # fmt: skip
+"""The figures that take the rotor's orbit; ``runaway`` is where no speed balances the load."""
+
+_ENCODER_SAMPLES = 64  # per drive period, of the path that the encoder differences
+
+
+@dataclass(frozen=True, kw_only=True)
+class OperatingPoint:
+    """What the motor does at a drive; SI units, frequencies in Hz, speeds in rad/s.
+
+    Every number is a float, or an array of the inputs' common shape.
+
+    Attributes
+    ----------
+    motor, start, contact : str
+        What the figures hold for.
+    prepressure : N
+    frequency_difference, resonance_frequency, drive_frequency : Hz
+    cycle_time : s
+        T_Qall, m drive periods.
+    amplitude : m
+        W_maxf, one phase's steady amplitude.
+    neutral_axis : m
+    wavenumber : 1/m
+    q_ratio, q_square_ratio : 1
+        X and Y, forward over backward, of Q and of its square; infinite when Q never turns back.
+    q_average, q_volatility : 1/s
+        Q_aver and Q_vib (eqs. 43, 44); the sign is the direction.
+    mean_speed, min_speed, max_speed : rad/s
+        Of the rotor over its periodic orbit; NaN where no speed balances the load.
+    speed_volatility : 1
+        Standard deviation over the mean's magnitude (eq. 40), continuous or as an encoder averages.
+    stall_torque : N m
+        Mean torque on the rotor held still: a larger load drives it back.
+    contact_fraction : 1
+        Mean share of the wave in contact, theta/pi.
+    converged : bool
+        Whether mean and extremes met the tolerance.
+    """
+
+    motor: str
+    start: str
+    contact: str
+    prepressure: ArrayLike
+    frequency_difference: ArrayLike
+    resonance_frequency: ArrayLike
+    drive_frequency: ArrayLike
+    cycle_time: ArrayLike
+    amplitude: ArrayLike
+    neutral_axis: ArrayLike
+    wavenumber: ArrayLike
+    q_ratio: ArrayLike
+    q_square_ratio: ArrayLike
+    q_average: ArrayLike
+    q_volatility: ArrayLike
+    mean_speed: ArrayLike
+    min_speed: ArrayLike
+    max_speed: ArrayLike
+    speed_volatility: ArrayLike
+    stall_torque: ArrayLike
+    contact_fraction: ArrayLike
+    converged: bool | np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
+
+    def as_dict(self) -> dict[str, object]:
+        """The figures by name, in the order of the fields."""
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
+
+FIGURES = tuple(field.name for field in fields(OperatingPoint) if field.name not in ("motor", "start", "contact"))
+"""The figures of an operating point that depend on its numbers, in order."""
+
+
+def evaluate(
+    motor: Motor,
+    drive: Drive | None = None,
+    *,
+    contact: Contact = "winkler",
+    resonance: Resonance = "quartic",
+    foundation: Foundation = "harmonic",
+    amplitude: Amplitude = "measured",
+    sampling_period: ArrayLike | None = None,
+    tolerance: float = 1e-3,
+    progress: bool = False,
+) -> OperatingPoint:
+    """The operating point of a motor under a drive.
+
+    Parameters
+    ----------
+    motor : Motor
+        Its parameters may be arrays.
+    drive : Drive, optional
+        The paper's Table 3 if not given.  Its fields and the motor's values broadcast.
+    contact : {"winkler", "hertz"}
+        How the half-angle of the contact follows from the prepressure (eqs. 25 to 31).
+    resonance : {"quartic", "eq6", "printed", "euler"}
+        Timoshenko's lower root, its truncation, eq. 6 as printed, Euler-Bernoulli.
+    foundation : {"harmonic", "smeared", "printed", "none"}
+        How the friction layer stiffens the stator.
+    amplitude : {"measured", "forced"}
+        Eq. 8 on the measured amplitude, or on the derived forced one (eq. 7 put right).
+    sampling_period : float or array, s, optional
+        Averaging period of the encoder behind ``speed_volatility``; continuous if not given.
+    tolerance : float
+        Of the mean speed and its extremes, relative to the largest speed; from 1e-9 to 1e-2.
+    progress : bool
+        Whether to show a bar on the standard error while many points are computed.
+
+    Returns
+    -------
+    OperatingPoint
+
+    Raises
+    ------
+    ParameterError
+        For bad input; names the parameter, what it got, what is allowed.
+    ConvergenceError
+        If the forced amplitude and the resonance do not settle.
+    """
+    case = prepare(motor, drive, Levels(contact, resonance, foundation, amplitude), tolerance, sampling_period)
+    return OperatingPoint(
+        motor=motor.name, start=case.drive.start, contact=contact, **figures(case, FIGURES, progress)
+    )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Case:
+    """A checked motor and drive, and what the orbit's driver is told of them."""
+
+    motor: Motor
+    drive: Drive
+    shape: tuple[int, ...]
+    stator: Stator
+    values: dict[str, ArrayLike]  # of the phases, for an amplitude of 1
+    symbols: dict[str, ArrayLike]
+    arguments: dict[str, ArrayLike]
+    sampling_period: ArrayLike | None
+
+
+def prepare(
+    motor: Motor,
+    drive: Drive | None,
+    levels: Levels,
+    tolerance: float,
+    sampling_period: ArrayLike | None = None,
+    *,
+    warn: bool = True,
+) -> Case:
+    """Check the input of :func:`evaluate` and solve the stator.
+
+    Raises
+    ------
+    ParameterError, ConvergenceError
+        As :func:`evaluate` does.
+    """
+    for name, value, allowed in (
+        ("contact", levels.contact, CONTACTS),
+        ("resonance", levels.resonance, RESONANCES),
+        ("foundation", levels.foundation, FOUNDATIONS),
+        ("amplitude", levels.amplitude, AMPLITUDES),
+    ):
+        choice(name, value, allowed)
+    drive = Drive() if drive is None else drive
+    if not isinstance(motor, Motor):
+        raise ParameterError("motor", motor, "a Motor, as load_motor returns it")
+    if not isinstance(drive, Drive):
+        raise ParameterError("drive", drive, "a Drive")
+    inputs = {**drive.numbers(), **{name: p.value for name, p in motor.parameters()}}
+    if sampling_period is not None:
+        inputs["sampling_period"] = number("sampling_period", sampling_period, Domain(low=0.0), "s")
+    shape = broadcast_shape(inputs)
+    number("tolerance", tolerance, Domain(low=1e-9, low_open=False, high=1e-2, high_open=False), "1")
+    check_steady_state(motor.damping_ratio.value, drive)
+    stator = solve_stator(motor, drive, levels, warn=warn)
+    values = modal_values(stator.omega_n, motor.damping_ratio.value, drive)
+    symbols = {**motor.symbols(), **stator.values, "F_c": drive.prepressure, "T_load": drive.load_torque}
+    arguments = orbit_values(scaled(values, stator.W), symbols, levels.contact, tolerance)
+    return Case(motor, drive, shape, stator, values, symbols, arguments, sampling_period)
+
+
+def figures(case: Case, wanted: Collection[str], progress: bool = False) -> dict[str, Any]:
+    """Some figures of a case by name, each of the case's shape; what none of them needs is not computed.
+
+    Parameters
+    ----------
+    case : Case
+        From :func:`prepare`.
+    wanted : names of :data:`FIGURES`, or ``"runaway"``
+        The last says where no speed balances the load.
+    progress : bool
+        As for :func:`evaluate`.
+    """
+    drive, stator = case.drive, case.stator
+    timing = call("trum_drive", case.values)
+    turn = 2 * np.pi
+    found: dict[str, Any] = {
+        "prepressure": drive.prepressure,
+        "frequency_difference": drive.frequency_difference,
+        "resonance_frequency": np.asarray(stator.omega_n) / turn,
+        "drive_frequency": np.asarray(timing["omega_q"]) / turn,
+        "cycle_time": timing["T"],
+        "amplitude": stator.W,
+        "neutral_axis": stator.D,
+        "wavenumber": stator.k_c,
+    }
+    if not OF_CYCLE.isdisjoint(wanted):
+        found |= cycle_sums(case.values)
+    if not OF_ORBIT.isdisjoint(wanted):
+        found |= _of_orbit(case, timing["T"], "speed_volatility" in wanted, progress)
+    return {name: _shaped(found[name], case.shape) for name in wanted}
+
+
+def _of_orbit(case: Case, cycle_time: ArrayLike, volatility: bool, progress: bool) -> dict[str, ArrayLike]:
+    orbit = solve_orbit(case.arguments, case.symbols, progress)
+    found = {name: getattr(orbit, name) for name in OF_ORBIT - {"speed_volatility"}}
+    if volatility:
+        deviation = np.sqrt(orbit.variance)
+        if case.sampling_period is not None:
+            readings = _encoder(case.arguments, orbit, cycle_time, case.sampling_period)
+            deviation = readings / np.asarray(case.symbols["r_c"])
+        with np.errstate(all="ignore"):
+            found["speed_volatility"] = deviation / np.abs(orbit.mean_speed)
+    return found
+
+
+def _encoder(arguments: Mapping[str, ArrayLike], orbit: Orbit, cycle_time: ArrayLike, period: ArrayLike) -> Array:
+    """Standard deviation of an encoder's readings at every point, m/s at the rim."""
+    names = list(arguments)
+    raw = {name: orbit.raw[name] for name in ("low", "high", "start", "level")}
+    columns = np.broadcast_arrays(*arguments.values(), *raw.values(), cycle_time, period)
+    result = np.full(columns[0].shape, np.nan)
+    for index in np.ndindex(result.shape):
+        at = [float(column[index]) for column in columns]
+        point = dict(zip([*names, *raw], at[:-2], strict=True))
+        if np.isfinite(point["start"]):
+            count = int(_ENCODER_SAMPLES * point["m"])
+            path = history(point, point, count)["distance"]
+            result[index] = encoder_deviation(path, at[-2], at[-1])
+    return result
+
+
+def _shaped(value: Any, shape: tuple[int, ...]) -> Any:  # noqa: ANN401
+    return np.broadcast_to(value, shape) if shape else np.asarray(value).item()

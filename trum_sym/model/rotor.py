@@ -1,0 +1,153 @@
+"""The rotor's periodic orbit: speed, its extremes and fluctuation, stall torque (Sect. 4, eqs. 38 to 41)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from trum_sym.inputs.checks import Array, ArrayLike
+from trum_sym.model.batch import call_in_blocks
+from trum_sym.model.kernels import call
+
+__all__ = [
+    "Orbit",
+    "as_orbit",
+    "encoder_deviation",
+    "encoder_readings",
+    "history",
+    "orbit_values",
+    "solve_orbit",
+]
+
+_CONVERGED, _FULL_CONTACT, _RUNAWAY = 1, 2, 4
+
+
+@dataclass(frozen=True)
+class Orbit:
+    """Figures of periodic orbits; arrays of one shape.
+
+    Speeds of the rotor in rad/s; ``stall_torque`` in N m is what holds the rotor still on average;
+    ``contact_fraction`` is the mean of theta/pi.  Where no speed balances the load, speeds are NaN.
+    """
+
+    mean_speed: Array
+    min_speed: Array
+    max_speed: Array
+    variance: Array
+    stall_torque: Array
+    contact_fraction: Array
+    converged: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
+    full_contact: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
+    runaway: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
+    raw: Mapping[str, Array]
+
+
+def orbit_values(
+    modal: Mapping[str, ArrayLike], stator: Mapping[str, ArrayLike], contact: str, tolerance: ArrayLike
+) -> dict[str, ArrayLike]:
+    """The driver's arguments: modal state, geometry and what the steps of a point share.
+
+    Where ``held`` is set to 0, stall torque and contact fraction are not computed, and NaN.
+
+    Parameters
+    ----------
+    modal : mapping
+        From :func:`trum_sym.model.cycle.modal_values`, at the amplitude of the phases.
+    stator : mapping
+        Symbols of the motor and its section, F_c and T_load.
+    contact : str
+        ``"winkler"`` or ``"hertz"``.
+    tolerance : float or array
+        Of mean and extremes, relative to the largest speed.
+    """
+    shared = dict(call("trum_rotor_coefficients", stator))
+    full = {law: shared.pop(f"W_full_{law}") for law in ("winkler", "hertz")}
+    of_contact = {"W_full": full[contact], "hertz": float(contact == "hertz")}
+    geometry = {"D": stator["D"], "k_c": stator["k_c"]}
+    return {**modal, **geometry, **shared, **of_contact, "tolerance": tolerance, "held": 1.0}
+
+
+def solve_orbit(values: Mapping[str, ArrayLike], stator: Mapping[str, ArrayLike], progress: bool = False) -> Orbit:
+    """The periodic orbit of every point.
+
+    Parameters
+    ----------
+    values : mapping
+        From :func:`orbit_values`.
+    stator : mapping
+        As there; the contact radius turns rim speeds into rotor speeds.
+    progress : bool
+        Whether to show a bar on the standard error while many points are computed.
+    """
+    return as_orbit(call_in_blocks("rotor_orbit", values, "orbits" if progress else None), stator)
+
+
+def as_orbit(raw: Mapping[str, Array], stator: Mapping[str, ArrayLike]) -> Orbit:
+    """The rotor's figures from those of its rim, as the driver gives them."""
+    radius = np.asarray(stator["r_c"])
+    flags = raw["flags"].astype(int)
+    stall = np.asarray(call("trum_stall_torque", {**stator, "f": raw["held"]})["torque"])
+    return Orbit(
+        mean_speed=raw["mean"] / radius,
+        min_speed=raw["low"] / radius,
+        max_speed=raw["high"] / radius,
+        variance=raw["variance"] / radius**2,
+        stall_torque=stall,
+        contact_fraction=raw["contact"],
+        converged=(flags & _CONVERGED) > 0,
+        full_contact=(flags & _FULL_CONTACT) > 0,
+        runaway=(flags & _RUNAWAY) > 0,
+        raw=raw,
+    )
+
+
+def history(values: Mapping[str, ArrayLike], raw: Mapping[str, ArrayLike], count: int) -> dict[str, Array]:
+    """One cycle of an orbit at ``count`` equal times after t1, the last at the cycle's end.
+
+    Returns
+    -------
+    dict
+        ``speed`` of the rim (m/s), its ``distance`` since t1 (m) and the net ``friction`` fraction.
+    """
+    point = {name: raw[name] for name in ("low", "high", "start", "level")}
+    found = call("rotor_history", {**values, **point, "times": np.empty(count)})
+    return {name: np.asarray(value) for name, value in found.items()}
+
+
+def encoder_deviation(distance: Array, cycle_time: float, period: float) -> float:
+    """Standard deviation of the speeds that an encoder reads which averages over ``period``, m/s.
+
+    The encoder is not locked to the drive, so its windows begin anywhere in the cycle with equal chance.
+
+    Parameters
+    ----------
+    distance : (n,) array, m
+        Of the rim, at equal times of a cycle, the last at its end.
+    cycle_time : float, s
+        Of the drive.
+    period : float, s
+        Of the encoder.
+    """
+    starts = np.arange(distance.size) / distance.size
+    return float(np.std(encoder_readings(distance, cycle_time, period, starts)))
+
+
+def encoder_readings(distance: Array, cycle_time: float, period: float, starts: Array) -> Array:
+    """What an encoder reads that averages over ``period``, m/s at the rim.
+
+    Parameters
+    ----------
+    distance, cycle_time, period
+        As for :func:`encoder_deviation`.
+    starts : array, 1
+        Where in the cycle each window begins, from 0 to 1.
+    """
+    cycles, rest = divmod(period / cycle_time, 1.0)
+    grid = np.arange(distance.size + 1) / distance.size
+    path = np.concatenate([[0.0], distance])
+    ends = starts + rest
+    end_path = np.interp(ends % 1.0, grid, path) + np.floor(ends) * path[-1]
+    readings: Array = (end_path - np.interp(starts, grid, path) + cycles * path[-1]) / period
+    return readings

@@ -1,0 +1,175 @@
+"""How the figures of an operating point change with what it depends on: derivatives, carried along the orbit."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from trum_sym.errors import ValidityWarning
+from trum_sym.inputs.checks import Array, ArrayLike
+from trum_sym.inputs.drive import Drive
+from trum_sym.inputs.motor import Motor
+from trum_sym.model.batch import call_in_blocks
+from trum_sym.model.kernels import call
+from trum_sym.model.operating_point import Case, prepare
+from trum_sym.model.rotor import Orbit, as_orbit
+from trum_sym.model.stator import Amplitude, Contact, Foundation, Levels, Resonance, solve_stator
+
+__all__ = ["FIGURES", "PARAMETERS", "orbit_with_slopes", "sensitivities"]
+
+PARAMETERS = (
+    "prepressure",
+    "frequency_difference",
+    "load_torque",
+    "friction_coefficient",
+    "amplitude",
+    "resonance_frequency",
+)
+FIGURES = ("mean_speed", "min_speed", "max_speed", "speed_volatility", "contact_fraction", "stall_torque")
+
+_TURN = 2 * np.pi
+_STATES = ("a_A", "b_A", "a_B", "b_B")
+_STEP = 1e-3  # of the stator's differences, relative: their error is its fourth power
+
+
+def sensitivities(
+    motor: Motor,
+    drive: Drive | None = None,
+    *,
+    contact: Contact = "winkler",
+    resonance: Resonance = "quartic",
+    foundation: Foundation = "harmonic",
+    amplitude: Amplitude = "measured",
+    tolerance: float = 1e-6,
+) -> dict[str, dict[str, Array]]:
+    """Derivatives of an operating point's figures.
+
+    The rotor's equation (38) is differentiated along its orbit together with the speed at which the orbit closes
+    (implicit function theorem).  What amplitude and resonance do when prepressure or frequency difference changes is
+    taken from the stator's closed forms by fourth-order differences.
+
+    Parameters
+    ----------
+    motor, drive, contact, resonance, foundation, amplitude
+        As for :func:`trum_sym.evaluate`; arrays broadcast.
+    tolerance : float
+        Of the orbit that is differentiated.  The slopes' median error is below it; single slopes are much worse
+        (docs/rotor.md).
+
+    Returns
+    -------
+    dict
+        ``[figure][parameter]`` for all of :data:`FIGURES` and :data:`PARAMETERS`, in SI units (Hz for frequencies):
+        what ``evaluate``'s figure changes by, per change of the parameter.  Amplitude and resonance follow prepressure
+        and frequency difference as they do in ``evaluate``; under ``amplitude`` and ``resonance_frequency`` stands
+        what each does alone.  ``speed_volatility`` is the continuous one.  NaN where no speed balances the load.
+        Where an extreme changes hands the slope is that of the extreme which is seen, one of the two sides'.
+
+    Raises
+    ------
+    ParameterError
+        For bad input; names the parameter, what it got, what is allowed.
+    ConvergenceError
+        If the forced amplitude and the resonance do not settle.
+    """
+    levels = Levels(contact, resonance, foundation, amplitude)
+    _, found = orbit_with_slopes(prepare(motor, drive, levels, tolerance), levels)
+    return {name: found[name] for name in FIGURES}
+
+
+def orbit_with_slopes(case: Case, levels: Levels) -> tuple[Orbit, dict[str, dict[str, Array]]]:
+    """The orbit of a case that :func:`trum_sym.model.operating_point.prepare` has checked, and its figures' slopes.
+
+    Beside those of :data:`FIGURES` stands ``speed_deviation``, the speed's standard deviation in rad/s.
+    """
+    raw = call_in_blocks(
+        "rotor_slopes",
+        {**case.arguments, **_states(case)},
+        inner={"slopes": (len(FIGURES), len(PARAMETERS))},
+        smallest=1,  # steps with slopes are long: a core each
+    )
+    slopes = raw["slopes"]
+    force, friction, radius, inertia = (np.asarray(case.symbols[name]) for name in ("F_c", "mu", "r_c", "J"))
+    alone = {
+        "prepressure": slopes[..., 0] / _column(force),
+        "frequency_difference": slopes[..., 1] * _TURN,
+        "load_torque": slopes[..., 2] * _column(radius / inertia),
+        "friction_coefficient": slopes[..., 3] / _column(friction),
+        "amplitude": slopes[..., 4] / _column(case.stator.W),
+        "resonance_frequency": slopes[..., 5] * _TURN,
+    }
+    for name, (d_omega_n, d_W) in _following(case, levels).items():
+        alone[name] = alone[name] + alone["amplitude"] * _column(d_W)
+        alone[name] = alone[name] + alone["resonance_frequency"] * _column(d_omega_n / _TURN)
+    orbit = as_orbit({name: value for name, value in raw.items() if name != "slopes"}, case.symbols)
+    return orbit, _figures(case, raw, alone)
+
+
+def _column(value: ArrayLike) -> Array:
+    """With a last axis for the figures."""
+    return np.asarray(value, np.float64)[..., np.newaxis]
+
+
+def _states(case: Case) -> dict[str, ArrayLike]:
+    """How the free motion before t1 follows the frequencies."""
+    rates: dict[str, ArrayLike] = {f"{state}_{by}": 0.0 for state in _STATES for by in ("omega_n", "Delta_omega")}
+    if case.drive.start == "steady":
+        return rates
+    return {**rates, **call(f"trum_start_{case.drive.start}_slopes", case.arguments)}
+
+
+def _following(case: Case, levels: Levels) -> dict[str, tuple[Array, Array]]:
+    """Derivatives of the resonance (rad/s) and the amplitude (m) by prepressure and frequency difference."""
+    force, difference = (np.asarray(x) for x in (case.drive.prepressure, case.drive.frequency_difference))
+    force_step, difference_step = _STEP * force, _STEP * np.asarray(case.stator.omega_n) / _TURN
+    shifts = np.zeros((2, 8))
+    shifts[0, :4] = shifts[1, 4:] = (1, -1, 2, -2)  # first along one, then along the other
+    along_force, along_difference = shifts.reshape(2, 8, *(1,) * len(case.shape))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ValidityWarning)  # the point itself has warned
+        moved = replace(
+            case.drive,
+            prepressure=force + along_force * force_step,
+            frequency_difference=difference + along_difference * difference_step,
+        )
+        stator = solve_stator(case.motor, moved, levels)
+
+    def derivatives(of: ArrayLike) -> tuple[Array, Array]:
+        at = np.broadcast_to(of, (8, *case.shape))
+        by_force = (8 * (at[0] - at[1]) - (at[2] - at[3])) / (12 * force_step)
+        return by_force, (8 * (at[4] - at[5]) - (at[6] - at[7])) / (12 * difference_step)
+
+    resonance, amplitude = derivatives(stator.omega_n), derivatives(stator.W)
+    return {
+        "prepressure": (resonance[0], amplitude[0]),
+        "frequency_difference": (resonance[1], amplitude[1]),
+    }
+
+
+def _figures(case: Case, orbit: Mapping[str, ArrayLike], slopes: Mapping[str, Array]) -> dict[str, dict[str, Array]]:
+    """From rim speeds, variance and friction fraction to the rotor's figures."""
+    radius, force, friction = (np.asarray(case.symbols[name]) for name in ("r_c", "F_c", "mu"))
+    mean, held = np.asarray(orbit["mean"]), np.asarray(orbit["held"])
+    found: dict[str, dict[str, Array]] = {name: {} for name in (*FIGURES, "speed_deviation")}
+    with np.errstate(all="ignore"):
+        deviation = np.sqrt(orbit["variance"])
+        for parameter, slope in slopes.items():
+            for place, name in enumerate(("mean_speed", "min_speed", "max_speed")):
+                found[name][parameter] = slope[..., place] / radius
+            of_deviation, of_mean = slope[..., 3] / (2 * deviation), slope[..., 0] * np.sign(mean)
+            volatility = (of_deviation - deviation * of_mean / np.abs(mean)) / np.abs(mean)
+            found["speed_volatility"][parameter] = volatility
+            found["speed_deviation"][parameter] = of_deviation / radius
+            found["contact_fraction"][parameter] = slope[..., 4]
+            stall = call("trum_stall_torque", {**case.symbols, "f": slope[..., 5]})["torque"]
+            if parameter in ("prepressure", "friction_coefficient"):  # the torque is in proportion to both
+                own = call("trum_stall_torque", {**case.symbols, "f": held})["torque"]
+                stall = stall + own / (force if parameter == "prepressure" else friction)
+            found["stall_torque"][parameter] = np.asarray(stall)
+    return {
+        name: {parameter: np.broadcast_to(value, case.shape) for parameter, value in of.items()}
+        for name, of in found.items()
+    }
