@@ -3,7 +3,8 @@
 typographical : no figure changes.  A name, a unit, an index or a statement from which no figure is computed.
 conditional   : every fault sits in rows that hold symbols of the electronic supplement, which the paper at hand lacks;
                 what they are judged against is our reconstruction of it.
-structural    : no repair by a symbol: changing :data:`SIGNS` letters, numbers, signs or bars in a row does not mend it.
+structural    : no repair by a symbol.  No change of :data:`SIGNS` letters, numbers, signs or bars in a row is known to
+                mend it, and each single slip (a sign, factor, term, exponent, like symbol) was tried and does not.
 quantitative  : the rest; a figure changes, by a size at Table 3's point.
 
 They are tried in this order.  A copy of the text that is doubtful is given the benefit of the doubt: of the readings
@@ -24,6 +25,7 @@ from sympy.core.relational import Relational
 from derivations.ledger.exact import REGIONS, Cycle, at_table_3
 from derivations.ledger.judge import evaluate
 from derivations.ledger.model import APPROXIMATION_LIMIT, WORKING_DIGITS, Entry, Forms, Result
+from derivations.ledger.mutate import mutants
 from derivations.ledger.regions import context
 from derivations.ledger.section_2_composite import resolved
 from derivations.ledger.section_6 import cycle_totals
@@ -116,13 +118,16 @@ def _values(name: str, form: sp.Basic, cycle: Cycle) -> list[mp.mpc] | None:
 
 def _number(form: sp.Expr, state: Mapping[str, mp.mpf]) -> mp.mpc:
     """The value in a state; not a number where no row holds, or one with a symbol that has no value."""
+    nothing = mp.mpc(mp.nan)
     if isinstance(form, sp.Piecewise):
         for branch, held in form.args:
+            if not {s.name for s in held.free_symbols} <= state.keys():
+                return nothing
             if held == sp.true or held.subs({s: state[s.name] for s in held.free_symbols}) == sp.true:
                 return _number(branch, state)
-        return mp.mpc(mp.nan)
+        return nothing
     if not {s.name for s in form.free_symbols} <= state.keys():
-        return mp.mpc(mp.nan)
+        return nothing
     return mp.mpmathify(evaluate(form, {s: state[s.name] for s in form.free_symbols}))
 
 
@@ -135,7 +140,7 @@ def _size(printed: Forms, right: Forms, cycle: Cycle) -> tuple[str, float] | Non
     """The form that is off most, and by how much of its largest right value; None where nothing has a number."""
     worst: tuple[str, float] | None = None
     one, other = _whole(printed), _whole(right)
-    for name in printed.keys() & right.keys():
+    for name in (name for name in printed if name in right):
         if printed[name] == right[name] and one[name] == other[name]:
             continue
         if isinstance(one[name], sp.Expr) and sp.expand(one[name] + other[name]) == 0:
@@ -263,7 +268,11 @@ def severity(result: Result) -> Severity | None:
         if all(form.is_number for form in entry.printed.values()) and signs is None and size is not None:
             return _sized("quantitative", "a statement, taken as the number that it asserts", size)
         if signs is None or signs > SIGNS:
-            return _sized("structural", f"no change of {SIGNS} signs in a row mends it", size)
+            slips = list(mutants(entry.printed))
+            mending = next((slip for slip in slips if entry.rejects(slip.forms) is None), None)
+            if mending is None:
+                return _sized("structural", f"none of {len(slips)} single slips in the print mends it", size)
+            return _sized("quantitative", f"mended by one slip ({mending.name}: {mending.slip})", size)
         return _sized("quantitative", f"mended by {signs} sign{'s' if signs > 1 else ''} in a row", size)
 
 

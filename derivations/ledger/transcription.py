@@ -490,7 +490,7 @@ def differences(entry: Entry, data: Data | None = None, printed: Forms | None = 
         found.append(f"({entry.id}) {name} stands in the first only")
     for name in sorted(others.keys() - forms.keys()):
         found.append(f"({entry.id}) {name} stands in the second only: {others[name]}")
-    for name in forms.keys() & others.keys():
+    for name in (name for name in forms if name in others):
         found += _gap(_decimals(forms[name]), _decimals(others[name]), f"({entry.id}) {name}")
     return found
 
