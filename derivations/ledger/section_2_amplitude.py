@@ -218,7 +218,8 @@ ENTRIES = (
         reason="The dimensions agree, but the modal mass is the ceramic's alone (A_p rho_p), the lever arm D/2 is not "
                "the ceramic's, the section's rotation is taken as the slope, d31's sign is kept in an amplitude, and "
                "lambda = pi R/9 needs the diameter where k_c = n_j/R needs the radius.",
-        judge=_judge_7, derive=_derive_7, effect=_effect_7, repair=_repair_7, size=_size_7, found_by=("numeric", "identity"),
+        judge=_judge_7, derive=_derive_7, effect=_effect_7, repair=_repair_7, size=_size_7,
+        found_by=("numeric", "identity"),
     ),
     Entry(
         id="8", section="2.3", title="Amplitude under prepressure", place="Sect. 2.3, constants in Sect. 7.1",

@@ -18,8 +18,8 @@ def equations(equation: str | None, verdict: str | None, severity: str | None, a
     """The ledger: what the paper printed, what follows from first principles, the verdict and its effect."""
     from trum_sym.paper.ledger import counted, filtered, load_ledger, select, table, written_out
 
-    records = filtered(load_ledger(), verdict=verdict, severity=severity)
-    chosen = records if equation is None else [select(records, equation)]
+    records = load_ledger()
+    chosen = filtered(records, verdict=verdict, severity=severity) if equation is None else [select(records, equation)]
     if as_json:
         import json
 
