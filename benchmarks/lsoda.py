@@ -51,8 +51,12 @@ def lsoda_cycles(
     for _ in range(cycles):
         steps = solve_ivp(
             lambda t, y: [push * fraction(t, y[0]) - drag, y[0]],
-            (0, point.cycle_time), [v, 0.0], "LSODA", rtol=1e-8, atol=1e-10,
+            (0, point.cycle_time),
+            [v, 0.0],
+            "LSODA",
+            rtol=1e-8,
+            atol=1e-10,
             max_step=point.cycle_time / (60 * drive.periods),
-        )  # fmt: skip
+        )
         v = steps.y[0, -1]
         yield steps.y[1, -1] / point.cycle_time / radius, steps.y[0].min() / radius, steps.y[0].max() / radius

@@ -77,9 +77,13 @@ def _slsqp(case: Case) -> tuple[float, float]:
 
     start = case.rng.uniform(size=2)
     found = minimize(
-        lambda x: look(x)[0][0], start, jac=lambda x: look(x)[0][1:], method="SLSQP", bounds=[(0, 1)] * 2,
+        lambda x: look(x)[0][0],
+        start,
+        jac=lambda x: look(x)[0][1:],
+        method="SLSQP",
+        bounds=[(0, 1)] * 2,
         constraints={"type": "eq", "fun": lambda x: look(x)[1][0], "jac": lambda x: look(x)[1][1:]},
-    )  # fmt: skip
+    )
     return case.volatility(np.clip(found.x, 0, 1))
 
 
@@ -95,9 +99,14 @@ def _evolution(case: Case, **settings: float) -> tuple[float, float]:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         found = differential_evolution(
-            deviation, Bounds([0, 0], [1, 1]), constraints=target, vectorized=True, updating="deferred",
-            seed=int(case.rng.integers(2**31)), **settings,
-        )  # fmt: skip
+            deviation,
+            Bounds([0, 0], [1, 1]),
+            constraints=target,
+            vectorized=True,
+            updating="deferred",
+            seed=int(case.rng.integers(2**31)),
+            **settings,
+        )
     return case.volatility(np.asarray(found.x))
 
 

@@ -50,14 +50,28 @@ def _values(outside: list[str]) -> dict[str, np.ndarray]:
     omega, W = 2 * np.pi * point.resonance_frequency, point.amplitude
     angle = rng.uniform(-np.pi, np.pi, (4, BATCH))
     known = {
-        "omega_n": omega, "Delta_omega": 2 * np.pi * 3000.0, "xi": 0.006, "s": 1.0, "W": W, "D": point.neutral_axis,
-        "k_c": point.wavenumber, "g_A": 1.0, "g_B": 1.0, "v": rng.uniform(-1, 1, BATCH),
+        "omega_n": omega,
+        "Delta_omega": 2 * np.pi * 3000.0,
+        "xi": 0.006,
+        "s": 1.0,
+        "W": W,
+        "D": point.neutral_axis,
+        "k_c": point.wavenumber,
+        "g_A": 1.0,
+        "g_B": 1.0,
+        "v": rng.uniform(-1, 1, BATCH),
         "engagement_per_height": 2 * 9 * 3e10 / (point.wavenumber * 180.0),
-        "f_A_re": W * np.cos(angle[0]), "f_A_im": W * np.sin(angle[0]),
-        "f_B_re": W * np.cos(angle[1]), "f_B_im": W * np.sin(angle[1]),
-        "e_re": 0.9 * np.cos(angle[2]), "e_im": 0.9 * np.sin(angle[2]), "d_re": np.cos(angle[3]),
-        "d_im": np.sin(angle[3]), "p_re": 1.0, "p_im": 0.0,
-    }  # fmt: skip
+        "f_A_re": W * np.cos(angle[0]),
+        "f_A_im": W * np.sin(angle[0]),
+        "f_B_re": W * np.cos(angle[1]),
+        "f_B_im": W * np.sin(angle[1]),
+        "e_re": 0.9 * np.cos(angle[2]),
+        "e_im": 0.9 * np.sin(angle[2]),
+        "d_re": np.cos(angle[3]),
+        "d_im": np.sin(angle[3]),
+        "p_re": 1.0,
+        "p_im": 0.0,
+    }
     return {name: np.ascontiguousarray(np.broadcast_to(known[name], BATCH), dtype=float) for name in outside}
 
 
@@ -77,13 +91,16 @@ def _c_program(chain: list[Kernel], outside: list[str]) -> str:
     names = [*outside, *ROOT, *(name for kernel in chain for name in kernel.outputs)]
     places = {name: f"&v[{i}]" for i, name in enumerate(dict.fromkeys(names))}
     lines = [
-        "#include <math.h>", "#include <stdio.h>", "#include <stdlib.h>", "#include <time.h>",
+        "#include <math.h>",
+        "#include <stdio.h>",
+        "#include <stdlib.h>",
+        "#include <time.h>",
         '#include "trum_kernels.h"',
         f"enum {{ batch = {BATCH}, outside = {len(outside)} }};",
         f"static double in[outside][batch], out[batch], v[{len(places)}];",
         "static void step(int i) {",
         "  for (int k = 0; k < outside; ++k) v[k] = in[k][i];",
-    ]  # fmt: skip
+    ]
     for number, kernel in enumerate(chain):
         for root, of in ROOT.items():
             if any(symbol.name == root for symbol in kernel.inputs):
@@ -96,7 +113,8 @@ def _c_program(chain: list[Kernel], outside: list[str]) -> str:
             f"  {kernel.name}(arg{number}, res{number}, NULL, NULL, 0);",
         ]
     lines += [
-        f"  out[i] = *({places[RESULT]});", "}",
+        f"  out[i] = *({places[RESULT]});",
+        "}",
         "int main(int argc, char** argv) {",
         "  const int rounds = argc > 1 ? atoi(argv[1]) : 1;",
         "  if (fread(in, sizeof in, 1, stdin) != 1) return 1;",
@@ -106,8 +124,9 @@ def _c_program(chain: list[Kernel], outside: list[str]) -> str:
         "  clock_gettime(CLOCK_MONOTONIC, &b);",
         '  fprintf(stderr, "%.17g", ((double)(b.tv_sec - a.tv_sec) * 1e9 + (double)(b.tv_nsec - a.tv_nsec))'
         " / rounds / batch);",
-        "  return fwrite(out, sizeof out, 1, stdout) != 1;", "}",
-    ]  # fmt: skip
+        "  return fwrite(out, sizeof out, 1, stdout) != 1;",
+        "}",
+    ]
     return "\n".join(lines) + "\n"
 
 
@@ -236,10 +255,23 @@ def rows(repeats: int) -> list[Row]:
 
 # Operations as CasADi counts them, by the operation of the lanes that they cost
 COST = {
-    "add": "add", "sub": "add", "neg": "add", "twice": "add", "mul": "mul", "sq": "mul", "div": "div", "inv": "div",
-    "sqrt": "sqrt", "fmin": "fmin", "fmax": "fmin", "lt": "lt", "fabs": "fabs", "sin": "sin", "cos": "cos",
+    "add": "add",
+    "sub": "add",
+    "neg": "add",
+    "twice": "add",
+    "mul": "mul",
+    "sq": "mul",
+    "div": "div",
+    "inv": "div",
+    "sqrt": "sqrt",
+    "fmin": "fmin",
+    "fmax": "fmin",
+    "lt": "lt",
+    "fabs": "fabs",
+    "sin": "sin",
+    "cos": "cos",
     "atan2": "atan2",
-}  # fmt: skip
+}
 
 
 def _lanes(chain: list[Kernel], repeats: int, scalar: float) -> list[Row]:

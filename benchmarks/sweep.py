@@ -28,8 +28,8 @@ from dataclasses import replace
 import numpy as np
 import trum_sym as ts
 from trum_sym.model import rotor
-from trum_sym.model.operating_point import figures, prepare
-from trum_sym.model.stator import Levels
+from trum_sym.model.operating_point import results, prepare
+from trum_sym.model.levels import Levels
 what, points, outputs, out, scheduler = sys.argv[1:]
 side = max(2, round((int(points) / 10) ** 0.5))
 ranges = {"prepressure": np.linspace(120, 220, side), "frequency_difference": np.linspace(1000, 5000, side),
@@ -39,8 +39,8 @@ outputs = tuple(outputs.split(","))
 def mesh():
     return {n: v.reshape([-1 if i == j else 1 for j in range(3)]) for i, (n, v) in enumerate(ranges.items())}
 def bare():  # only what these points cost: kernels on all cores, no grid, no chunks, no store
-    levels = Levels("winkler", "quartic", "harmonic", "measured")
-    figures(prepare(motor, replace(drive, **mesh()), levels, 1e-3), outputs)
+    levels = Levels()
+    results(prepare(motor, replace(drive, **mesh()), levels, 1e-3), outputs)
 def sweep(where):
     return ts.sweep(motor, drive, outputs=outputs, out=where, scheduler=scheduler or None, **ranges)
 def most():

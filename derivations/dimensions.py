@@ -96,6 +96,11 @@ def dimension(expr: sp.Basic, known: Mapping[sp.Basic, Dimension] | None = None)
     if isinstance(expr, sp.sign):
         dimension(expr.args[0], known)
         return _NONE
+    return _of_operation(expr, known)
+
+
+def _of_operation(expr: sp.Basic, known: Mapping[sp.Basic, Dimension] | None) -> Dimension:
+    """Of a product, a power, or a function of arguments."""
     comparison = isinstance(expr, sp.atan2) or type(expr).__name__ == "less"
     if comparison or isinstance(expr, _SAME_AS_ARGUMENTS):
         common = _same([a for a in expr.args if a != 0] or expr.args, known, type(expr).__name__)
@@ -107,13 +112,16 @@ def dimension(expr: sp.Basic, known: Mapping[sp.Basic, Dimension] | None = None)
             product = product.times(factor)
         return product
     if isinstance(expr, sp.Pow):
-        base, exponent = of_arguments
-        if isinstance(expr.exp, sp.Rational):
-            return base.power(Fraction(int(expr.exp.p), int(expr.exp.q)))
-        if base == exponent == _NONE:
-            return _NONE
-        raise DimensionError(f"power of {expr.base} [{base}] to {expr.exp} [{exponent}]")
+        return _of_power(expr, *of_arguments)
     for argument, found in zip(expr.args, of_arguments, strict=True):
         if found != _NONE:
             raise DimensionError(f"argument {argument} [{found}] of {type(expr).__name__} is not a number")
     return _NONE
+
+
+def _of_power(expr: sp.Pow, base: Dimension, exponent: Dimension) -> Dimension:
+    if isinstance(expr.exp, sp.Rational):
+        return base.power(Fraction(int(expr.exp.p), int(expr.exp.q)))
+    if base == exponent == _NONE:
+        return _NONE
+    raise DimensionError(f"power of {expr.base} [{base}] to {expr.exp} [{exponent}]")

@@ -15,11 +15,11 @@ from trum_sym.inputs.motor import Motor
 from trum_sym.inputs.motor_file import load_motor
 from trum_sym.inputs.units import Dimension, parse_unit
 
-__all__ = ["CLASHES", "CONSTANTS", "NOMENCLATURE", "TINY", "Entry", "latex", "sym"]
+__all__ = ["CLASHES", "CONSTANTS", "NOMENCLATURE", "TINY", "SymbolEntry", "latex", "sym"]
 
 
 @dataclass(frozen=True)
-class Entry:
+class SymbolEntry:
     """A symbol, or a function of its arguments, with its SI unit, meaning, LaTeX and where the paper defines it."""
 
     symbol: sp.Expr
@@ -263,17 +263,17 @@ CLASHES: dict[str, tuple[str, ...]] = {
 }  # fmt: skip
 
 
-def _table_row(line: str, table: dict[str, Entry]) -> tuple[str, Entry]:
+def _table_row(line: str, table: dict[str, SymbolEntry]) -> tuple[str, SymbolEntry]:
     name, unit, kind, latex, where, meaning = (part.strip() for part in line.split("|"))
     if kind.startswith("f"):
         symbol = sp.Function(name)(*(table[argument].symbol for argument in kind.split()[1:]))
     else:
         symbol = _symbol(name, positive=kind == "+")
-    return name, Entry(symbol, unit, meaning, latex, where)
+    return name, SymbolEntry(symbol, unit, meaning, latex, where)
 
 
-def _entries() -> dict[str, Entry]:
-    table: dict[str, Entry] = {}
+def _entries() -> dict[str, SymbolEntry]:
+    table: dict[str, SymbolEntry] = {}
     motor = load_motor("trum60")
     for field in fields(Motor):
         spec = field.metadata.get("spec")
@@ -281,7 +281,7 @@ def _entries() -> dict[str, Entry]:
             symbol = _symbol(spec.symbol, positive=spec.domain.low >= 0)
             given = getattr(motor, field.name)
             where = "motor file" if given is None else given.source
-            table[spec.symbol] = Entry(symbol, spec.unit, field.name.replace("_", " "), sp.latex(symbol), where)
+            table[spec.symbol] = SymbolEntry(symbol, spec.unit, field.name.replace("_", " "), sp.latex(symbol), where)
     for line in (_REST + _PAPER).strip().splitlines():
         if not line:
             continue

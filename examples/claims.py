@@ -14,8 +14,9 @@ import numpy as np
 from tabulate import tabulate
 
 import trum_sym as ts
+from trum_sym.inputs.units import ARCSEC
 from trum_sym.paper.claims import VERDICTS, Claim, best, claims, reading_rows, readings
-from trum_sym.paper.readings import ARCSEC, AXES, Readings
+from trum_sym.paper.readings import AXES, Readings
 
 MARKS = {
     "nearest": "nearest to Table 4's determinants",
@@ -38,14 +39,20 @@ def summary(found: Readings, judged: list[Claim]) -> str:
     default = {"contact": "winkler", "amplitude": "measured"}
     table = [
         (
-            row["start"], row["phase lead"], row["switching phase"][:1], row["resonance"], row["q_average off %"],
-            row["q_volatility off %"], row["mean_speed"] / ARCSEC, 100 * row["speed_volatility"],
+            row["start"],
+            row["phase lead"],
+            row["switching phase"][:1],
+            row["resonance"],
+            row["q_average off %"],
+            row["q_volatility off %"],
+            row["mean_speed"] / ARCSEC,
+            100 * row["speed_volatility"],
             f"{len(row['holds'])} of {len(row['holds']) + len(row['fails'])}",
         )
         for row in rows
         if all(row[axis] == word for axis, word in default.items())
         and (row["resonance"], row["foundation"]) in (("quartic", "harmonic"), ("39703 Hz", "any"))
-    ]  # fmt: skip
+    ]
     headers = (
         "start",
         "lead",

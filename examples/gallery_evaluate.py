@@ -7,14 +7,12 @@ Prints the point; with a folder, also draws phases.svg there.
 
 from __future__ import annotations
 
-import math
 import sys
 from pathlib import Path
 
 import trum_sym as ts
-from trum_sym import plots as figures
-
-ARCSEC = math.pi / 648000
+from trum_sym import plots
+from trum_sym.inputs.units import ARCSEC
 
 
 def main(folder: Path | None = None) -> None:
@@ -27,7 +25,7 @@ def main(folder: Path | None = None) -> None:
     print(f"mean speed  {point.mean_speed / ARCSEC:10.0f} arcsec/s")
     print(f"stall       {point.stall_torque:10.4f} N m")
     if folder is not None:
-        figures.save(figures.phase_responses(motor, drive), folder / "phases.svg")
+        plots.save(plots.phase_responses(motor, drive), folder / "phases.svg")
 
 
 if __name__ == "__main__":

@@ -7,14 +7,12 @@ Prints the optimum; with a folder, also draws optimum.svg there.
 
 from __future__ import annotations
 
-import math
 import sys
 from pathlib import Path
 
 import trum_sym as ts
-from trum_sym import plots as figures
-
-ARCSEC = math.pi / 648000
+from trum_sym import plots
+from trum_sym.inputs.units import ARCSEC
 
 
 def main(folder: Path | None = None) -> None:
@@ -27,10 +25,10 @@ def main(folder: Path | None = None) -> None:
     print(f"{best.prepressure:.2f} N, {best.frequency_difference:.2f} Hz")
     print(f"v_s {best.mean_speed / ARCSEC:.1f} arcsec/s, Q_aver {best.q_average:.1f} 1/s")
     if folder is not None:
-        figure = figures.maps(motor)
+        figure = plots.maps(motor)
         for axes in figure.axes[:6]:
             axes.plot(best.frequency_difference, best.prepressure, "o", color="white", markeredgecolor="black")
-        figures.save(figure, folder / "optimum.svg")
+        plots.save(figure, folder / "optimum.svg")
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ from importlib.resources import files
 from pathlib import Path
 
 import trum_sym as ts
-from trum_sym import plots as figures
+from trum_sym import plots
 
 
 def main(folder: Path | None = None) -> None:
@@ -26,14 +26,14 @@ def main(folder: Path | None = None) -> None:
         path.write_text(text, encoding="utf-8")
         soft = ts.load_motor(str(path))
     measured = soft.with_values({"resonance_frequency": "39.703 kHz"}, source="measured")
-    panels = figures.blank(2, 2, height=5.0, height_ratios=(3, 1), sharey="row")
+    panels = plots.blank(2, 2, height=5.0, height_ratios=(3, 1), sharey="row")
     for motor, axes in zip((ts.load_motor("trum60"), measured), (panels[::2], panels[1::2]), strict=True):
         point = ts.evaluate(motor)
         print(f"{motor.name:<11} f_n {point.resonance_frequency:8.1f} Hz   contact {point.contact_fraction:.3f}")
-        figures.contact_zone(motor, axes=axes)
+        plots.contact_zone(motor, axes=axes)
         axes[0].set_title(motor.name)
     if folder is not None:
-        figures.save(panels[0].figure, folder / "own-motor.svg")
+        plots.save(panels[0].figure, folder / "own-motor.svg")
 
 
 if __name__ == "__main__":

@@ -8,15 +8,13 @@ python examples/optimise.py
 
 from __future__ import annotations
 
-import math
-
 from scipy.optimize import brentq
 from tabulate import tabulate
 
 import trum_sym as ts
+from trum_sym.inputs.units import ARCSEC
 
 TARGET = "633 arcsec/s"
-ARCSEC = math.pi / 648000
 
 
 def row(motor: ts.Motor, load: float, label: str) -> tuple[object, ...]:
@@ -29,9 +27,14 @@ def row(motor: ts.Motor, load: float, label: str) -> tuple[object, ...]:
     margin = found.figures["stall_torque"] - load
     optima = len(found.evidence.optima)
     return (
-        label, found.status, f"{found.prepressure:.2f}", f"{found.frequency_difference:.1f}",
-        f"{100 * found.speed_volatility:.4g}", f"{margin:+.4f}", f"swing {swing:.3g} arcsec/s, local optima {optima}",
-    )  # fmt: skip
+        label,
+        found.status,
+        f"{found.prepressure:.2f}",
+        f"{found.frequency_difference:.1f}",
+        f"{100 * found.speed_volatility:.4g}",
+        f"{margin:+.4f}",
+        f"swing {swing:.3g} arcsec/s, local optima {optima}",
+    )
 
 
 def edge(motor: ts.Motor, load: float, name: str, low: float, high: float) -> float:

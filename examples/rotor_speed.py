@@ -5,13 +5,10 @@ python examples/rotor_speed.py
 
 from __future__ import annotations
 
-import math
-
 from tabulate import tabulate
 
 import trum_sym as ts
-
-ARCSEC = math.pi / 648000
+from trum_sym.inputs.units import ARCSEC
 
 
 def main() -> None:

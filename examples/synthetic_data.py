@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 
 import trum_sym as ts
+from trum_sym.inputs.units import ARCSEC
 
-ARCSEC = np.pi / 648000
 DAMPING, RESONANCE = 0.0055, 39703.0
 FRICTION, RADIUS, STIFFNESS = 0.23, "27.5 mm", 2.4e10
 
@@ -34,26 +34,48 @@ def main(folder: Path) -> None:
     omega = 2 * np.pi * RESONANCE
     decay = np.exp(-DAMPING * omega * time) * np.cos(omega * np.sqrt(1 - DAMPING**2) * time + 0.4)
     velocity = 120.0 * decay + noise.normal(0, 3.0, time.size)
-    write(folder, "decay_synthetic.csv", f"damping_ratio {DAMPING}, resonance_frequency {RESONANCE:g} Hz, noise 3 mm/s",
-          "time [us],velocity [mm/s]", 1e6 * time, velocity)  # fmt: skip
+    write(
+        folder,
+        "decay_synthetic.csv",
+        f"damping_ratio {DAMPING}, resonance_frequency {RESONANCE:g} Hz, noise 3 mm/s",
+        "time [us],velocity [mm/s]",
+        1e6 * time,
+        velocity,
+    )
 
     known = motor.with_values({"friction_coefficient": FRICTION, "contact_radius": RADIUS})
     load = np.linspace(-0.1, 0.1, 11)
     speed = np.asarray(ts.evaluate(known, ts.Drive(load_torque=load), tolerance=1e-6).mean_speed) / ARCSEC
-    write(folder, "torque_speed_synthetic.csv",
-          f"friction_coefficient {FRICTION}, contact_radius {RADIUS}, Table 3's drive, noise 2000 arcsec/s",
-          "load_torque [N*m],mean_speed [arcsec/s]", load, speed + noise.normal(0, 2000, load.size))  # fmt: skip
+    write(
+        folder,
+        "torque_speed_synthetic.csv",
+        f"friction_coefficient {FRICTION}, contact_radius {RADIUS}, Table 3's drive, noise 2000 arcsec/s",
+        "load_torque [N*m],mean_speed [arcsec/s]",
+        load,
+        speed + noise.normal(0, 2000, load.size),
+    )
 
     force = np.linspace(100, 220, 13)
     stall = np.asarray(ts.evaluate(known, ts.Drive(prepressure=force), tolerance=1e-6).stall_torque)
-    write(folder, "stall_torque_synthetic.csv",
-          f"friction_coefficient {FRICTION}, contact_radius {RADIUS}, Table 3's drive, noise 0.5 mN m",
-          "prepressure [N],stall_torque [mN*m]", force, 1e3 * stall + noise.normal(0, 0.5, force.size))  # fmt: skip
+    write(
+        folder,
+        "stall_torque_synthetic.csv",
+        f"friction_coefficient {FRICTION}, contact_radius {RADIUS}, Table 3's drive, noise 0.5 mN m",
+        "prepressure [N],stall_torque [mN*m]",
+        force,
+        1e3 * stall + noise.normal(0, 0.5, force.size),
+    )
 
     softer = motor.with_values({"layer_stiffness": STIFFNESS})
     resonance = np.asarray(ts.evaluate(softer, ts.Drive(prepressure=force)).resonance_frequency)
-    write(folder, "resonance_synthetic.csv", f"layer_stiffness {STIFFNESS:g} N/m^2, noise 1 Hz",
-          "prepressure [N],resonance_frequency [kHz]", force, 1e-3 * (resonance + noise.normal(0, 1, 13)))  # fmt: skip
+    write(
+        folder,
+        "resonance_synthetic.csv",
+        f"layer_stiffness {STIFFNESS:g} N/m^2, noise 1 Hz",
+        "prepressure [N],resonance_frequency [kHz]",
+        force,
+        1e-3 * (resonance + noise.normal(0, 1, 13)),
+    )
 
 
 if __name__ == "__main__":

@@ -58,8 +58,9 @@ class Map:
 
     def at(self, share, tolerance):
         force, difference = np.moveaxis(self.low + np.clip(share, 0, 1) * (self.high - self.low), -1, 0)
-        drive = ts.Drive(**{**self.drive.numbers(), "prepressure": force, "frequency_difference": difference},
-                         start=self.drive.start)  # fmt: skip
+        drive = ts.Drive(
+            **{**self.drive.numbers(), "prepressure": force, "frequency_difference": difference}, start=self.drive.start
+        )
         return ts.evaluate(self.motor, drive, tolerance=tolerance)
 
     @property
@@ -120,10 +121,14 @@ class Map:
 
         scale = look(start)[0][0] or 1.0
         found = minimize(
-            lambda x: look(x)[0][0] / scale, start, jac=lambda x: slopes(look(x)[0], x) / scale, method="SLSQP",
-            bounds=[(0, 1)] * 2, options={"maxiter": 15},
+            lambda x: look(x)[0][0] / scale,
+            start,
+            jac=lambda x: slopes(look(x)[0], x) / scale,
+            method="SLSQP",
+            bounds=[(0, 1)] * 2,
+            options={"maxiter": 15},
             constraints={"type": "eq", "fun": lambda x: look(x)[1][0], "jac": lambda x: slopes(look(x)[1], x)},
-        )  # fmt: skip
+        )
         deviation, error = look(found.x)
         return float(deviation[0]) if abs(error[0]) * span <= 1e-6 * abs(target) else np.inf
 
@@ -147,15 +152,22 @@ def problem(motor, drive, low, high, target):
     """The optimiser's answer, as a record."""
     begin = time.perf_counter()
     found = ts.optimize(
-        motor, drive, target_speed=target,
+        motor,
+        drive,
+        target_speed=target,
         bounds={"prepressure": (low[0], high[0]), "frequency_difference": (low[1], high[1])},
-    )  # fmt: skip
+    )
     record = {
-        "target": target, "status": found.status, "seconds": time.perf_counter() - begin,
-        "objective": found.objective, "violation": found.constraint_violation, "evaluations": found.evaluations,
-        "optima": len(found.evidence.optima), "where": [found.prepressure, found.frequency_difference],
+        "target": target,
+        "status": found.status,
+        "seconds": time.perf_counter() - begin,
+        "objective": found.objective,
+        "violation": found.constraint_violation,
+        "evaluations": found.evaluations,
+        "optima": len(found.evidence.optima),
+        "where": [found.prepressure, found.frequency_difference],
         "range": found.evidence.reachable_speed,
-    }  # fmt: skip
+    }
     return record
 
 
@@ -176,9 +188,13 @@ def records(seed, targets, side):
         beyond = 10 ** rng.uniform(-4, 0)
         found = problem(motor, drive, low, high, end + sign * beyond * reach)
         yield {
-            "seed": seed, "kind": "unreachable", "side": side, "beyond": beyond, "true range": [low_speed, high_speed],
+            "seed": seed,
+            "kind": "unreachable",
+            "side": side,
+            "beyond": beyond,
+            "true range": [low_speed, high_speed],
             **found,
-        }  # fmt: skip
+        }
 
 
 def run(file, draws, targets, side, first):
@@ -218,6 +234,16 @@ def wrong(record):
     return ""
 
 
+def report_solved(solved):
+    if not solved:
+        return
+    ratio = np.array([record["objective"] / record["map"] - 1 for record in solved])
+    print(f"  objective over the map's: median {np.median(ratio):+.1e}, worst {ratio.max():+.1e}")
+    print(f"  largest violation {max(record['violation'] for record in solved):.1e}")
+    times = np.array([record["seconds"] for record in solved])
+    print(f"  seconds: median {np.median(times):.2f}, 95 % {np.quantile(times, 0.95):.2f}, most {times.max():.2f}")
+
+
 def report(file):
     found = [json.loads(line) for line in file.read_text().splitlines()]
     for side in sorted({record["side"] for record in found}):
@@ -230,15 +256,7 @@ def report(file):
         print(f"  feasible targets: {right} of {len(feasible)} right")
         right = len(unreachable) - sum(record["kind"] == "unreachable" for record, _ in bad)
         print(f"  unreachable targets: {right} of {len(unreachable)} right")
-        solved = [record for record in feasible if record["status"] == "solved"]
-        if solved:
-            ratio = np.array([record["objective"] / record["map"] - 1 for record in solved])
-            print(f"  objective over the map's: median {np.median(ratio):+.1e}, worst {ratio.max():+.1e}")
-            print(f"  largest violation {max(record['violation'] for record in solved):.1e}")
-            times = np.array([record["seconds"] for record in solved])
-            print(
-                f"  seconds: median {np.median(times):.2f}, 95 % {np.quantile(times, 0.95):.2f}, most {times.max():.2f}"
-            )
+        report_solved([record for record in feasible if record["status"] == "solved"])
         for record, why in bad:
             print(f"  seed {record['seed']}, target {record['target']:.10g}: {why}")
 

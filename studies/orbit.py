@@ -94,10 +94,12 @@ def disagreement(point: Sample, answer: ts.OperatingPoint) -> tuple[bool, np.nda
     orbit = other.orbit()
     ours = np.array(
         [
-            answer.mean_speed, answer.min_speed, answer.max_speed,
+            answer.mean_speed,
+            answer.min_speed,
+            answer.max_speed,
             answer.speed_volatility * abs(answer.mean_speed),
         ]
-    )  # fmt: skip
+    )
     theirs = np.array([orbit.mean, orbit.low, orbit.high, orbit.deviation])
     return False, (ours - theirs) / orbit.largest
 

@@ -20,12 +20,12 @@ from pathlib import Path
 import numpy as np
 
 import trum_sym as ts
-from trum_sym.model.operating_point import figures, prepare
-from trum_sym.model.sensitivities import FIGURES, PARAMETERS
-from trum_sym.model.stator import Levels
+from trum_sym.model.levels import Levels
+from trum_sym.model.operating_point import prepare, results
+from trum_sym.model.sensitivities import DIFFERENTIATED, PARAMETERS
 
 TOLERANCES = (1e-3, 1e-6, 1e-9)
-LEVELS = Levels("winkler", "quartic", "harmonic", "measured")
+LEVELS = Levels()
 SHIFTS = np.array([1.0, -1.0, 2.0, -2.0, 3.0, -3.0])
 WEIGHTS = np.array([45.0, -45.0, -9.0, 9.0, 1.0, -1.0]) / 60
 STEPS = (5e-5, 2e-4, 8e-4)  # over the parameter
@@ -74,7 +74,7 @@ def moved(motor, drive, point, name, values):
 def finest(motor, drive):
     """The figures, from an orbit a thousand times finer than is offered."""
     case = prepare(motor, drive, LEVELS, 1e-9)
-    return figures(replace(case, arguments={**case.arguments, "tolerance": FINEST}), FIGURES)
+    return results(replace(case, arguments={**case.arguments, "tolerance": FINEST}), DIFFERENTIATED)
 
 
 def record(seed):
@@ -87,8 +87,8 @@ def record(seed):
         differences = []
         for step in STEPS:
             there = moved(motor, drive, point, name, value * (1 + step * SHIFTS))
-            differences.append({f: WEIGHTS @ there[f] / (step * value) for f in FIGURES})
-        for figure in FIGURES:
+            differences.append({f: WEIGHTS @ there[f] / (step * value) for f in DIFFERENTIATED})
+        for figure in DIFFERENTIATED:
             values = [difference[figure] for difference in differences]
             near, far = min(pairwise(values), key=lambda pair: abs(pair[0] - pair[1]))
             scale = max(abs(near), abs(getattr(point, figure) / value))

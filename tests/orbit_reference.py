@@ -379,11 +379,20 @@ class Reference:
         self.force = friction * force
         self.p = np.array(
             [
-                _TURN * float(point.resonance_frequency), value("damping_ratio"), _TURN * f_q,
-                float(drive.switching_phase), float(drive.phase_lead), W, D * k,
-                force * k / (2 * crests * layer), k * width / 2, float(contact == "hertz"), self.push, self.drag,
+                _TURN * float(point.resonance_frequency),
+                value("damping_ratio"),
+                _TURN * f_q,
+                float(drive.switching_phase),
+                float(drive.phase_lead),
+                W,
+                D * k,
+                force * k / (2 * crests * layer),
+                k * width / 2,
+                float(contact == "hertz"),
+                self.push,
+                self.drag,
             ]
-        )  # fmt: skip
+        )
         m, n = int(drive.periods), int(drive.on_periods)
         self.durations = np.array([m - n, m - n, 2 * n - m]) / f_q
         self.cycle_time = m / f_q

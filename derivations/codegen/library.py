@@ -6,12 +6,12 @@ import math
 from collections.abc import Iterable
 
 from derivations.codegen.kernels import Kernel
-from trum_sym.inputs.checks import Domain
-from trum_sym.inputs.drive import DRIVE_DOMAINS, STARTS, Drive
+from trum_sym.inputs.domain import Domain
+from trum_sym.inputs.drive import DRIVE_DOMAINS, LEAD, STARTS, Drive
 from trum_sym.inputs.motor import SPECS
 from trum_sym.inputs.motor_file import load_motor
-from trum_sym.model.stator import AMPLITUDES, CONTACTS, FOUNDATIONS, RESONANCES
-from trum_sym.quantities import OUTPUTS
+from trum_sym.model.levels import AMPLITUDES, CONTACTS, FOUNDATIONS, RESONANCES
+from trum_sym.quantities import QUANTITIES
 
 __all__ = ["headers"]
 
@@ -58,9 +58,9 @@ def _listed(name: str, rows: Iterable[str]) -> list[str]:
 
 def _fields() -> list[str]:
     motor = [_field(name, spec.symbol, spec.unit, spec.domain, spec.required) for name, spec in SPECS.items()]
-    domains = {**DRIVE_DOMAINS, "phase_lead": (Domain(low=-1, low_open=False, high=1, high_open=False), "1")}
+    domains = {**DRIVE_DOMAINS, "phase_lead": (LEAD, "1")}
     drive = [_field(name, _DRIVE_SYMBOLS[name], unit, domain, True) for name, (domain, unit) in domains.items()]
-    outputs = [f'  X({name}, "{output.unit}")' for name, output in OUTPUTS.items()]
+    outputs = [f'  X({name}, "{output.unit}")' for name, output in QUANTITIES.items()]
     lines = ["#ifndef TRUM_FIELDS_H", "#define TRUM_FIELDS_H", ""]
     lines += [
         "/* field, symbol, SI unit, lowest, highest, is the lowest excluded, the highest, must it be an integer,",

@@ -14,6 +14,7 @@ from typing import Any, SupportsFloat
 import mpmath as mp
 import sympy as sp
 
+from derivations.ledger.algebra import difference, vanishes
 from derivations.ledger.model import APPROXIMATION_LIMIT, WORKING_DIGITS, Evidence, Forms, Kind
 from trum_sym.inputs.motor import Motor
 
@@ -113,25 +114,6 @@ def evaluate(expr: sp.Basic, point: Mapping[sp.Symbol, object]) -> mp.mpf | mp.m
     function = compiled(symbols, sp.sympify(expr))
     with mp.workdps(max(WORKING_DIGITS, mp.mp.dps)):  # numerical derivatives ask for more
         return mp.mpmathify(function(*(mp.mpmathify(point[s]) for s in symbols)))
-
-
-@cache
-def vanishes(expr: sp.Basic) -> bool:
-    """Whether an expression is identically 0, by ever stronger simplification."""
-    if isinstance(expr, sp.Equality):
-        expr = expr.lhs - expr.rhs
-    for simpler in (sp.sympify, sp.expand, lambda e: sp.expand(sp.expand_trig(e)), sp.together, sp.simplify):
-        expr = simpler(expr)
-        if expr == 0:
-            return True
-    return False
-
-
-def difference(form: sp.Basic, other: sp.Basic) -> sp.Basic:
-    """What must vanish for two expressions, or two equations, to be the same (equations: side by side)."""
-    if isinstance(form, sp.Equality) and isinstance(other, sp.Equality):
-        return (form.lhs - form.rhs) - (other.lhs - other.rhs)
-    return form - other
 
 
 def identical(forms: Forms, derived: Forms, kind: Kind = "identity") -> Evidence:

@@ -17,6 +17,7 @@ import mpmath as mp
 import sympy as sp
 
 from derivations.dimensions import DimensionError, dimension
+from derivations.ledger.algebra import vanishes
 from trum_sym.inputs.units import Dimension, parse_unit
 
 __all__ = [
@@ -178,8 +179,6 @@ def evidence(kind: Kind, ok: object, detail: str) -> Evidence:
 
 def step(text: str, *shows: sp.Basic, zero: sp.Basic | Iterable[sp.Basic] | None = None) -> Step:
     """A step; it holds if every expression in ``zero`` reduces to 0, and is a premise without any."""
-    from derivations.ledger.judge import vanishes
-
     if zero is None:
         return Step(text, shows)
     expressions = [zero] if isinstance(zero, sp.Basic) else list(zero)

@@ -15,9 +15,9 @@ import trum_sym as ts
 from trum_sym import console
 from trum_sym.calibration.models import PointModel
 from trum_sym.inputs.measurements import from_columns
-from trum_sym.model.stator import Levels
+from trum_sym.model.levels import Levels
 
-LEVELS = Levels("winkler", "quartic", "harmonic", "measured")
+LEVELS = Levels()
 FORCE = np.array([100.0, 120, 140, 160, 180, 200, 220])
 AMPLITUDE = 1e-6 * np.array([8.3, 7.3, 6.6, 6.0, 5.5, 5.2, 4.8])  # Table 2
 TABLE_2 = {"prepressure": FORCE, "amplitude": AMPLITUDE}
@@ -334,11 +334,17 @@ def test_console_says_no_with_exit_code_1_and_writes_nothing(capsys, csv_file, t
 
 
 def test_console_reads_units_and_comments(capsys, csv_file):
-    micro, metre = (csv_file(text, name) for text, name in (
-        (LAW, "a.csv"),
-        ("\ufeff# a comment\n\namplitude [m] , prepressure [kN]\n8.3e-6,0.1\n7.3e-6,0.12\n6.6e-6,0.14\n6e-6,0.16\n",
-         "b.csv"),
-    ))  # fmt: skip
+    micro, metre = (
+        csv_file(text, name)
+        for text, name in (
+            (LAW, "a.csv"),
+            (
+                "\ufeff# a comment\n\namplitude [m] , prepressure [kN]\n"
+                "8.3e-6,0.1\n7.3e-6,0.12\n6.6e-6,0.14\n6e-6,0.16\n",
+                "b.csv",
+            ),
+        )
+    )
     found = []
     for path in (micro, metre):
         assert console.main(["calibrate", path, "--json"]) == 0

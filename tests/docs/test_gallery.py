@@ -34,8 +34,11 @@ def drawn(tmp_path_factory):
     for name in PICTURES:
         done = subprocess.run(
             [sys.executable, ROOT / "examples" / f"gallery_{name}.py", folder],
-            capture_output=True, text=True, encoding="utf-8", check=True,
-        )  # fmt: skip
+            capture_output=True,
+            text=True,
+            encoding="utf-8",
+            check=True,
+        )
         printed[name] = done.stdout
     return printed, folder
 

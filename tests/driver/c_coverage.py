@@ -189,8 +189,11 @@ def measured(folder: Path) -> Mapping[str, Mapping[Branch, int]]:
     for notes in sorted(folder.glob("*.gcno")):
         out = subprocess.run(
             ["gcov", "--json-format", "--stdout", "--branch-probabilities", notes.name],
-            cwd=folder, check=True, capture_output=True, text=True,
-        ).stdout  # fmt: skip
+            cwd=folder,
+            check=True,
+            capture_output=True,
+            text=True,
+        ).stdout
         for part in (json.loads(line) for line in out.splitlines() if line):
             for file in part["files"]:
                 if ROOT not in Path(file["file"]).parents:

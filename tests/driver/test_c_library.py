@@ -40,8 +40,10 @@ def make(folder, target, *variables):
     makefile = ROOT / "examples" / "c" / "Makefile"
     return subprocess.run(
         ["make", "-s", "-f", str(makefile), f"ROOT={ROOT}", *variables, target],
-        cwd=folder, capture_output=True, text=True,
-    )  # fmt: skip
+        cwd=folder,
+        capture_output=True,
+        text=True,
+    )
 
 
 def built(tmp_path_factory, target):

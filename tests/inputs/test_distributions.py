@@ -10,7 +10,7 @@ from refusals import MOTOR, MOTOR_TEXT, refusal, voltage
 from scipy import integrate, stats
 
 import trum_sym as ts
-from trum_sym.inputs.distributions import Distribution, checked, default_distribution, from_text
+from trum_sym.inputs.distributions import Distribution, checked, from_text
 from trum_sym.inputs.motor import SPECS
 
 LEVELS = (np.arange(200_000) + 0.5) / 200_000
@@ -97,12 +97,12 @@ def test_every_level_gives_a_finite_value():
 )
 def test_the_motor_file_says_how_a_value_spreads(motor_file, changes, meant):
     motor = ts.load_motor(motor_file(voltage(**changes)))
-    assert default_distribution(motor.voltage) == meant
+    assert motor.voltage.spread() == meant
 
 
 def test_assumed_ranges_are_uniform_and_a_value_that_is_set_is_certain():
-    assert default_distribution(MOTOR.friction_coefficient) == Distribution("uniform", 0.2, 0.3)
-    assert default_distribution(MOTOR.with_values({"friction_coefficient": 0.2}).friction_coefficient) is None
+    assert MOTOR.friction_coefficient.spread() == Distribution("uniform", 0.2, 0.3)
+    assert MOTOR.with_values({"friction_coefficient": 0.2}).friction_coefficient.spread() is None
 
 
 BAD_ENTRIES = [

@@ -180,11 +180,23 @@ def test_motor_refuses_what_is_no_number(value):
         ({"tooth_count": [70, 72], "slot_width": [8e-4] * 3}, ("shape (", "broadcast")),
     ],
     ids=[
-        "unknown", "empty-name", "two-line-name", "nan", "zero-in-list", "wrong-unit", "critical-damping",
-        "critical-damping-in-list", "tall-teeth", "tall-teeth-in-list", "many-thin-beams", "many-wide-slots",
-        "reversed-fit", "tooth-and-beam-shapes", "count-and-slot-shapes",
+        "unknown",
+        "empty-name",
+        "two-line-name",
+        "nan",
+        "zero-in-list",
+        "wrong-unit",
+        "critical-damping",
+        "critical-damping-in-list",
+        "tall-teeth",
+        "tall-teeth-in-list",
+        "many-thin-beams",
+        "many-wide-slots",
+        "reversed-fit",
+        "tooth-and-beam-shapes",
+        "count-and-slot-shapes",
     ],
-)  # fmt: skip
+)
 def test_motor_refuses_bad_values(values, naming):
     with refusal(*naming):
         MOTOR.with_values(values)

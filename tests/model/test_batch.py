@@ -11,8 +11,8 @@ import pytest
 
 import trum_sym as ts
 from trum_sym.model import batch
+from trum_sym.model.levels import Levels
 from trum_sym.model.operating_point import prepare
-from trum_sym.model.stator import Levels
 
 
 @pytest.fixture
@@ -78,7 +78,7 @@ def test_the_drivers_let_other_threads_run(trum60, kernel):
     """Were the interpreter's lock kept, this thread would stand still from the call's begin to its end."""
     count = {"rotor_orbit": 200, "cycle_sums": 10000}[kernel]
     drive = ts.Drive(prepressure=np.linspace(120, 220, count), load_torque=0.1)
-    levels = Levels("winkler", "quartic", "harmonic", "measured")
+    levels = Levels()
     values = {**prepare(trum60, drive, levels, 1e-3).arguments, "panels": 4.0}
     took = []
 

@@ -16,9 +16,7 @@ TABLE_3 = {"f_n": 39703.0, "df": 3000.0, "xi": 0.006, "psi": 0.0, "s": 1, "m": 2
 
 
 def compiled(f_n, df, xi, psi, s, m, n, start, panels=PANELS_PER_PERIOD):
-    drive = ts.Drive(
-        frequency_difference=df, periods=m, on_periods=n, start=start, switching_phase=psi, phase_lead=s
-    )  # fmt: skip
+    drive = ts.Drive(frequency_difference=df, periods=m, on_periods=n, start=start, switching_phase=psi, phase_lead=s)
     return cycle_sums(modal_values(2 * np.pi * np.asarray(f_n), xi, drive), panels)
 
 
@@ -114,9 +112,15 @@ def test_average_does_not_depend_on_what_cancels():
     motor = ts.load_motor()
     base = ts.evaluate(motor)
     scaled = ts.evaluate(
-        motor.with_values({"amplitude": 1e-6, "neutral_axis": 1e-3, "wavenumber": 100.0,
-                           "resonance_frequency": base.resonance_frequency})
-    )  # fmt: skip
+        motor.with_values(
+            {
+                "amplitude": 1e-6,
+                "neutral_axis": 1e-3,
+                "wavenumber": 100.0,
+                "resonance_frequency": base.resonance_frequency,
+            }
+        )
+    )
     assert scaled.q_average == pytest.approx(base.q_average, rel=1e-12)
     assert scaled.q_volatility == pytest.approx(base.q_volatility, rel=1e-12)
 

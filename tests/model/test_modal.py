@@ -31,9 +31,13 @@ def random_drives(count, seed, most_periods=200):
 
 def values_of(d, start):
     drive = ts.Drive(
-        frequency_difference=d["df"], periods=d["m"], on_periods=d["n"], start=start,
-        switching_phase=d["psi"], phase_lead=d["s"],
-    )  # fmt: skip
+        frequency_difference=d["df"],
+        periods=d["m"],
+        on_periods=d["n"],
+        start=start,
+        switching_phase=d["psi"],
+        phase_lead=d["s"],
+    )
     return modal_values(2 * np.pi * d["f_n"], d["xi"], drive)
 
 

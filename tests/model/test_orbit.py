@@ -140,9 +140,15 @@ def test_the_reference_closes_and_has_its_extremes_where_lsoda_has_them(steady):
                 return derivative(t, x)[0]
 
             steps = solve_ivp(
-                derivative, (0, other.durations[r]), x, "LSODA", rtol=1e-12, atol=1e-14, events=turning,
+                derivative,
+                (0, other.durations[r]),
+                x,
+                "LSODA",
+                rtol=1e-12,
+                atol=1e-14,
+                events=turning,
                 max_step=other.cycle_time / point.drive["periods"] / 400,
-            )  # fmt: skip
+            )
             x = steps.y[:, -1]
             seen += [x[0], *(state[0] for state in steps.y_events[0])]
         scale = orbit.largest * other.radius

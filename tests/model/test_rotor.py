@@ -166,8 +166,10 @@ def test_a_batch_gives_the_same_bits_as_its_points_one_by_one(trum60):
     for i in range(5):
         one = ts.evaluate(trum60, ts.Drive(periods=periods[i], on_periods=on[i], load_torque=0.1))
         assert (one.mean_speed, one.min_speed, one.max_speed) == (
-            batch.mean_speed[i], batch.min_speed[i], batch.max_speed[i],
-        )  # fmt: skip
+            batch.mean_speed[i],
+            batch.min_speed[i],
+            batch.max_speed[i],
+        )
 
 
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-6])
@@ -238,9 +240,13 @@ def test_newton_on_laps_does_not_go_round_in_circles(trum60):
     """Here Newton's steps lead from one end of the bracket to the other and back: their length has to be watched."""
     motor = trum60.with_values({"friction_coefficient": 0.15036263687842363, "rotor_inertia": 1.1334116873345693e-05})
     drive = ts.Drive(
-        prepressure=151.94908881274398, frequency_difference=2783.3467231060276, load_torque=0.20079393255353645,
-        periods=16, on_periods=10, start="steady",
-    )  # fmt: skip
+        prepressure=151.94908881274398,
+        frequency_difference=2783.3467231060276,
+        load_torque=0.20079393255353645,
+        periods=16,
+        on_periods=10,
+        start="steady",
+    )
     fine = ts.evaluate(motor, drive, tolerance=1e-8)
     for tolerance in (1e-2, 3e-3, 1e-3, 3e-4):
         found = ts.evaluate(motor, drive, tolerance=tolerance)

@@ -201,19 +201,39 @@ def test_next_to_no_friction_is_an_orbit_and_none_is_flagged(trum60):
     damping=st.floats(1e-4, 0.2),
 )
 def test_no_input_of_the_domain_gives_a_silent_nan(
-    trum60, prepressure, frequency_difference, pulses, load, switching_phase, lead, start, law, inertia,
-    friction_coefficient, amplitude, damping,
-):  # fmt: skip
+    trum60,
+    prepressure,
+    frequency_difference,
+    pulses,
+    load,
+    switching_phase,
+    lead,
+    start,
+    law,
+    inertia,
+    friction_coefficient,
+    amplitude,
+    damping,
+):
     motor = trum60.with_values(
         {
-            "rotor_inertia": inertia, "friction_coefficient": friction_coefficient, "amplitude": amplitude,
-            "damping_ratio": damping, "resonance_frequency": 39e3,
+            "rotor_inertia": inertia,
+            "friction_coefficient": friction_coefficient,
+            "amplitude": amplitude,
+            "damping_ratio": damping,
+            "resonance_frequency": 39e3,
         }
-    )  # fmt: skip
+    )
     drive = ts.Drive(
-        prepressure=prepressure, frequency_difference=frequency_difference, periods=pulses[0], on_periods=pulses[1],
-        load_torque=load, switching_phase=switching_phase, phase_lead=lead, start=start,
-    )  # fmt: skip
+        prepressure=prepressure,
+        frequency_difference=frequency_difference,
+        periods=pulses[0],
+        on_periods=pulses[1],
+        load_torque=load,
+        switching_phase=switching_phase,
+        phase_lead=lead,
+        start=start,
+    )
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ts.ValidityWarning)
         point = ts.evaluate(motor, drive, contact=law)

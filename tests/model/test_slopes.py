@@ -12,13 +12,17 @@ import trum_sym as ts
 from studies import slopes as slopes_study
 from trum_sym.model.kernels import call
 from trum_sym.model.operating_point import prepare
-from trum_sym.model.sensitivities import FIGURES, PARAMETERS, orbit_with_slopes
+from trum_sym.model.sensitivities import DIFFERENTIATED, PARAMETERS, orbit_with_slopes
 
 # relative steps of the differences
 STEPS = {
-    "prepressure": 1e-4, "frequency_difference": 1e-4, "load_torque": 1e-4,
-    "friction_coefficient": 1e-4, "amplitude": 1e-4, "resonance_frequency": 1e-5,
-}  # fmt: skip
+    "prepressure": 1e-4,
+    "frequency_difference": 1e-4,
+    "load_torque": 1e-4,
+    "friction_coefficient": 1e-4,
+    "amplitude": 1e-4,
+    "resonance_frequency": 1e-5,
+}
 
 
 def changed(motor, drive, point, name, factor):
@@ -39,12 +43,12 @@ def test_derivatives_are_those_of_evaluate(trum60, start, contact):
     options = {"contact": contact, "tolerance": 1e-9}
     point = ts.evaluate(trum60, drive, **options)
     found = ts.sensitivities(trum60, drive, **options)
-    assert tuple(found) == FIGURES
+    assert tuple(found) == DIFFERENTIATED
     for name in PARAMETERS:
         step = STEPS[name]
         up, down = (ts.evaluate(*changed(trum60, drive, point, name, 1 + e), **options) for e in (step, -step))
         base = getattr(drive, name, None) or getattr(point, name, None) or trum60.friction_coefficient.value
-        for figure in FIGURES:
+        for figure in DIFFERENTIATED:
             difference = (getattr(up, figure) - getattr(down, figure)) / (2 * step * base)
             # differences see the orbit's own tolerance
             scale = abs(getattr(point, figure) / base) * (1e-3 if figure == "contact_fraction" else 2e-4)
@@ -66,7 +70,7 @@ def test_slopes_change_no_figure(trum60):
     """They are taken along an orbit that is found without them."""
     drive = ts.Drive(prepressure=np.linspace(150, 200, 11), load_torque=0.05)
     case = prepare(trum60, drive, slopes_study.LEVELS, 1e-6)
-    orbit, _ = orbit_with_slopes(case, slopes_study.LEVELS)
+    orbit, _ = orbit_with_slopes(case)
     assert np.array_equal(orbit.mean_speed, ts.evaluate(trum60, drive, tolerance=1e-6).mean_speed)
 
 
@@ -74,7 +78,7 @@ def test_derivatives_broadcast_and_are_nan_without_an_orbit(trum60):
     drive = ts.Drive(prepressure=np.array([160.0, 180.0, 200.0]), load_torque=np.array([[0.1], [5.0]]))
     found = ts.sensitivities(trum60, drive)
     single = ts.sensitivities(trum60, ts.Drive(prepressure=180.0, load_torque=0.1))
-    for figure in FIGURES:
+    for figure in DIFFERENTIATED:
         for name in PARAMETERS:
             assert found[figure][name].shape == (2, 3)
             assert found[figure][name][0, 1] == single[figure][name]
@@ -151,16 +155,25 @@ def test_slopes_over_a_bent_step_have_the_limits_of_the_kernels():
         assert pressures[0] == pytest.approx(pressures[1]), "the two points are one"
         limit = call(
             "trum_friction_limit",
-            {"R_v": fastest, "R_v_rate": faster, "v": way * fastest, "v_rate": way * faster_rim, "step": step,
-             "p_smaller": pressures[0], "p_larger": pressures[1]},
-        )["T_f_v"]  # fmt: skip
+            {
+                "R_v": fastest,
+                "R_v_rate": faster,
+                "v": way * fastest,
+                "v_rate": way * faster_rim,
+                "step": step,
+                "p_smaller": pressures[0],
+                "p_larger": pressures[1],
+            },
+        )["T_f_v"]
         moved = {"R_v": fastest + faster * after, "v": way * (fastest + faster_rim * after)}
         slope = call("trum_friction", {**there, **moved})["f_v"]
         assert slope * 2 * step * near == pytest.approx(limit, rel=1e-4)
     full, growth = 2e-7, 0.05
     engagement = (1 + growth * after / full) / np.pi
-    touching = call("trum_contact_winkler", {"fullness": 1 / (np.pi * engagement),
-                                             "fullness_root": np.cbrt(1 / (np.pi * engagement))})  # fmt: skip
+    touching = call(
+        "trum_contact_winkler",
+        {"fullness": 1 / (np.pi * engagement), "fullness_root": np.cbrt(1 / (np.pi * engagement))},
+    )
     opening = call("trum_friction_slopes", {**there, **moved, **touching, "engagement": engagement})["theta_E"]
     limit = call("trum_contact_limit", {"W_full": full, "W_c_rate": -growth, "step": step})["T_theta_E"]
     assert opening * 2 * step * near == pytest.approx(limit, rel=1e-3)

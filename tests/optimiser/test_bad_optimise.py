@@ -69,7 +69,7 @@ BAD_LINES = [
     (("--plot", "box.txt"), ("--plot: got box.txt", ".png, .svg or .pdf")),
     (("--plot", "/nowhere/box.png"), ("--plot: got /nowhere/box.png", "a folder that exists")),
     (("--prepressure", "nan"), ("prepressure: got nan",)),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("arguments", "naming"), BAD_LINES, ids=[" ".join(a)[:60] for a, _ in BAD_LINES])

@@ -14,21 +14,32 @@ import trum_sym as ts
 from studies import optimum as optimise_study
 from studies import slopes as slopes_study
 from trum_sym import console
+from trum_sym.inputs.units import ARCSEC
 from trum_sym.model.cycle import response
 from trum_sym.model.kernels import call
+from trum_sym.model.levels import Levels
 from trum_sym.model.operating_point import prepare
 from trum_sym.model.pressure import peak_pressure
-from trum_sym.model.stator import Levels
 from trum_sym.optimiser.expressions import parse_constraint, parse_expression
 from trum_sym.optimiser.finish import TOLERANCE
 from trum_sym.optimiser.model import Box, Model, functions
 
-ARCSEC = math.pi / 648000
-LEVELS = Levels("winkler", "quartic", "harmonic", "measured")
+LEVELS = Levels()
 KEYS = {
-    "status", "objective", "prepressure", "frequency_difference", "on_periods", "periods", "mean_speed",
-    "speed_volatility", "q_average", "q_volatility", "constraint_violation", "evaluations", "message",
-}  # fmt: skip
+    "status",
+    "objective",
+    "prepressure",
+    "frequency_difference",
+    "on_periods",
+    "periods",
+    "mean_speed",
+    "speed_volatility",
+    "q_average",
+    "q_volatility",
+    "constraint_violation",
+    "evaluations",
+    "message",
+}
 DRIVE = ts.Drive(load_torque=0.1)
 
 
@@ -242,15 +253,26 @@ def test_the_switching_phase_is_a_variable(trum60, at_one):
 
 
 def test_slopes_of_every_figure_are_its_differences(trum60):
-    names = ("mean_speed", "speed_deviation", "stall_torque", "q_average", "q_volatility", "peak_pressure",
-             "resonance_frequency", "amplitude", "cycle_time", "prepressure", "load_torque")  # fmt: skip
+    names = (
+        "mean_speed",
+        "speed_deviation",
+        "stall_torque",
+        "q_average",
+        "q_volatility",
+        "peak_pressure",
+        "resonance_frequency",
+        "amplitude",
+        "cycle_time",
+        "prepressure",
+        "load_torque",
+    )
     box = Box(("prepressure", "frequency_difference", "switching_phase"), np.zeros(3), np.ones(3))
     model = Model(trum60, DRIVE, LEVELS, box, frozenset(names))
     places = np.array([[180.0, 3000.0, 0.3], [166.0, 3170.0, 2.0]])
-    _, slopes = model.figures_with_slopes(places, 1e-9)
+    _, slopes = model.results_with_slopes(places, 1e-9)
     for k, step in enumerate((0.05, 0.5, 1e-3)):
         shift = step * np.eye(3)[k]
-        up, down = model.figures(places + shift, 1e-9), model.figures(places - shift, 1e-9)
+        up, down = model.results(places + shift, 1e-9), model.results(places - shift, 1e-9)
         for name in names:
             difference = (up[name] - down[name]) / (2 * step)
             size = np.abs(up[name]) * 1e-5 / step * (0.05 if k < 2 else 1e-3)
@@ -303,10 +325,16 @@ def value(text, **figures):
 def test_expressions_compute_what_python_computes():
     figures = {"mean_speed": -1.5, "max_speed": 2.0, "prepressure": 180.0, "speed_volatility": 0.25}
     for text in (
-        "abs(mean_speed) + max_speed", "mean_speed**2 / max_speed", "-mean_speed * 2 - 1", "sqrt(speed_volatility)",
-        "sqrt(max_speed**2)", "min(mean_speed, max_speed, 0.5)", "max(mean_speed, 1) / prepressure",
-        "exp(-speed_volatility) + log(speed_volatility)", "+max_speed / (1 + speed_volatility)",
-    ):  # fmt: skip
+        "abs(mean_speed) + max_speed",
+        "mean_speed**2 / max_speed",
+        "-mean_speed * 2 - 1",
+        "sqrt(speed_volatility)",
+        "sqrt(max_speed**2)",
+        "min(mean_speed, max_speed, 0.5)",
+        "max(mean_speed, 1) / prepressure",
+        "exp(-speed_volatility) + log(speed_volatility)",
+        "+max_speed / (1 + speed_volatility)",
+    ):
         names = parse_expression("objective", text).names
         known = {"abs": abs, "min": min, "max": max, "sqrt": math.sqrt, "exp": math.exp, "log": math.log}
         expected = eval(text, {"__builtins__": {}}, {**known, **figures})

@@ -29,6 +29,7 @@ from trum_sym.paper.claims import (
     statements,
 )
 from trum_sym.paper.findings import Context, Finding, falls, rank_correlation, rises, together
+from trum_sym.paper.published import TABLE_2
 from trum_sym.paper.readings import AXES, DEFAULT, LEADS, LEVELS, MEASURED, PHASES, POINTS, ROTOR_LEVELS
 
 ROOT = Path(__file__).parents[2]
@@ -305,7 +306,7 @@ def test_beats_and_periods_by_hand(judgements):
 
 
 def test_the_fit_of_table_2_by_another_regression(judgements):
-    force, size = np.array([*sections_7_to_9.TABLE_2]), np.array([*sections_7_to_9.TABLE_2.values()])
+    force, size = np.array([*TABLE_2]), np.array([*TABLE_2.values()])
     line = stats.linregress(np.log(force), np.log(size / 12.6e-6))
     assert number(judgements["fit"].computed, r"C_f = ([\d.]+)") == pytest.approx(np.exp(line.intercept), abs=1e-3)
     assert number(judgements["fit"].computed, r"exponent ([\d.]+)") == pytest.approx(-line.slope, abs=1e-4)

@@ -13,13 +13,13 @@ import pytest
 from orbit_reference import GATES, Reference, _modal, half_angle, surface
 
 import trum_sym as ts
-from trum_sym import plots as figures
+from trum_sym import plots
 from trum_sym.errors import ParameterError
+from trum_sym.inputs.units import ARCSEC
 from trum_sym.plots.motion import SECTION_5
 from trum_sym.plots.transfer import MODELS
 from trum_sym.report.catalogue import PICTURES
 
-ARCSEC = np.pi / 648000
 SPEED = 1e6 * ARCSEC
 
 
@@ -71,7 +71,7 @@ def vectors(other, times, region):
 
 # --- Figs. 3 and 6 -------------------------------------------------------------------------------------------
 def test_fig_3_is_both_phases_and_they_ring_down_with_the_damping():
-    figure = figures.phase_responses()
+    figure = plots.phase_responses()
     other = reference(ts.Drive())
     W = other.p[5]
     for axes, row in zip(figure.axes, (0, 1), strict=True):
@@ -89,7 +89,7 @@ def test_fig_3_is_both_phases_and_they_ring_down_with_the_damping():
 
 
 def test_fig_6_is_a_sine_along_the_wave_of_both_phases_velocities():
-    (axes,) = figures.tangential_velocity().axes
+    (axes,) = plots.tangential_velocity().axes
     other = reference(ts.Drive())
     k = 9 / 30e-3
     edges = np.concatenate([[0], np.cumsum(other.durations)])
@@ -115,7 +115,7 @@ def test_figs_9_12_15_the_path_turns_as_its_determinant_says(region, clockwise):
     other = reference(SECTION_5[region])
     k, D = 9 / 30e-3, other.p[6] / (9 / 30e-3)
     low = other.durations[:region].sum()
-    for number, axes in enumerate(figures.ellipse(region=region).axes[:4]):
+    for number, axes in enumerate(plots.ellipse(region=region).axes[:4]):
         (x_c, z_c), (x_cc, z_cc) = (
             (np.asarray(line.get_xdata(), float), np.asarray(line.get_ydata(), float)) for line in axes.lines[:2]
         )
@@ -137,7 +137,7 @@ def test_figs_9_12_15_the_path_turns_as_its_determinant_says(region, clockwise):
 
 @pytest.mark.parametrize("region", [0, 1, 2])
 def test_figs_10_13_16_the_displacement_fills_its_envelope_which_beats(region):
-    (axes,) = figures.vertical_displacement(region=region).axes
+    (axes,) = plots.vertical_displacement(region=region).axes
     other = reference(SECTION_5[region])
     time, shown = data(axes)
     at = other.durations[:region].sum() + 1e-3 * time[:-1]
@@ -157,7 +157,7 @@ SIGNS = {0: (1, -1, 1, -1, 1, -1, 1), 1: (1, -1, 1, -1, 1, -1, 1), 2: (1,)}
 
 @pytest.mark.parametrize("region", [0, 1, 2])
 def test_figs_11_14_17_q_and_the_crests_velocity_have_one_sign_pattern(region):
-    upper, lower = figures.determinant(region=region).axes
+    upper, lower = plots.determinant(region=region).axes
     other = reference(SECTION_5[region])
     time, Q = data(upper)
     _, crest = data(lower)
@@ -173,7 +173,7 @@ def test_figs_11_14_17_q_and_the_crests_velocity_have_one_sign_pattern(region):
 
 # --- Figs. 18 and 19 -----------------------------------------------------------------------------------------
 def test_fig_18_is_the_independent_orbit_with_its_mean_and_deviation():
-    (axes,) = figures.instantaneous_speed().axes
+    (axes,) = plots.instantaneous_speed().axes
     orbit = reference(ts.Drive()).orbit()
     time, speed = by_label(axes, "v_i")
     assert speed.max() * SPEED == pytest.approx(orbit.high, abs=2e-3 * orbit.largest)
@@ -189,7 +189,7 @@ def test_fig_18_is_the_independent_orbit_with_its_mean_and_deviation():
 
 
 def test_fig_19_shades_the_sums_of_eq_43():
-    (axes,) = figures.forward_and_backward().axes
+    (axes,) = plots.forward_and_backward().axes
     time, Q = by_label(axes, "Q")
     areas = {}
     for shade in axes.collections:
@@ -209,7 +209,7 @@ def panel_shares(figure):
 
 
 def test_figs_7_8_each_panel_is_its_model_and_the_zones_have_the_signs_of_friction():
-    forward, backward = figures.transfer_models(), figures.transfer_models(forward=False)
+    forward, backward = plots.transfer_models(), plots.transfer_models(forward=False)
     for figure, way in ((forward, 1), (backward, -1)):
         models = [model for model in MODELS if model.forward == (way > 0)]
         for axes, model in zip(figure.axes, models, strict=True):
@@ -235,7 +235,7 @@ def test_figs_7_8_each_panel_is_its_model_and_the_zones_have_the_signs_of_fricti
 def test_figs_7_8_the_shares_are_those_of_the_independent_friction():
     other = reference(ts.Drive())
     orbit = other.orbit()
-    assert sum(panel_shares(figures.transfer_models())) == pytest.approx(100 * forward_share(other, orbit), abs=1.5)
+    assert sum(panel_shares(plots.transfer_models())) == pytest.approx(100 * forward_share(other, orbit), abs=1.5)
 
 
 def forward_share(other, orbit):
@@ -252,7 +252,7 @@ def forward_share(other, orbit):
 
 
 def test_the_contact_zone_carries_the_prepressures_friction_within_its_edges():
-    figure = figures.contact_zone()
+    figure = plots.contact_zone()
     upper, lower = figure.axes[:2]
     mesh = upper.collections[0]
     traction = 1e3 * np.asarray(mesh.get_array())  # N/m
@@ -271,7 +271,7 @@ def test_the_contact_zone_carries_the_prepressures_friction_within_its_edges():
     k, crests = 9 / 30e-3, 9
     total = crests * np.sum(np.abs(traction), axis=0) * (u[1] - u[0]) / k
     assert np.median(total) == pytest.approx(0.25 * 180, rel=0.03)
-    _, speed, _ = figures.cycle.solve(None, None).rotor(len(time) - 1)
+    _, speed, _ = plots.cycle.solve(None, None).rotor(len(time) - 1)
     net = [surface(other.p, w[:, i], speed[i] * other.radius)[0] for i in range(len(time) - 1)]
     ours = crests * np.sum(traction, axis=0) * (u[1] - u[0]) / k / 45
     assert ours[:-1] == pytest.approx(np.array(net), abs=0.12)
@@ -281,7 +281,7 @@ def test_the_contact_zone_carries_the_prepressures_friction_within_its_edges():
 # --- Figs. 20 to 23 and 30 to 32 -----------------------------------------------------------------------------
 @pytest.mark.parametrize("variable", ["frequency_difference", "prepressure"])
 def test_figs_20_22_are_independent_orbits_and_the_swing_dwarfs_the_mean(variable):
-    four = figures.cycles(variable=variable).axes
+    four = plots.cycles(variable=variable).axes
     values = {"frequency_difference": np.linspace(2800, 3300, 6), "prepressure": np.linspace(160, 210, 6)}[variable]
     for column, (start, lead) in enumerate((("periodic", 1), ("rest", -1))):
         for index in (0, 5):
@@ -315,7 +315,7 @@ TRENDS = {
 
 @pytest.mark.parametrize("variable", ["frequency_difference", "prepressure"])
 def test_figs_21_23_have_the_trends_and_the_points_of_the_independent_orbit(variable):
-    speed, average, volatility, vibration = figures.trends(variable=variable).axes
+    speed, average, volatility, vibration = plots.trends(variable=variable).axes
     for axes, name in ((average, "q_average"), (vibration, "q_volatility")):
         assert tuple(trend(by_label(axes, label)[1]) for label in READ) == TRENDS[variable][name]
     for label, (start, lead) in zip(READ, (("periodic", 1), ("steady", -1), ("rest", -1)), strict=True):
@@ -339,7 +339,7 @@ def test_figs_21_23_have_the_trends_and_the_points_of_the_independent_orbit(vari
 
 
 def test_figs_30_31_average_over_the_encoder_and_31_is_at_3300_hz():
-    continuous, read = figures.trends().axes[2], figures.trends(sampling_period=2e-3).axes[2]
+    continuous, read = plots.trends().axes[2], plots.trends(sampling_period=2e-3).axes[2]
     for label in READ:
         assert np.all(by_label(read, label)[1] < by_label(continuous, label)[1])
     motor = ts.load_motor("trum60")
@@ -376,7 +376,7 @@ def windows(drive, count=100):
 
 
 def test_fig_32_is_table_5():
-    speed, average, *_ = figures.multivariable().axes
+    speed, average, *_ = plots.multivariable().axes
     forces, differences = (180, 170, 160, 190, 200, 210), (3300, 3100, 3000, 2800, 2900, 3200)
     for label, (start, lead) in zip(READ[::2], (("periodic", 1), ("rest", -1)), strict=True):
         number, v = by_label(speed, label)
@@ -390,7 +390,7 @@ def test_fig_32_is_table_5():
 
 # --- Figs. 25b to 29 -----------------------------------------------------------------------------------------
 def test_fig_25b_orders_the_levels_and_the_layer_only_stiffens():
-    (axes,) = figures.resonance_levels().axes
+    (axes,) = plots.resonance_levels().axes
     bare = {level: by_label(axes, f"{level}, none")[1] for level in ("quartic", "eq6", "printed", "euler")}
     assert np.all(bare["eq6"] < bare["quartic"])
     assert np.all(bare["quartic"] < bare["printed"])
@@ -434,7 +434,7 @@ def crossings(time, values):
 
 
 def test_fig_26b_changes_from_45_khz_to_the_resonance_and_decays_with_the_damping():
-    (axes,) = figures.power_off().axes
+    (axes,) = plots.power_off().axes
     time, velocity = by_label(axes, "velocity of M, phase A alone")
     before, after = (np.diff(crossings(time[part], velocity[part])) for part in (time < 0, time > 0))
     assert 1 / before == pytest.approx(45.0, rel=1e-3)  # kHz
@@ -448,14 +448,16 @@ def test_fig_26b_changes_from_45_khz_to_the_resonance_and_decays_with_the_dampin
 
 
 def test_fig_27b_beats_with_the_difference_of_45_and_39_703_khz():
-    (axes,) = figures.beat().axes
+    (axes,) = plots.beat().axes
     time, velocity = by_label(axes, "velocity of M, both phases")
     assert np.abs(velocity[time < 0]).max() == pytest.approx(1.0)
     per = 48  # samples of a drive period
     envelope = np.array([np.abs(velocity[i : i + per]).max() for i in range(9 * per, len(velocity) - per)])
     at = time[9 * per : len(velocity) - per] + 0.5 / 45
-    beats = [at[(at > low) & (at < low + 0.1888)][np.argmin(envelope[(at > low) & (at < low + 0.1888)])]
-             for low in (0.0, 0.1888, 0.3776)]  # fmt: skip
+    beats = [
+        at[(at > low) & (at < low + 0.1888)][np.argmin(envelope[(at > low) & (at < low + 0.1888)])]
+        for low in (0.0, 0.1888, 0.3776)
+    ]
     assert np.diff(beats) == pytest.approx(1 / 5.297, rel=0.06)
     drive = ts.Drive(frequency_difference=5297.0, periods=90, on_periods=45, start="steady")
     w = states(reference(drive, 39703.0), 1e-3 * time[time >= 0])
@@ -465,7 +467,7 @@ def test_fig_27b_beats_with_the_difference_of_45_and_39_703_khz():
 
 def test_fig_29_is_what_an_encoder_reads():
     for axes, (start, lead) in zip(
-        figures.measured_speed().axes, (("periodic", 1), ("steady", -1), ("rest", -1)), strict=True
+        plots.measured_speed().axes, (("periodic", 1), ("steady", -1), ("rest", -1)), strict=True
     ):
         time, deviation = data(axes)
         assert np.diff(time) == pytest.approx(2.0)
@@ -480,7 +482,7 @@ def test_fig_29_is_what_an_encoder_reads():
 
 # --- what the paper does not show ----------------------------------------------------------------------------
 def test_torque_against_speed_falls_and_passes_the_independent_orbits():
-    (axes,) = figures.torque_speed().axes
+    (axes,) = plots.torque_speed().axes
     for label, (start, lead) in zip(READ, (("periodic", 1), ("steady", -1), ("rest", -1)), strict=True):
         load, speed = by_label(axes, label)
         assert trend(speed) == "falls"
@@ -499,7 +501,7 @@ def test_torque_against_speed_falls_and_passes_the_independent_orbits():
 
 
 def test_the_maps_hold_independent_orbits_and_the_line_is_zero_speed():
-    figure = figures.maps()
+    figure = plots.maps()
     for row, spans in ((0, ((2800, 3300), (160, 210))), (1, ((500, 5000), (100, 220)))):
         speed, volatility, average = figure.axes[3 * row : 3 * row + 3]
         mesh = speed.collections[0]
@@ -522,7 +524,7 @@ def test_the_maps_hold_independent_orbits_and_the_line_is_zero_speed():
 
 def test_the_scatter_states_the_rank_correlation_of_its_own_dots():
     stats = pytest.importorskip("scipy.stats")
-    four = figures.prediction().axes
+    four = plots.prediction().axes
     for axes in four:
         for label in READ:
             (line,) = [found for found in axes.lines if found.get_label().startswith(label)]
@@ -542,17 +544,17 @@ def test_figures_draw_in_axes_that_are_given_and_refuse_another_number():
 
     mine = Figure()
     axes = mine.subplots(1, 2)
-    assert figures.torque_speed(axes=axes[0]) is mine
+    assert plots.torque_speed(axes=axes[0]) is mine
     assert axes[0].lines
     assert not axes[1].lines
     with pytest.raises(ParameterError, match="axes: got 2 axes, need 1 of them"):
-        figures.torque_speed(axes=axes)
+        plots.torque_speed(axes=axes)
 
 
 def test_a_motor_of_ones_own_is_drawn():
     motor = ts.load_motor("trum60").with_values({"damping_ratio": 0.02})
-    (axes, _) = figures.phase_responses(motor).axes
-    (usual, _) = figures.phase_responses().axes
+    (axes, _) = plots.phase_responses(motor).axes
+    (usual, _) = plots.phase_responses().axes
     assert np.abs(data(axes)[1]).max() < 0.9 * np.abs(data(usual)[1]).max()
 
 
@@ -561,5 +563,9 @@ def test_the_catalogue_has_every_figure_of_the_paper_that_can_be_drawn():
     numbers = ["3", "6", "7", "8", *map(str, range(9, 24)), "25b", "26b", "27b", *map(str, range(29, 33))]
     assert [anchor.removeprefix("figure-") for anchor in anchors if anchor.startswith("figure-")] == numbers
     assert set(anchors) - {f"figure-{n}" for n in numbers} == {
-        "map-periodic", "map-rest", "speed-determinant", "torque-speed", "contact-zone"
-    }  # fmt: skip
+        "map-periodic",
+        "map-rest",
+        "speed-determinant",
+        "torque-speed",
+        "contact-zone",
+    }

@@ -14,7 +14,7 @@ import trum_sym as ts
 from derivations.codegen import wasm
 from trum_sym.console import main
 from trum_sym.inputs.drive import Drive
-from trum_sym.quantities import OUTPUTS
+from trum_sym.quantities import QUANTITIES
 from trum_sym.report.interactive import fragment
 
 TOLERANCE = 1e-9
@@ -83,7 +83,7 @@ def test_every_control_sets_a_field_of_the_drive_and_every_cell_shows_a_figure(t
     assert {"mean_speed", "speed_volatility", "q_average", "contact_fraction"} <= set(cells)
     for name, factor in cells.items():
         scale = {"arcsec/s": 180 * 3600 / np.pi, "%": 100, "µm": 1e6, "ms": 1e3}
-        shown = "%" if name == "contact_fraction" else OUTPUTS[name].shown
+        shown = "%" if name == "contact_fraction" else QUANTITIES[name].shown
         assert float(factor or 1) == pytest.approx(scale.get(shown, 1), rel=1e-15), name
 
 
@@ -174,7 +174,7 @@ def test_the_browser_has_the_figures_of_the_package(page, settings):
     enter(page, settings)
     found, expected = shown_figures(page), evaluated(settings)
     every = numbers(page, "trumMotor.figures()")
-    for name in OUTPUTS:
+    for name in QUANTITIES:
         assert every[name] == pytest.approx(expected[name], rel=1e-9), name
     assert found == {name: every[name] for name in found}
     assert len(found) >= 10
@@ -189,7 +189,7 @@ def test_it_begins_with_what_the_console_prints(page, capsys):
     for name, value in printed.items():
         if name in ("mean_speed", "min_speed", "max_speed"):
             assert found[name] == pytest.approx(value, rel=0, abs=1e-3 * largest), name
-        elif name in OUTPUTS:
+        elif name in QUANTITIES:
             assert found[name] == pytest.approx(value, rel=1e-2 if name in ("speed_volatility",) else 1e-3), name
 
 
@@ -198,12 +198,15 @@ def test_random_drives_agree_too(page):
     rng = np.random.default_rng(5)
     for _ in range(25):
         settings = {
-            "prepressure": float(rng.integers(100, 221)), "frequency_difference": float(rng.integers(-50, 51) * 100),
-            "on_periods": float(rng.integers(10, 20)), "load_torque": float(rng.integers(-50, 51) / 100),
-            "start": str(rng.choice(["periodic", "steady", "rest"])), "phase_lead": float(rng.choice([1, -1])),
-        }  # fmt: skip
+            "prepressure": float(rng.integers(100, 221)),
+            "frequency_difference": float(rng.integers(-50, 51) * 100),
+            "on_periods": float(rng.integers(10, 20)),
+            "load_torque": float(rng.integers(-50, 51) / 100),
+            "start": str(rng.choice(["periodic", "steady", "rest"])),
+            "phase_lead": float(rng.choice([1, -1])),
+        }
         found, expected = numbers(page, f"trumMotor.set({json.dumps(settings)})"), evaluated(settings)
-        for name in OUTPUTS:  # the contact's mean is the one figure that the tolerance does not bound
+        for name in QUANTITIES:  # the contact's mean is the one figure that the tolerance does not bound
             assert found[name] == pytest.approx(expected[name], rel=1e-8 if name == "contact_fraction" else 1e-9), name
 
 

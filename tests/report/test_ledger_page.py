@@ -88,8 +88,17 @@ def test_the_page_is_what_the_ledger_gives(text):
 
 
 # --- in a browser: run with -m browser ----------------------------------------------------------------------
-SWITCHES = ("--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-sync",
-            "--disable-background-networking", "--disable-component-update", "--window-size=1100,1400")  # fmt: skip
+SWITCHES = (
+    "--headless",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-sync",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--window-size=1100,1400",
+)
 
 
 @pytest.fixture

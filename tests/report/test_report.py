@@ -16,8 +16,9 @@ from test_ledger_page import Reader
 import trum_sym as ts
 from trum_sym import report
 from trum_sym.console import main
-from trum_sym.paper.tables import TABLE_1, TABLE_2, TABLE_4, tables
-from trum_sym.quantities import OUTPUTS
+from trum_sym.paper.published import TABLE_2
+from trum_sym.paper.tables import TABLE_1, TABLE_4, tables
+from trum_sym.quantities import QUANTITIES
 from trum_sym.report import output
 from trum_sym.report.catalogue import PICTURES
 
@@ -106,7 +107,7 @@ def test_tables_hold_what_the_paper_prints_and_what_the_motor_has(trum60):
     assert {row[0] for row in assumed.rows} == {"b_p", "d_31", "s_11E", "μ", "r_c", "r_t"}
     for force, _, ours, _ in two.rows:
         assert float(ours) == pytest.approx(14.926 * float(force) ** -0.678 * 12.6, abs=6e-4)  # eq. 8
-    assert [row[1] for row in two.rows] == [f"{value:g}" for value in TABLE_2.values()]
+    assert [row[1] for row in two.rows] == [f"{1e6 * value:g}" for value in TABLE_2.values()]
     assert all(row[1].split()[0] == row[2].split()[0] for row in three.rows)
 
 
@@ -259,5 +260,5 @@ def test_its_sliders_give_the_figures_of_the_package(browser, folder):
         browser.find_element(By.CSS_SELECTOR, "[data-action=reset]").click()
         enter(browser, settings)
         expected, every = evaluated(settings), numbers(browser, "trumMotor.figures()")
-        for name in OUTPUTS:
+        for name in QUANTITIES:
             assert every[name] == pytest.approx(expected[name], rel=1e-9), name

@@ -12,12 +12,12 @@ import pytest
 
 import trum_sym as ts
 from trum_sym import console
+from trum_sym.inputs.units import ARCSEC
 from trum_sym.optimiser.chart import Chart
 from trum_sym.studies.pareto import _Candidate, _front
 from trum_sym.studies.path import Candidates, choose
 from trum_sym.studies.table_builder import Builder
 
-ARCSEC = np.pi / 648000
 LOAD = ts.Drive(load_torque=0.05)  # below the stall torque, which 0.3 N m is not
 HELD = {"prepressure": 180}
 STRICT = ["-Wall", "-Wextra", "-Wconversion", "-pedantic", "-Werror"]
@@ -47,15 +47,20 @@ def test_a_table_goes_through_both_directions_a_thousandfold(table):
 
 def test_entries_have_the_speeds_that_they_say(trum60, table):
     (segment,) = table.segments
-    found = speeds_at(trum60, [{"prepressure": 180.0, "frequency_difference": x}
-                               for x in segment.drive["frequency_difference"]])  # fmt: skip
+    found = speeds_at(
+        trum60, [{"prepressure": 180.0, "frequency_difference": x} for x in segment.drive["frequency_difference"]]
+    )
     assert found == pytest.approx(segment.speed, rel=2e-6, abs=3e-8)
 
 
 def test_interpolated_drives_meet_their_speeds_within_the_stated_error(trum60, table):
     rng = np.random.default_rng(5)
-    wanted = np.concatenate([rng.choice([-1, 1], 40) * np.exp(rng.uniform(np.log(500), np.log(5e5), 40)),
-                             rng.uniform(-500, 500, 10)]) * ARCSEC  # fmt: skip
+    wanted = (
+        np.concatenate(
+            [rng.choice([-1, 1], 40) * np.exp(rng.uniform(np.log(500), np.log(5e5), 40)), rng.uniform(-500, 500, 10)]
+        )
+        * ARCSEC
+    )
     found = speeds_at(trum60, [{"prepressure": 180.0, **table.at(speed)} for speed in wanted])
     off = np.abs(found - wanted) / np.maximum(np.abs(wanted), table.floor)
     assert np.max(off) <= table.error
@@ -125,9 +130,15 @@ def test_speeds_beyond_the_box_are_named_gaps(trum60):
 
 def test_speeds_that_a_constraint_excludes_are_named_gaps(trum60):
     found = ts.speed_table(
-        trum60, LOAD, slowest="0.01", fastest="3", direction="positive", points=7, bounds=HELD,
+        trum60,
+        LOAD,
+        slowest="0.01",
+        fastest="3",
+        direction="positive",
+        points=7,
+        bounds=HELD,
         constraints=["abs(frequency_difference - 2990) >= 20 Hz"],
-    )  # fmt: skip
+    )
     assert len(found.segments) == 2
     (gap,) = found.gaps
     assert "constraints" in gap.reason
@@ -147,21 +158,26 @@ class Folded:
         def at(share):
             return np.clip(-1.5 + 3.0 * share, -1.5, 1.5)
 
-    def figures(self, points, _):
+    def results(self, points, _):
         x = points[:, 0]
         speed = x**3 - x
         swing = np.full(x.size, 2.0)
-        return {"mean_speed": speed, "speed_deviation": swing, "min_speed": -swing, "max_speed": swing,
-                "drive_frequency": 4e4 + x}  # fmt: skip
+        return {
+            "mean_speed": speed,
+            "speed_deviation": swing,
+            "min_speed": -swing,
+            "max_speed": swing,
+            "drive_frequency": 4e4 + x,
+        }
 
-    def figures_with_slopes(self, points, tolerance):
-        return self.figures(points, tolerance), {"mean_speed": 3 * points**2 - 1}
+    def results_with_slopes(self, points, tolerance):
+        return self.results(points, tolerance), {"mean_speed": 3 * points**2 - 1}
 
 
 def test_a_fold_makes_a_jump_and_no_more_than_one():
     model = Folded()
     share = np.linspace(0, 1, 61)[:, np.newaxis]
-    known = Chart(share, (61,), model.figures(model.box.at(share), 0))
+    known = Chart(share, (61,), model.results(model.box.at(share), 0))
     speeds = np.linspace(-1.5, 1.5, 31)
     builder = Builder(model, known, (), speeds, 0.1, 0.01, lambda _: None)
     segments = builder.build()
@@ -179,9 +195,11 @@ def test_a_fold_makes_a_jump_and_no_more_than_one():
 
 def test_the_path_keeps_near_itself_where_costs_are_alike():
     left, right = np.array([[0.1]]), np.array([[0.9]])
-    levels = [Candidates(left, np.array([1.0])), *(
-        Candidates(np.concatenate([left, right]), np.array([1.05, 1.0])) for _ in range(5)
-    ), Candidates(left, np.array([1.0]))]  # fmt: skip
+    levels = [
+        Candidates(left, np.array([1.0])),
+        *(Candidates(np.concatenate([left, right]), np.array([1.05, 1.0])) for _ in range(5)),
+        Candidates(left, np.array([1.0])),
+    ]
     assert choose(levels) == [0] * 7  # 5 % less are not worth the way there and back
     levels[1:6] = [Candidates(np.concatenate([left, right]), np.array([5.0, 1.0]))] * 5
     assert choose(levels) == [0, 1, 1, 1, 1, 1, 0]
@@ -267,11 +285,19 @@ def test_the_worst_speed_error_is_the_least_on_a_dense_line(trum60):
     )
     assert found.status == "solved"
     line = np.linspace(2800, 3300, 401)
-    worst = np.max([
-        np.abs(ts.evaluate(trum60.with_values({"friction_coefficient": mu}),
-                           ts.Drive(frequency_difference=line, load_torque=0.05)).mean_speed - target)
-        for mu in (0.225, 0.25, 0.275)
-    ], axis=0)  # fmt: skip
+    worst = np.max(
+        [
+            np.abs(
+                ts.evaluate(
+                    trum60.with_values({"friction_coefficient": mu}),
+                    ts.Drive(frequency_difference=line, load_torque=0.05),
+                ).mean_speed
+                - target
+            )
+            for mu in (0.225, 0.25, 0.275)
+        ],
+        axis=0,
+    )
     assert found.worst <= np.min(worst) * (1 + 1e-3)
     assert found.frequency_difference == pytest.approx(line[np.argmin(worst)], abs=2.0)
     ends = sorted(case.objective for case in found.cases)[-2:]
@@ -361,7 +387,7 @@ BAD = [
     (("robust", "--tolerance", "layer_stiffness=0.1"), ("tolerances: got layer_stiffness", "set it first")),
     (("robust", "--samples", "nowhere.csv"), ("nowhere.csv", "exists")),
     (("robust", "--tolerance", "friction_coefficient=0.1", "--objective", "speed-error"), ("target_speed: got none",)),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("arguments", "naming"), BAD, ids=[" ".join(a) for a, _ in BAD])

@@ -17,9 +17,9 @@ from refusals import refusal
 import trum_sym as ts
 from trum_sym.console import main
 from trum_sym.model import batch
-from trum_sym.model.stator import Levels
+from trum_sym.model.levels import Levels
 from trum_sym.output.progress import Progress, duration
-from trum_sym.quantities import OUTPUTS
+from trum_sym.quantities import QUANTITIES
 from trum_sym.sweeps import engine
 from trum_sym.sweeps.grid import PARAMETERS, chunk_shape
 from trum_sym.sweeps.notation import parse
@@ -27,7 +27,7 @@ from trum_sym.sweeps.plan import make_plan
 from trum_sym.sweeps.task import Found, compute
 
 DRIVE = ts.Drive(periods=4, on_periods=3, load_torque=0.1)
-LEVELS = Levels("winkler", "quartic", "harmonic", "measured")
+LEVELS = Levels()
 SMALL = ["--periods", "4", "--on-periods", "3", "--load-torque", "0.1"]
 
 
@@ -46,12 +46,12 @@ def test_every_point_has_the_bits_of_evaluate(trum60, chunk):
         trum60, drive, chunk=chunk, prepressure=forces, friction_coefficient=frictions, load_torque=np.array(loads)
     )
     assert found.sizes == {"prepressure": 3, "friction_coefficient": 2, "load_torque": 2}
-    assert set(found.data_vars) == {*OUTPUTS, "converged", "status"}
+    assert set(found.data_vars) == {*QUANTITIES, "converged", "status"}
     for i, j, k in itertools.product(range(3), range(2), range(2)):
         motor = trum60.with_values({"friction_coefficient": frictions[j]})
         one = ts.evaluate(motor, ts.Drive(prepressure=forces[i], load_torque=loads[k], periods=4, on_periods=3))
         here = found.isel(prepressure=i, friction_coefficient=j, load_torque=k)
-        for name in (*OUTPUTS, "converged"):
+        for name in (*QUANTITIES, "converged"):
             assert np.array_equal(here[name].item(), getattr(one, name), equal_nan=True), name
         assert here.status == (1 if np.isnan(one.mean_speed) else 0)
     assert int((found.status == 1).sum()) == 6, "2 N m is more than friction carries"

@@ -230,9 +230,12 @@ def test_a_full_disk_is_completed_when_there_is_room(tmp_path, undisturbed):
     (tmp_path / "disk").mkdir()
     root = [] if os.geteuid() == 0 else ["--map-root-user"]
     subprocess.run(
-        ["unshare", "--mount", *root, "sh", "-c", script], cwd=tmp_path, check=True, timeout=300,
+        ["unshare", "--mount", *root, "sh", "-c", script],
+        cwd=tmp_path,
+        check=True,
+        timeout=300,
         env={**ENVIRONMENT, "PYTHON": sys.executable, "PROGRAM": str(HERE / "sweep_process.py")},
-    )  # fmt: skip
+    )
     assert (tmp_path / "code").read_text() == "1\n"
     assert "No space left on device" in (tmp_path / "first").read_text()
     done, begun = finished(tmp_path / "copy.zarr"), len(logged(tmp_path / "log.first"))

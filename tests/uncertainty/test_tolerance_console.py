@@ -85,9 +85,16 @@ def test_the_picture_shows_intervals_and_indices(tmp_path):
         draw("--plot", study, tmp_path / "study.svg")
     text = (tmp_path / "study.svg").read_text("utf-8")
     for words in (
-        "median", "nominal", "mean_speed &gt;= 6000000 arcsec/s", "alone (first order)", "with others (total)",
-        "interval at 95", "no speed balances the load", "prepressure", "variance of speed volatility",
-    ):  # fmt: skip
+        "median",
+        "nominal",
+        "mean_speed &gt;= 6000000 arcsec/s",
+        "alone (first order)",
+        "with others (total)",
+        "interval at 95",
+        "no speed balances the load",
+        "prepressure",
+        "variance of speed volatility",
+    ):
         assert words in text
 
 
@@ -112,9 +119,15 @@ def test_an_interruption_leaves_no_file(tmp_path, monkeypatch, capsys):
 def optimum(**changes):
     drive = ts.Drive(prepressure=170.0, frequency_difference=2500.0, periods=6, on_periods=4, load_torque=0.05)
     point = {
-        "status": "solved", "objective": "volatility", "prepressure": 170.0, "frequency_difference": 2500.0,
-        "on_periods": 4, "periods": 6, "mean_speed": ts.evaluate(MOTOR, drive).mean_speed, "message": "",
-    }  # fmt: skip
+        "status": "solved",
+        "objective": "volatility",
+        "prepressure": 170.0,
+        "frequency_difference": 2500.0,
+        "on_periods": 4,
+        "periods": 6,
+        "mean_speed": ts.evaluate(MOTOR, drive).mean_speed,
+        "message": "",
+    }
     return {**point, **changes}
 
 
@@ -210,7 +223,7 @@ REFUSALS = [
     (("--out", "points.xlsx"), ("--out: got points.xlsx", ".nc, .parquet or .csv")),
     (("--out", "/nowhere/points.nc"), ("--out: got /nowhere/points.nc", "a folder that exists")),
     (("--set", "friction_coefficient=2 N"), ("friction_coefficient: got 2 N",)),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("options", "naming"), REFUSALS, ids=[" ".join(options) for options, _ in REFUSALS])

@@ -6,21 +6,24 @@ import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from os import PathLike
+from typing import Unpack
 
 import numpy as np
 
 from trum_sym.calibration.least_squares import Residuals, Separation, fit, interval_factor
 from trum_sym.calibration.models import DecayModel, Model, PointModel
 from trum_sym.errors import ParameterError, ValidityWarning
-from trum_sym.inputs.checks import Array, Domain, number
-from trum_sym.inputs.drive import Drive, choice
+from trum_sym.inputs.checks import Array, number
+from trum_sym.inputs.choices import choice
+from trum_sym.inputs.domain import Domain
+from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.measurements import Measurements, from_columns, read_measurements
 from trum_sym.inputs.motor import SPECS, Motor, Parameter, spec
 from trum_sym.inputs.motor_file import load_motor
-from trum_sym.model.stator import Amplitude, Contact, Foundation, Levels, Resonance
-from trum_sym.quantities import OUTPUTS
+from trum_sym.model.levels import LevelChoice, Levels
+from trum_sym.quantities import QUANTITIES
 
-__all__ = ["ERRORS", "Calibration", "Estimate", "calibrate"]
+__all__ = ["ERRORS", "Calibration", "FittedParameter", "calibrate"]
 
 ERRORS = ("absolute", "relative")
 _USUAL = {  # what is fitted if nothing else is asked for, by what was measured
@@ -35,7 +38,7 @@ _LAW = ("amplitude_factor", "amplitude_exponent")
 
 
 @dataclass(frozen=True)
-class Estimate:
+class FittedParameter:
     """One fitted parameter, in SI.
 
     Attributes
@@ -74,7 +77,7 @@ class Calibration:
         In words; for an unidentifiable fit, which combination stays open.
     motor : Motor
         With the fitted values in place; the motor as it came if the status is not ``"solved"``.
-    estimates : tuple of Estimate
+    estimates : tuple of FittedParameter
     covariance, correlation : (k, k) array
         Of the estimates in their order.
     residuals, separation
@@ -90,7 +93,7 @@ class Calibration:
     status: str
     message: str
     motor: Motor
-    estimates: tuple[Estimate, ...]
+    estimates: tuple[FittedParameter, ...]
     covariance: Array
     correlation: Array
     residuals: Residuals
@@ -99,7 +102,7 @@ class Calibration:
     explained: float
     iterations: int
 
-    def __getitem__(self, name: str) -> Estimate:
+    def __getitem__(self, name: str) -> FittedParameter:
         """The estimate of a parameter."""
         for estimate in self.estimates:
             if estimate.name == name:
@@ -129,12 +132,9 @@ def calibrate(
     drive: Drive | None = None,
     errors: str = "absolute",
     confidence: float = 0.95,
-    contact: Contact = "winkler",
-    resonance: Resonance = "quartic",
-    foundation: Foundation = "harmonic",
-    amplitude: Amplitude = "measured",
     sampling_period: float | None = None,
     progress: bool = False,
+    **levels: Unpack[LevelChoice],
 ) -> Calibration:
     """Fit parameters of the motor to measured data by least squares.
 
@@ -184,14 +184,14 @@ def calibrate(
         raise ParameterError("drive", drive, "a Drive of single numbers; what varies is a column of the data")
     if any(np.ndim(parameter.value) for _, parameter in machine.parameters()):
         raise ParameterError("motor", machine.name, "a motor of single numbers, not arrays")
-    levels = Levels(contact, resonance, foundation, amplitude)
+    chosen = Levels(**levels)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ValidityWarning)  # the search may leave eq. 8's range, or set it
         model: Model
         if measured.is_decay:
-            model = DecayModel(measured, machine, names, drive, levels)
+            model = DecayModel(measured, machine, names, drive, chosen)
         else:
-            model = PointModel(measured, machine, names, drive, levels, sampling_period)
+            model = PointModel(measured, machine, names, drive, chosen, sampling_period)
         return _fitted(model, measured, machine, names, errors, confidence, progress)
 
 
@@ -254,20 +254,35 @@ def _fitted(
     columns = np.split(_compared(measured, weights, errors), len(data.observed))
     whole = np.concatenate([column - np.mean(column) for column in columns])
     found = fit(
-        model.names, residuals, jacobian, model.start, model.bounds, size=float(np.max(np.abs(whole))), judged=names,
-        confidence=confidence, resolution=model.resolution, on_step=_counter() if progress else lambda: None,
-    )  # fmt: skip
+        model.names,
+        residuals,
+        jacobian,
+        model.start,
+        model.bounds,
+        size=float(np.max(np.abs(whole))),
+        judged=names,
+        confidence=confidence,
+        resolution=model.resolution,
+        on_step=_counter() if progress else lambda: None,
+    )
     width = interval_factor(confidence, found.residuals.degrees_of_freedom)
     error = np.sqrt(np.diag(found.covariance))
     if not np.isfinite(found.separation.half_width):  # what rounding makes of it is no error
         error[[model.names.index(name) for name in names]] = np.inf
     estimates = tuple(
-        Estimate(
-            name, model.units[k], float(value), float(value - width * error[k]), float(value + width * error[k]),
-            float(error[k]), float(model.before[k]), name in names, model.exact[k],
+        FittedParameter(
+            name,
+            model.units[k],
+            float(value),
+            float(value - width * error[k]),
+            float(value + width * error[k]),
+            float(error[k]),
+            float(model.before[k]),
+            name in names,
+            model.exact[k],
         )
         for k, (name, value) in enumerate(zip(model.names, found.values, strict=True))
-    )  # fmt: skip
+    )
     separation, ends = found.separation, _at_ends(model, found.values, names)
     message = separation.message or ends
     solved = not message
@@ -275,14 +290,22 @@ def _fitted(
         correlation = np.where(np.isfinite(np.outer(error, error)), found.covariance / np.outer(error, error), np.nan)
     left = found.residuals
     return Calibration(
-        data=data.label, observed=data.observed, errors=errors, confidence=confidence,
-        status="solved" if solved else "unidentifiable", message=message,
+        data=data.label,
+        observed=data.observed,
+        errors=errors,
+        confidence=confidence,
+        status="solved" if solved else "unidentifiable",
+        message=message,
         motor=_with_estimates(motor, estimates, data) if solved else motor,
-        estimates=estimates, covariance=found.covariance, correlation=correlation, residuals=left,
-        residual_unit=_residual_unit(data, model, errors), separation=separation,
+        estimates=estimates,
+        covariance=found.covariance,
+        correlation=correlation,
+        residuals=left,
+        residual_unit=_residual_unit(data, model, errors),
+        separation=separation,
         explained=1 - left.standard_deviation**2 * left.degrees_of_freedom / float(whole @ whole or np.nan),
         iterations=found.iterations,
-    )  # fmt: skip
+    )
 
 
 def _compared(measured: Array, weights: Array | float, errors: str) -> Array:
@@ -303,10 +326,10 @@ def _residual_unit(data: Measurements, model: Model, errors: str) -> str:
     if errors == "relative" or model.uncertainty is not None:
         return "1"
     (name,) = data.observed
-    return OUTPUTS[name].unit if name in OUTPUTS else model.units[-1]
+    return QUANTITIES[name].unit if name in QUANTITIES else model.units[-1]
 
 
-def _with_estimates(motor: Motor, estimates: tuple[Estimate, ...], data: Measurements) -> Motor:
+def _with_estimates(motor: Motor, estimates: tuple[FittedParameter, ...], data: Measurements) -> Motor:
     """The motor with the fitted values; eq. 8 carries the range on which it was fitted."""
     changed = {}
     for e in estimates:

@@ -37,10 +37,26 @@ def free_motion(elapsed: Array, damping_ratio: ArrayLike, frequency: ArrayLike) 
     """
     omega_n = _TURN * np.asarray(frequency)
     lasting = 1.01 * float(elapsed[-1])  # m - n = 1 pulse of a drive so slow that A is off all the while
-    found = call("cycle_response", {
-        "t": elapsed, "omega_n": omega_n, "Delta_omega": _TURN / lasting - omega_n, "xi": damping_ratio, "psi": 0.0,
-        "s": 1.0, "m": 2.0, "n": 1.0, "a_A": 1.0, "b_A": 0.0, "a_B": 0.0, "b_B": 1.0, "W": 0.0, "D": 1.0, "k_c": 1.0,
-    })  # fmt: skip
+    found = call(
+        "cycle_response",
+        {
+            "t": elapsed,
+            "omega_n": omega_n,
+            "Delta_omega": _TURN / lasting - omega_n,
+            "xi": damping_ratio,
+            "psi": 0.0,
+            "s": 1.0,
+            "m": 2.0,
+            "n": 1.0,
+            "a_A": 1.0,
+            "b_A": 0.0,
+            "a_B": 0.0,
+            "b_B": 1.0,
+            "W": 0.0,
+            "D": 1.0,
+            "k_c": 1.0,
+        },
+    )
     return np.asarray(found["w_A"]), np.asarray(found["w_B"]) * omega_n, np.sqrt(-np.asarray(found["Q"]))
 
 

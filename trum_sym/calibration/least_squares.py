@@ -148,9 +148,16 @@ def fit(
         return jacobian(values * scale) * scale / size
 
     found = least_squares(
-        lambda values: residuals(values * scale) / size, start / scale, stepped, x_scale="jac", max_nfev=200,
-        bounds=(bounds[0] / scale, bounds[1] / scale), ftol=1e-14, xtol=0.1 * resolution, gtol=1e-14,
-    )  # fmt: skip
+        lambda values: residuals(values * scale) / size,
+        start / scale,
+        stepped,
+        x_scale="jac",
+        max_nfev=200,
+        bounds=(bounds[0] / scale, bounds[1] / scale),
+        ftol=1e-14,
+        xtol=0.1 * resolution,
+        gtol=1e-14,
+    )
     if not found.success:
         raise ConvergenceError(f"calibrate: the fit did not settle in {found.nfev} steps; start closer, with --set")
     values = found.x * scale

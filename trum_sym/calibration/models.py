@@ -9,14 +9,16 @@ import numpy as np
 
 from trum_sym.calibration.decay import SIGNAL_PARAMETERS, Motion, first_guess, free_motion, slopes_of
 from trum_sym.errors import ConvergenceError, ParameterError
-from trum_sym.inputs.checks import Array, ArrayLike, Domain
+from trum_sym.inputs.checks import Array, ArrayLike
+from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.measurements import UNCERTAINTY, Measurements
 from trum_sym.inputs.motor import SPECS, Motor, spec
 from trum_sym.inputs.units import parse_unit
+from trum_sym.model.levels import Levels
 from trum_sym.model.operating_point import evaluate
-from trum_sym.model.sensitivities import FIGURES, sensitivities
-from trum_sym.model.stator import Levels, solve_stator
+from trum_sym.model.sensitivities import DIFFERENTIATED, sensitivities
+from trum_sym.model.stator import solve_stator
 
 __all__ = ["DecayModel", "Model", "PointModel"]
 
@@ -93,7 +95,9 @@ class PointModel:
             )
 
     def _is_exact(self, name: str) -> bool:
-        of_rotor = set(self._observed) <= set(FIGURES) - ({"speed_volatility"} if self._sampling_period else set())
+        of_rotor = set(self._observed) <= set(DIFFERENTIATED) - (
+            {"speed_volatility"} if self._sampling_period else set()
+        )
         return name in _ROTOR_SCALES and of_rotor
 
     def _figures(self, motor: Motor, drive: Drive) -> dict[str, ArrayLike]:
@@ -101,14 +105,22 @@ class PointModel:
             stator = solve_stator(motor, drive, self._levels)
             f_n = np.asarray(stator.omega_n) / _TURN
             return {
-                "resonance_frequency": f_n, "drive_frequency": f_n + np.asarray(drive.frequency_difference),
-                "amplitude": stator.W, "neutral_axis": stator.D, "wavenumber": stator.k_c,
-            }  # fmt: skip
+                "resonance_frequency": f_n,
+                "drive_frequency": f_n + np.asarray(drive.frequency_difference),
+                "amplitude": stator.W,
+                "neutral_axis": stator.D,
+                "wavenumber": stator.k_c,
+            }
         point = evaluate(
-            motor, drive, contact=self._levels.contact, resonance=self._levels.resonance,
-            foundation=self._levels.foundation, amplitude=self._levels.amplitude,
-            sampling_period=self._sampling_period, tolerance=_TOLERANCE,
-        )  # fmt: skip
+            motor,
+            drive,
+            contact=self._levels.contact,
+            resonance=self._levels.resonance,
+            foundation=self._levels.foundation,
+            amplitude=self._levels.amplitude,
+            sampling_period=self._sampling_period,
+            tolerance=_TOLERANCE,
+        )
         return {name: getattr(point, name) for name in self._observed}
 
     def _at(self, values: Array) -> Array:
@@ -155,9 +167,14 @@ class PointModel:
         """
         motor = self._motor.with_values(dict(zip(self.names, (float(v) for v in values), strict=True)))
         known = sensitivities(
-            motor, self._drive, contact=self._levels.contact, resonance=self._levels.resonance,
-            foundation=self._levels.foundation, amplitude=self._levels.amplitude, tolerance=_TOLERANCE,
-        )  # fmt: skip
+            motor,
+            self._drive,
+            contact=self._levels.contact,
+            resonance=self._levels.resonance,
+            foundation=self._levels.foundation,
+            amplitude=self._levels.amplitude,
+            tolerance=_TOLERANCE,
+        )
         figures = self._figures(motor, self._drive)
         mu, radius, inertia = (float(getattr(motor, name).value) for name in _ROTOR_SCALES)
         found: dict[str, list[Array]] = {name: [] for name in _ROTOR_SCALES}
@@ -180,9 +197,12 @@ def _start_of(name: str, motor: Motor, drive: Drive, levels: Levels) -> float:
         return float(given.value)
     stator = solve_stator(motor, drive, levels)
     modelled = {
-        "resonance_frequency": np.asarray(stator.omega_n) / _TURN, "amplitude": stator.W, "neutral_axis": stator.D,
-        "wavenumber": stator.k_c, "layer_stiffness": stator.values["k_N"],
-    }  # fmt: skip
+        "resonance_frequency": np.asarray(stator.omega_n) / _TURN,
+        "amplitude": stator.W,
+        "neutral_axis": stator.D,
+        "wavenumber": stator.k_c,
+        "layer_stiffness": stator.values["k_N"],
+    }
     return float(np.mean(modelled[name]))
 
 

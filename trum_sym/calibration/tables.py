@@ -2,26 +2,17 @@
 
 from __future__ import annotations
 
-import json
 import math
 
 import numpy as np
 
-from trum_sym.calibration.calibrate import Calibration, Estimate
-from trum_sym.inputs.checks import Array
+from trum_sym.calibration.calibrate import Calibration, FittedParameter
 from trum_sym.inputs.motor import Motor
+from trum_sym.output.json_text import json_text
 
 __all__ = ["calibration_json", "calibration_table"]
 
 _SHOWN_CORRELATION = 0.9
-
-
-def _number(value: float) -> float | None:
-    return float(value) if math.isfinite(value) else None
-
-
-def _matrix(values: Array) -> list[list[float | None]]:
-    return [[_number(x) for x in row] for row in values]
 
 
 def calibration_json(found: Calibration) -> str:
@@ -38,8 +29,8 @@ def calibration_json(found: Calibration) -> str:
         "parameters": {e.name: _estimate(e) for e in found.estimates if e.in_motor},
         "of_the_record": {e.name: _estimate(e) for e in found.estimates if not e.in_motor},
         "order": [e.name for e in found.estimates],
-        "covariance": _matrix(found.covariance),
-        "correlation": _matrix(found.correlation),
+        "covariance": found.covariance.tolist(),
+        "correlation": found.correlation.tolist(),
         "residuals": {
             "degrees_of_freedom": left.degrees_of_freedom,
             "standard_deviation": left.standard_deviation,
@@ -47,29 +38,29 @@ def calibration_json(found: Calibration) -> str:
             "largest": left.largest,
             "largest_row": left.largest_row,
             "lag_correlation": left.lag_correlation,
-            "explained": _number(found.explained),
+            "explained": float(found.explained),
         },
         "identifiability": {
             "separated": apart.separated,
-            "singular_values": [_number(x) for x in apart.singular_values],
-            "condition_number": _number(apart.condition_number),
+            "singular_values": apart.singular_values.tolist(),
+            "condition_number": float(apart.condition_number),
             "least_seen": apart.direction,
-            "half_width": _number(apart.half_width),
+            "half_width": float(apart.half_width),
         },
         "iterations": found.iterations,
     }
-    return json.dumps(record, indent=1, allow_nan=False)
+    return json_text(record)
 
 
-def _estimate(e: Estimate) -> dict[str, object]:
+def _estimate(e: FittedParameter) -> dict[str, object]:
     known = math.isfinite(e.standard_error)
     return {
         "value": e.value if known else None,
         "unit": e.unit,
-        "low": _number(e.low),
-        "high": _number(e.high),
-        "standard_error": _number(e.standard_error),
-        "before": _number(e.before),
+        "low": float(e.low),
+        "high": float(e.high),
+        "standard_error": float(e.standard_error),
+        "before": float(e.before),
         "exact_slopes": e.exact_slopes,
     }
 
@@ -88,9 +79,11 @@ def calibration_table(found: Calibration, motor: Motor) -> str:
         rows.append((e.name, value, ends, "" if e.unit == "1" else e.unit, before, source))
     interval = f"{100 * found.confidence:g} % interval"
     table = tabulate(
-        rows, headers=("", "fitted", interval, "unit", "before", "source before"), disable_numparse=True,
+        rows,
+        headers=("", "fitted", interval, "unit", "before", "source before"),
+        disable_numparse=True,
         colalign=("left", "right", "right", "left", "right", "left"),
-    )  # fmt: skip
+    )
     left, apart = found.residuals, found.separation
     unit = "" if found.residual_unit == "1" else f" {found.residual_unit}"
     count = left.count // len(found.observed)

@@ -29,8 +29,18 @@ def _cli() -> None:
 
 
 for _command in (
-    evaluate, simulate, sweep, tolerance, optimize, pareto, robust, speed_table, calibrate, equations, report,
-):  # fmt: skip
+    evaluate,
+    simulate,
+    sweep,
+    tolerance,
+    optimize,
+    pareto,
+    robust,
+    speed_table,
+    calibrate,
+    equations,
+    report,
+):
     _cli.add_command(_command)
 
 

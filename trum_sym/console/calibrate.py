@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from trum_sym.console.options import LEVELS, chosen_drive, chosen_motor, number_option, point_options
+from trum_sym.console.options import chosen_drive, chosen_levels, chosen_motor, number_option, point_options
 
 __all__ = ["calibrate"]
 
@@ -55,7 +55,7 @@ def calibrate(
     [Hz]; load_torque [N*m],mean_speed [arcsec/s] or other figures of evaluate; time [s] with displacement, velocity or
     envelope for a decay.  What has no column is taken from the options.  Exit code 1: the data cannot fix these
     parameters.
-    """  # fmt: skip
+    """
     from trum_sym.calibration.calibrate import calibrate as fit_motor
     from trum_sym.calibration.tables import calibration_json, calibration_table
     from trum_sym.output.files import check_target
@@ -64,9 +64,16 @@ def calibrate(
         check_target("--out", out, (".toml",))
     machine = chosen_motor(motor, overrides)
     found = fit_motor(
-        data, machine, parameters=parameters or None, drive=chosen_drive(options), errors=errors, confidence=confidence,
-        progress=sys.stderr.isatty(), **{name: options[name] for name in LEVELS},
-    )  # fmt: skip
+        data,
+        machine,
+        parameters=parameters or None,
+        drive=chosen_drive(options),
+        errors=errors,
+        confidence=confidence,
+        progress=sys.stderr.isatty(),
+        sampling_period=options["sampling_period"],
+        **chosen_levels(options),
+    )
     click.echo(calibration_json(found) if as_json else calibration_table(found, machine))
     if found.status != "solved":
         return 1

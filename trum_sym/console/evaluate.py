@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from trum_sym.console.options import LEVELS, chosen_drive, chosen_motor, point_options
+from trum_sym.console.options import chosen_drive, chosen_levels, chosen_motor, point_options
 
 __all__ = ["evaluate"]
 
@@ -22,8 +22,8 @@ def evaluate(motor: str, overrides: tuple[str, ...], as_json: bool, **options: A
     from trum_sym.model.operating_point import evaluate as evaluate_point
 
     machine, drive = chosen_motor(motor, overrides), chosen_drive(options)
-    levels = {name: options[name] for name in LEVELS}
-    point = evaluate_point(machine, drive, **levels)
+    levels, period = chosen_levels(options), options["sampling_period"]
+    point = evaluate_point(machine, drive, sampling_period=period, **levels)
     if as_json:
         from trum_sym.console.tables import as_json_text
 
@@ -31,4 +31,4 @@ def evaluate(motor: str, overrides: tuple[str, ...], as_json: bool, **options: A
     else:
         from trum_sym.console.tables import as_table
 
-        click.echo(as_table(machine, drive, point, levels))
+        click.echo(as_table(machine, drive, point, {**levels, "sampling_period": period}))

@@ -7,23 +7,36 @@ from typing import Any
 
 import click
 
-from trum_sym.console.options import chosen_drive, chosen_motor, point_options
+from trum_sym.console.options import chosen_drive, chosen_levels, chosen_motor, point_options, refuse_sampling_period
 
 __all__ = ["optimize", "ranges_of"]
-
-_LEVELS = ("contact", "resonance", "foundation", "amplitude")
 
 
 @click.command()
 @point_options
-@click.option("--objective", default="volatility", show_default=True, metavar="NAME|EXPRESSION",
-              help="volatility, q-volatility, speed-error, ripple, wear, or arithmetic on figures.")  # fmt: skip
+@click.option(
+    "--objective",
+    default="volatility",
+    show_default=True,
+    metavar="NAME|EXPRESSION",
+    help="volatility, q-volatility, speed-error, ripple, wear, or arithmetic on figures.",
+)
 @click.option("--target-speed", metavar="SPEED", help='Mean speed to reach, rad/s or with a unit: "633 arcsec/s".')
-@click.option("--bounds", "bounds", multiple=True, metavar="NAME=LOW:HIGH",
-              help="Range of prepressure, frequency_difference, periods or on_periods; NAME=VALUE holds it.  "
-                   "[default: prepressure=160:210, frequency_difference=2800:3300]")  # fmt: skip
-@click.option("--constraint", "constraints", multiple=True, metavar="TEXT",
-              help='"stall_torque >= 0.35 N*m": arithmetic on figures, >=, <= or ==, a value.')  # fmt: skip
+@click.option(
+    "--bounds",
+    "bounds",
+    multiple=True,
+    metavar="NAME=LOW:HIGH",
+    help="Range of prepressure, frequency_difference, periods or on_periods; NAME=VALUE holds it.  "
+    "[default: prepressure=160:210, frequency_difference=2800:3300]",
+)
+@click.option(
+    "--constraint",
+    "constraints",
+    multiple=True,
+    metavar="TEXT",
+    help='"stall_torque >= 0.35 N*m": arithmetic on figures, >=, <= or ==, a value.',
+)
 @click.option(
     "--plot",
     type=click.Path(path_type=Path),
@@ -46,23 +59,25 @@ def optimize(
 
     Exit code 1 where no point of the box meets them; what is nearest is shown.
     """
-    from trum_sym.errors import ParameterError
     from trum_sym.optimiser.result import as_json_text, as_table
     from trum_sym.optimiser.search import optimize as find
 
-    if options["sampling_period"] is not None:
-        raise ParameterError("sampling_period", options["sampling_period"], "none: what is optimised is continuous")
+    refuse_sampling_period(options)
     if plot is not None:
         from trum_sym.output.files import check_target
         from trum_sym.plots.optimum import SUFFIXES, draw
 
         check_target("--plot", plot, SUFFIXES)
     machine, drive = chosen_motor(motor, overrides), chosen_drive(options)
-    levels = {name: options[name] for name in _LEVELS}
     found = find(
-        machine, drive, objective=objective, target_speed=target_speed, bounds=ranges_of(bounds),
-        constraints=constraints, **levels,
-    )  # fmt: skip
+        machine,
+        drive,
+        objective=objective,
+        target_speed=target_speed,
+        bounds=ranges_of(bounds),
+        constraints=constraints,
+        **chosen_levels(options),
+    )
     title = f"{machine.name}: least {objective}" + (f" at {target_speed}" if target_speed else "")
     click.echo(as_json_text(found) if as_json else as_table(found, f"{title}, load {drive.load_torque:g} N m"))
     if plot is not None:

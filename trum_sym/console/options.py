@@ -1,23 +1,37 @@
-"""Options that the commands share, and what they become: a motor, a drive, levels."""
+"""Options that the commands share, and what they become: a motor, a drive, levels.
+
+Each field of the drive and of the levels is an option of the same name, with the unit, default and text that the field
+carries: a new one is added there and nowhere else.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from dataclasses import Field, fields
+from typing import TYPE_CHECKING, Any, cast
 
 import click
 
+from trum_sym.inputs.drive import Drive
+from trum_sym.model.levels import LEVEL_NAMES, LevelChoice, Levels
+
 if TYPE_CHECKING:
-    from trum_sym.inputs.drive import Drive
     from trum_sym.inputs.motor import Motor
 
-__all__ = ["LEVELS", "Quantity", "choice_option", "chosen_drive", "chosen_motor", "number_option", "point_options"]
+__all__ = [
+    "QuantityType",
+    "choice_option",
+    "chosen_drive",
+    "chosen_levels",
+    "chosen_motor",
+    "number_option",
+    "option_name",
+    "point_options",
+    "refuse_sampling_period",
+]
 
-LEVELS = ("contact", "resonance", "foundation", "amplitude", "sampling_period")
-_STARTS = ("periodic", "steady", "rest")
 
-
-class Quantity(click.ParamType):  # type: ignore[type-arg, unused-ignore]
+class QuantityType(click.ParamType):  # type: ignore[type-arg, unused-ignore]
     """A number, bare in its SI unit or with a unit that converts to it."""
 
     def __init__(self, unit: str) -> None:
@@ -36,7 +50,7 @@ class Quantity(click.ParamType):  # type: ignore[type-arg, unused-ignore]
 def number_option(name: str, unit: str, default: float | None, text: str, metavar: str) -> Callable[..., Any]:
     """An option that takes a quantity."""
     shown = False if default is None else f"{default:g}"
-    return click.option(name, type=Quantity(unit), default=default, show_default=shown, help=text, metavar=metavar)
+    return click.option(name, type=QuantityType(unit), default=default, show_default=shown, help=text, metavar=metavar)
 
 
 def choice_option(name: str, words: tuple[str, ...], text: str) -> Callable[..., Any]:
@@ -44,28 +58,40 @@ def choice_option(name: str, words: tuple[str, ...], text: str) -> Callable[...,
     return click.option(name, type=click.Choice(words), default=words[0], show_default=True, help=text)
 
 
+def _drive_option(quantity: Field[Any]) -> Callable[..., Any]:
+    """The option of one field of the drive."""
+    about, name = quantity.metadata, option_name(quantity.name)
+    if "words" in about:
+        return choice_option(name, about["words"], about["text"])
+    default: float = quantity.default  # type: ignore[assignment]  # every quantity of the drive has one
+    return number_option(name, about["unit"], default, about["text"], about["metavar"])
+
+
+def option_name(name: str) -> str:
+    """How the console calls a parameter."""
+    return "--" + name.replace("_", "-")
+
+
 _POINT_OPTIONS = (
-    click.option("--motor", default="trum60", show_default=True, metavar="NAME|FILE",
-                 help="Motor: trum60 or a TOML file."),
-    click.option("--set", "overrides", multiple=True, metavar="NAME=VALUE",
-                 help="Replace a value of the motor file, in its SI unit or with one: --set contact_radius='26 mm'."),
-    number_option("--prepressure", "N", 180.0, "Prepressure F_c.", "N"),
-    number_option("--frequency-difference", "Hz", 3000.0, "Drive frequency less resonance.", "HZ"),
-    number_option("--periods", "1", 20, "Drive pulses per cycle, m.", "M"),
-    number_option("--on-periods", "1", 14, "Pulses per cycle on each phase, n.", "N"),
-    number_option("--load-torque", "N*m", 0.3, "Load torque.", "NM"),
-    choice_option("--start", _STARTS, "State in which every cycle begins."),
-    number_option("--switching-phase", "rad", 0.0, "Drive phase of A at the switching.", "RAD"),
-    click.option("--phase-lead", type=click.Choice(("1", "-1")), default="1", show_default=True,
-                 help="Quarter periods by which B leads A."),
-    choice_option("--contact", ("winkler", "hertz"), "Contact law."),
-    choice_option("--resonance", ("quartic", "eq6", "printed", "euler"), "Level of the resonance."),
-    choice_option("--foundation", ("harmonic", "smeared", "printed", "none"),
-                  "How the friction layer stiffens the stator."),
-    choice_option("--amplitude", ("measured", "forced"), "Level of the amplitude."),
-    number_option("--sampling-period", "s", None,
-                  "Averaging period of the speed's encoder  [default: continuous]", "S"),
-)  # fmt: skip
+    click.option(
+        "--motor", default="trum60", show_default=True, metavar="NAME|FILE", help="Motor: trum60 or a TOML file."
+    ),
+    click.option(
+        "--set",
+        "overrides",
+        multiple=True,
+        metavar="NAME=VALUE",
+        help="Replace a value of the motor file, in its SI unit or with one: --set contact_radius='26 mm'.",
+    ),
+    *(_drive_option(quantity) for quantity in fields(Drive)),
+    *(
+        choice_option(option_name(level.name), level.metadata["words"], level.metadata["text"])
+        for level in fields(Levels)
+    ),
+    number_option(
+        "--sampling-period", "s", None, "Averaging period of the speed's encoder  [default: continuous]", "S"
+    ),
+)
 
 
 def point_options(command: Callable[..., Any]) -> Callable[..., Any]:
@@ -94,9 +120,24 @@ def chosen_motor(name: str, overrides: tuple[str, ...]) -> Motor:
 
 def chosen_drive(options: dict[str, Any]) -> Drive:
     """The drive that an operating point's options mean."""
-    from trum_sym.inputs.drive import Drive
+    values = {quantity.name: options[quantity.name] for quantity in fields(Drive)}
+    return Drive(**{**values, "phase_lead": int(values["phase_lead"])})
 
-    numbers = ("prepressure", "frequency_difference", "periods", "on_periods", "load_torque", "switching_phase")
-    return Drive(
-        **{name: options[name] for name in numbers}, start=options["start"], phase_lead=int(options["phase_lead"])
-    )
+
+def chosen_levels(options: dict[str, Any]) -> LevelChoice:
+    """The levels that an operating point's options mean, as keyword arguments."""
+    return cast("LevelChoice", {name: options[name] for name in LEVEL_NAMES})
+
+
+def refuse_sampling_period(options: dict[str, Any], reason: str = "what is optimised is continuous") -> None:
+    """For commands that look at the continuous speed only; ``reason`` says why.
+
+    Raises
+    ------
+    ParameterError
+        If an encoder's period is given.
+    """
+    from trum_sym.errors import ParameterError
+
+    if options["sampling_period"] is not None:
+        raise ParameterError("sampling_period", options["sampling_period"], f"none: {reason}")

@@ -7,18 +7,33 @@ from typing import Any
 
 import click
 
-from trum_sym.console.options import chosen_drive, chosen_motor, number_option, point_options
+from trum_sym.console.options import (
+    chosen_drive,
+    chosen_levels,
+    chosen_motor,
+    number_option,
+    point_options,
+    refuse_sampling_period,
+)
 
 __all__ = ["pareto"]
 
-_LEVELS = ("contact", "resonance", "foundation", "amplitude")
-
 
 @click.command()
-@click.option("--objective", default="volatility", show_default=True, metavar="NAME|EXPRESSION",
-              help="What is to be small, as for optimize.")  # fmt: skip
-@click.option("--against", default="torque-margin", show_default=True, metavar="NAME|EXPRESSION",
-              help="torque-margin (large), speed-error (small), or arithmetic on figures (small).")  # fmt: skip
+@click.option(
+    "--objective",
+    default="volatility",
+    show_default=True,
+    metavar="NAME|EXPRESSION",
+    help="What is to be small, as for optimize.",
+)
+@click.option(
+    "--against",
+    default="torque-margin",
+    show_default=True,
+    metavar="NAME|EXPRESSION",
+    help="torque-margin (large), speed-error (small), or arithmetic on figures (small).",
+)
 @click.option("--target-speed", metavar="SPEED", help='Mean speed to hold, or to be near: "633 arcsec/s".')
 @number_option("--points", "1", 11, "Limits along the front.", "K")
 @click.option("--bounds", "bounds", multiple=True, metavar="NAME=LOW:HIGH", help="As for optimize.")
@@ -42,17 +57,22 @@ def pareto(
     Exit code 1 where no point of the box meets the constraints.
     """
     from trum_sym.console.optimize import ranges_of
-    from trum_sym.errors import ParameterError
     from trum_sym.studies.pareto import pareto as find
 
-    if options["sampling_period"] is not None:
-        raise ParameterError("sampling_period", options["sampling_period"], "none: what is optimised is continuous")
+    refuse_sampling_period(options)
     machine, drive = chosen_motor(motor, overrides), chosen_drive(options)
     front = find(
-        machine, drive, objective=objective, against=against, target_speed=target_speed, points=points,
-        bounds=ranges_of(bounds), constraints=constraints, progress=sys.stderr.isatty(),
-        **{name: options[name] for name in _LEVELS},
-    )  # fmt: skip
+        machine,
+        drive,
+        objective=objective,
+        against=against,
+        target_speed=target_speed,
+        points=points,
+        bounds=ranges_of(bounds),
+        constraints=constraints,
+        progress=sys.stderr.isatty(),
+        **chosen_levels(options),
+    )
     title = f"{machine.name}: {objective} against {against}" + (f" at {target_speed}" if target_speed else "")
     click.echo(front.as_json_text() if as_json else front.as_table(f"{title}, load {drive.load_torque:g} N m"))
     return 0 if front.status == "solved" else 1

@@ -8,11 +8,9 @@ from typing import Any
 
 import click
 
-from trum_sym.console.options import chosen_drive, chosen_motor, point_options
+from trum_sym.console.options import chosen_drive, chosen_levels, chosen_motor, point_options, refuse_sampling_period
 
 __all__ = ["robust"]
-
-_LEVELS = ("contact", "resonance", "foundation", "amplitude")
 
 
 @click.command()
@@ -56,14 +54,13 @@ def robust(
     """The operating point whose worst case over tolerances, or over samples, is the best.
 
     Exit code 1 where no point meets the constraints in every case.
-    """  # fmt: skip
+    """
     from trum_sym.console.optimize import ranges_of
     from trum_sym.errors import ParameterError
     from trum_sym.studies.robust import robust as find
     from trum_sym.studies.samples import read_samples
 
-    if options["sampling_period"] is not None:
-        raise ParameterError("sampling_period", options["sampling_period"], "none: what is optimised is continuous")
+    refuse_sampling_period(options)
     given: dict[str, Any] = {}
     for text in tolerances:
         name, equals, value = (part.strip() for part in text.partition("="))
@@ -77,10 +74,17 @@ def robust(
         given[name] = (low, high) if colon else value
     machine, drive = chosen_motor(motor, overrides), chosen_drive(options)
     found = find(
-        machine, drive, objective=objective, tolerances=given or None,
-        samples=None if samples is None else read_samples(samples), target_speed=target_speed, bounds=ranges_of(bounds),
-        constraints=constraints, progress=sys.stderr.isatty(), **{name: options[name] for name in _LEVELS},
-    )  # fmt: skip
+        machine,
+        drive,
+        objective=objective,
+        tolerances=given or None,
+        samples=None if samples is None else read_samples(samples),
+        target_speed=target_speed,
+        bounds=ranges_of(bounds),
+        constraints=constraints,
+        progress=sys.stderr.isatty(),
+        **chosen_levels(options),
+    )
     title = f"{machine.name}: least worst {objective}" + (f" at {target_speed}" if target_speed else "")
     click.echo(found.as_json_text() if as_json else found.as_table(f"{title}, load {drive.load_torque:g} N m"))
     return 0 if found.status == "solved" else 1

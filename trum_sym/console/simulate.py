@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from trum_sym.console.options import LEVELS, chosen_drive, chosen_motor, number_option, point_options
+from trum_sym.console.options import chosen_drive, chosen_levels, chosen_motor, number_option, point_options
 
 __all__ = ["simulate"]
 
@@ -39,13 +39,13 @@ def simulate(
 
     if out is not None:
         check_target("--out", out)
-    levels = {name: options[name] for name in LEVELS}
     histories = simulate_point(
         chosen_motor(motor, overrides),
         chosen_drive(options),
         cycles=cycles,
         samples_per_period=samples_per_period,
-        **levels,
+        sampling_period=options["sampling_period"],
+        **chosen_levels(options),
     )
     if out is not None:
         write("--out", histories, out)

@@ -8,27 +8,47 @@ from typing import Any
 
 import click
 
-from trum_sym.console.options import chosen_drive, chosen_motor, number_option, point_options
+from trum_sym.console.options import (
+    chosen_drive,
+    chosen_levels,
+    chosen_motor,
+    number_option,
+    point_options,
+    refuse_sampling_period,
+)
 
 __all__ = ["speed_table"]
-
-_LEVELS = ("contact", "resonance", "foundation", "amplitude")
 
 
 @click.command("speed-table")
 @click.option("--from", "slowest", required=True, metavar="SPEED", help='Slowest speed: "1 arcsec/s".')
 @click.option("--to", "fastest", required=True, metavar="SPEED", help='Fastest speed: "1000 arcsec/s".')
-@click.option("--direction", type=click.Choice(("both", "positive", "negative")), default="both", show_default=True,
-              help="Sign of the mean speed.")  # fmt: skip
+@click.option(
+    "--direction",
+    type=click.Choice(("both", "positive", "negative")),
+    default="both",
+    show_default=True,
+    help="Sign of the mean speed.",
+)
 @number_option("--points", "1", 31, "Speeds in each direction, in equal ratios; more are added as needed.", "K")
 @number_option("--error", "1", 0.01, "Allowed error of interpolated speeds, over the speed.", "E")
-@click.option("--bounds", "bounds", multiple=True, metavar="NAME=LOW:HIGH",
-              help="As for optimize; --bounds prepressure=180 holds the prepressure.  "
-                   "[default: prepressure=160:210, frequency_difference=2800:3300]")  # fmt: skip
-@click.option("--constraint", "constraints", multiple=True, metavar="TEXT",
-              help='"stall_torque >= 0.1 N*m", as for optimize.')  # fmt: skip
-@click.option("--out", type=click.Path(path_type=Path), metavar="FILE",
-              help="Write the table: .csv, or .h for a C header that interpolates.")  # fmt: skip
+@click.option(
+    "--bounds",
+    "bounds",
+    multiple=True,
+    metavar="NAME=LOW:HIGH",
+    help="As for optimize; --bounds prepressure=180 holds the prepressure.  "
+    "[default: prepressure=160:210, frequency_difference=2800:3300]",
+)
+@click.option(
+    "--constraint", "constraints", multiple=True, metavar="TEXT", help='"stall_torque >= 0.1 N*m", as for optimize.'
+)
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Write the table: .csv, or .h for a C header that interpolates.",
+)
 @click.option("--json", "as_json", is_flag=True, help="One JSON object instead of a summary; SI units.")
 @point_options
 def speed_table(
@@ -50,20 +70,26 @@ def speed_table(
     Exit code 1 where the box has none of the speeds; gaps are named.
     """
     from trum_sym.console.optimize import ranges_of
-    from trum_sym.errors import ParameterError
     from trum_sym.output.files import check_target
     from trum_sym.studies.speed_table import speed_table as make
-    from trum_sym.studies.table_files import as_json_text, as_text
+    from trum_sym.studies.speed_table_text import as_json_text, as_text
 
-    if options["sampling_period"] is not None:
-        raise ParameterError("sampling_period", options["sampling_period"], "none: mean speeds are continuous")
+    refuse_sampling_period(options, "mean speeds are continuous")
     if out is not None:
         check_target("--out", out, (".csv", ".h"))
     table = make(
-        chosen_motor(motor, overrides), chosen_drive(options), slowest=slowest, fastest=fastest, direction=direction,
-        points=points, error=error, bounds=ranges_of(bounds), constraints=constraints, progress=sys.stderr.isatty(),
-        **{name: options[name] for name in _LEVELS},
-    )  # fmt: skip
+        chosen_motor(motor, overrides),
+        chosen_drive(options),
+        slowest=slowest,
+        fastest=fastest,
+        direction=direction,
+        points=points,
+        error=error,
+        bounds=ranges_of(bounds),
+        constraints=constraints,
+        progress=sys.stderr.isatty(),
+        **chosen_levels(options),
+    )
     click.echo(as_json_text(table) if as_json else as_text(table))
     if not table.segments:
         return 1

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from trum_sym.console.options import Quantity, chosen_motor, number_option, point_options
+from trum_sym.console.options import QuantityType, chosen_levels, chosen_motor, number_option, point_options
 
 if TYPE_CHECKING:
     from trum_sym.sweeps.plan import Plan
-    from trum_sym.sweeps.run import Estimate, Summary
+    from trum_sym.sweeps.run import Summary, Workload
 
 __all__ = ["sweep"]
 
@@ -63,7 +63,7 @@ def sweep(
     """  # noqa: D301
     from trum_sym.errors import ParameterError
     from trum_sym.inputs.drive import Drive
-    from trum_sym.model.stator import Levels
+    from trum_sym.model.levels import Levels
     from trum_sym.sweeps.plan import make_plan
     from trum_sym.sweeps.run import check_out, estimate, run
 
@@ -78,11 +78,11 @@ def sweep(
             if name.strip() in (*ranges, *(other.partition("=")[0].strip() for other in fixed)):
                 raise ParameterError("--set", text, "each name once")
             ranges[name.strip()] = given
-    levels = Levels(*(options[name] for name in ("contact", "resonance", "foundation", "amplitude")))
+    levels = Levels(**chosen_levels(options))
     names = None if outputs is None else tuple(name.strip() for name in outputs.split(","))
     plan = make_plan(
         chosen_motor(motor, fixed), Drive(start=options["start"]), levels, None, 1e-3, names, chunk, ranges
-    )  # fmt: skip
+    )
     if dry_run:
         click.echo(_estimate(estimate("--out", plan, out, scheduler, chunk is not None), out))
         return
@@ -109,7 +109,7 @@ def _summary(plan: Plan, summary: Summary) -> str:
     return text
 
 
-def _estimate(found: Estimate, out: Path | None) -> str:
+def _estimate(found: Workload, out: Path | None) -> str:
     from trum_sym.output.progress import duration
 
     plan, shape = found.plan, " x ".join(f"{axis.name} {axis.size}" for axis in found.plan.grid.axes)
@@ -132,6 +132,6 @@ _RANGED = []
 for _option in sweep.params:  # the options of a point, but with ranges
     if _option.name in ("chunk", "motor"):
         continue
-    if isinstance(_option.type, Quantity) or _option.name == "phase_lead":
+    if isinstance(_option.type, QuantityType) or _option.name == "phase_lead":
         _option.type = Range()
         _RANGED.append(str(_option.name))

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
@@ -13,7 +11,8 @@ from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor, Published
 from trum_sym.inputs.units import parse_unit
 from trum_sym.model.operating_point import OperatingPoint
-from trum_sym.quantities import OUTPUTS
+from trum_sym.output.json_text import json_text
+from trum_sym.quantities import QUANTITIES
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -23,11 +22,7 @@ __all__ = ["as_json_text", "as_table", "histories_table"]
 
 def as_json_text(point: OperatingPoint) -> str:
     """The point as a JSON object; null where a figure has no meaning or is infinite."""
-    figures = {
-        name: None if isinstance(value, float) and not math.isfinite(value) else value
-        for name, value in point.as_dict().items()
-    }
-    return json.dumps(figures, indent=1, allow_nan=False)
+    return json_text(point.as_dict())
 
 
 def histories_table(histories: xr.Dataset) -> str:
@@ -39,9 +34,11 @@ def histories_table(histories: xr.Dataset) -> str:
         for name, h in histories.data_vars.items()
     ]
     table = tabulate(
-        rows, headers=("", "lowest", "mean", "highest", "unit", ""), disable_numparse=True,
+        rows,
+        headers=("", "lowest", "mean", "highest", "unit", ""),
+        disable_numparse=True,
         colalign=("left", "right", "right", "right", "left", "left"),
-    )  # fmt: skip
+    )
     count, known = histories.sizes["time"], histories.attrs
     title = (
         f"{known['title']}, start {known['start']}\n{known['cycles']} cycles of {1e3 * known['cycle_time']:.6g} ms, "
@@ -73,7 +70,7 @@ def as_table(motor: Motor, drive: Drive, point: OperatingPoint, levels: Mapping[
 
     published = _published(motor, drive)
     rows = []
-    for name, (label, unit, shown) in OUTPUTS.items():
+    for name, (label, unit, shown) in QUANTITIES.items():
         value, entry = getattr(point, name), published.get(name)
         ours = f"{_convert(value, unit, shown):.6g}" if np.isfinite(value) else "-"
         paper = difference = source = ""
@@ -84,9 +81,11 @@ def as_table(motor: Motor, drive: Drive, point: OperatingPoint, levels: Mapping[
                 difference = f"{100 * (_convert(value, unit, shown) / theirs - 1):+.2f} %"
         rows.append((label, ours, "" if shown == "1" else shown, paper, difference, source))
     table = tabulate(
-        rows, headers=("", "ours", "unit", "paper", "difference", "printed in"), disable_numparse=True,
+        rows,
+        headers=("", "ours", "unit", "paper", "difference", "printed in"),
+        disable_numparse=True,
         colalign=("left", "right", "left", "right", "right", "left"),
-    )  # fmt: skip
+    )
     title = (
         f"{motor.name} at {drive.prepressure:g} N, {drive.frequency_difference:+g} Hz, {drive.on_periods:g} of "
         f"{drive.periods:g} periods on, load {drive.load_torque:g} N m\n"

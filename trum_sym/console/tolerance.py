@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from trum_sym.console.options import LEVELS, chosen_drive, chosen_motor, number_option, point_options
+from trum_sym.console.options import chosen_drive, chosen_levels, chosen_motor, number_option, point_options
 
 if TYPE_CHECKING:
     from trum_sym.model.operating_point import OperatingPoint
@@ -75,7 +75,7 @@ def tolerance(
     out: Path | None,
     as_json: bool,
     **options: Any,  # noqa: ANN401
-) -> None:  # fmt: skip
+) -> None:
     """How uncertain parameters spread an operating point's figures, and which to measure first."""
     from trum_sym.output.files import check_packages, check_target, write
 
@@ -99,7 +99,8 @@ def tolerance(
         seed=seed,  # type: ignore[arg-type]
         tolerance=tolerance,
         progress=True,
-        **{name: options[name] for name in LEVELS},
+        sampling_period=options["sampling_period"],
+        **chosen_levels(options),
     )
     if expected is not None:
         _compare(expected, study.nominal)
@@ -134,7 +135,8 @@ def _take_point(path: Path, options: dict[str, Any]) -> float | None:
     import json
 
     from trum_sym.errors import ParameterError
-    from trum_sym.inputs.checks import Domain, number
+    from trum_sym.inputs.checks import number
+    from trum_sym.inputs.domain import Domain
 
     context = click.get_current_context()
     for name in _OF_POINT:

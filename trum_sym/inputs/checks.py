@@ -3,49 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from trum_sym.errors import ParameterError
+from trum_sym.inputs.domain import Domain
 
-__all__ = ["Array", "ArrayLike", "Domain", "broadcast_shape", "number"]
+__all__ = ["Array", "ArrayLike", "broadcast_shape", "number"]
 
 Array: TypeAlias = npt.NDArray[np.float64]
 ArrayLike: TypeAlias = float | Array
-
-
-@dataclass(frozen=True)
-class Domain:
-    """An interval, open or closed at each end, of the reals or of the integers."""
-
-    low: float = -np.inf
-    high: float = np.inf
-    low_open: bool = True
-    high_open: bool = True
-    integer: bool = False
-
-    def describe(self, unit: str) -> str:
-        """The domain in words, with its unit."""
-        kind = "an integer" if self.integer else "a finite number"
-        bounds = []
-        if np.isfinite(self.low):
-            bounds.append(f"{'>' if self.low_open else '>='} {self.low:g}")
-        if np.isfinite(self.high):
-            bounds.append(f"{'<' if self.high_open else '<='} {self.high:g}")
-        where = " " + " and ".join(bounds) if bounds else ""
-        return f"{kind}{where}" + (f" in {unit}" if unit != "1" else "")
-
-    def contains(self, values: Array) -> npt.NDArray[np.bool_]:
-        """Element by element: is the value finite and inside?"""
-        inside = np.isfinite(values)
-        inside &= values > self.low if self.low_open else values >= self.low
-        inside &= values < self.high if self.high_open else values <= self.high
-        if self.integer:
-            inside &= values == np.floor(values)
-        return inside
 
 
 def number(name: str, value: object, domain: Domain, unit: str) -> ArrayLike:

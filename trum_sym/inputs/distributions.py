@@ -10,10 +10,11 @@ import numpy as np
 
 from trum_sym.errors import ParameterError
 from trum_sym.inputs.checks import Array
-from trum_sym.inputs.motor import Parameter, Spec
+from trum_sym.inputs.domain import Spec
 from trum_sym.inputs.units import parse_quantity
+from trum_sym.output.json_text import finite
 
-__all__ = ["KINDS", "Distribution", "checked", "default_distribution", "from_text"]
+__all__ = ["KINDS", "Distribution", "checked", "from_text"]
 
 # what each kind is told, in the order of its text form; optional ones after the bar
 _FORMS = {
@@ -83,8 +84,8 @@ class Distribution:
 
     def as_dict(self) -> dict[str, object]:
         """Everything by name; null where it is not set or not bounded."""
-        values = {field.name: getattr(self, field.name) for field in fields(self)}
-        return {name: None if isinstance(v, float) and not math.isfinite(v) else v for name, v in values.items()}
+        values: dict[str, object] = finite({field.name: getattr(self, field.name) for field in fields(self)})
+        return values
 
 
 def _wrong(name: str, got: object, allowed: str, unit: str) -> ParameterError:
@@ -114,12 +115,21 @@ def checked(name: str, distribution: Distribution, wanted: Spec) -> Distribution
             )
     if not given.low < given.high:
         raise _wrong(name, f"{given.kind} from {given.low:g} to {given.high:g}", "low < high", unit)
-    if given.kind in ("uniform", "triangular"):
-        if not (math.isfinite(given.low) and math.isfinite(given.high)):
-            raise _wrong(name, f"{given.kind} from {given.low:g} to {given.high:g}", "finite low and high", unit)
-        if given.kind == "triangular" and not (_real(given.mode) and given.low <= given.mode <= given.high):  # type: ignore[operator]
-            raise _wrong(name, f"mode = {given.mode!r}", "low <= mode <= high", unit)
-        return given
+    return _checked_bounded(name, given, unit) if given.kind in ("uniform", "triangular") else _cut(name, given, wanted)
+
+
+def _checked_bounded(name: str, given: Distribution, unit: str) -> Distribution:
+    """A uniform or triangular distribution, as it was given."""
+    if not (math.isfinite(given.low) and math.isfinite(given.high)):
+        raise _wrong(name, f"{given.kind} from {given.low:g} to {given.high:g}", "finite low and high", unit)
+    if given.kind == "triangular" and not (_real(given.mode) and given.low <= given.mode <= given.high):  # type: ignore[operator]
+        raise _wrong(name, f"mode = {given.mode!r}", "low <= mode <= high", unit)
+    return given
+
+
+def _cut(name: str, given: Distribution, wanted: Spec) -> Distribution:
+    """A normal or lognormal distribution, cut at the parameter's domain."""
+    domain, unit = wanted.domain, wanted.unit
     mean, deviation = given.mean, given.standard_deviation
     if not _real(deviation) or not 0 < deviation < math.inf:  # type: ignore[operator]
         raise _wrong(name, f"standard_deviation = {deviation!r}", "a finite number > 0", unit)
@@ -159,10 +169,3 @@ def from_text(name: str, text: str, unit: str) -> Distribution:
         raise ParameterError(name, text, form)
     numbers = {key: parse_quantity(f"{name}, {key}", part, unit) for key, part in zip(wanted, given, strict=False)}
     return Distribution(kind, **numbers)
-
-
-def default_distribution(parameter: Parameter) -> Distribution | None:
-    """What a motor file says of a parameter: its distribution, else uniform over its range, else nothing."""
-    if parameter.distribution is not None:
-        return parameter.distribution
-    return None if parameter.range is None else Distribution("uniform", *parameter.range)

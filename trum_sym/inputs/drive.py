@@ -2,40 +2,31 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
-from typing import Literal
-
-import numpy as np
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 from trum_sym.errors import ParameterError
-from trum_sym.inputs.checks import ArrayLike, Domain, broadcast_shape, number
+from trum_sym.inputs.choices import choice
+from trum_sym.inputs.domain import Domain
 
-__all__ = ["DRIVE_DOMAINS", "STARTS", "Drive", "Start", "choice"]
+if TYPE_CHECKING:
+    from trum_sym.inputs.checks import ArrayLike
+
+__all__ = ["DRIVE_DOMAINS", "LEAD", "STARTS", "Drive", "Start"]
 
 Start = Literal["periodic", "steady", "rest"]
-STARTS: tuple[Start, ...] = ("periodic", "steady", "rest")
+STARTS: tuple[Start, ...] = get_args(Start)
 
 _PULSES = Domain(low=1, low_open=False, high=10_000, high_open=False, integer=True)
-DRIVE_DOMAINS = {
-    "prepressure": (Domain(low=0.0, high=1e6), "N"),
-    "frequency_difference": (Domain(low=-1e9, high=1e9), "Hz"),
-    "periods": (_PULSES, "1"),
-    "on_periods": (_PULSES, "1"),
-    "load_torque": (Domain(low=-1e9, high=1e9), "N*m"),
-    "switching_phase": (Domain(low=-1e6, high=1e6), "rad"),
-}
+LEAD = Domain(low=-1, low_open=False, high=1, high_open=False)
+"""Of the phase lead, which is 1 or -1."""
 
 
-def choice(name: str, value: object, allowed: tuple[str, ...]) -> None:
-    """Check a word against the words that are allowed.
-
-    Raises
-    ------
-    ParameterError
-        If it is none of them.
-    """
-    if not isinstance(value, str) or value not in allowed:
-        raise ParameterError(name, value, f"one of {', '.join(allowed)}")
+def _quantity(default: float, unit: str, domain: Domain, text: str, metavar: str) -> Any:  # noqa: ANN401
+    """A number of the drive; the console makes its option of what is said here."""
+    about = {"unit": unit, "domain": domain, "text": text, "metavar": metavar}
+    return field(default=default, metadata=about)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,17 +59,27 @@ class Drive:
         For a value outside its domain, or shapes that do not broadcast.
     """
 
-    prepressure: ArrayLike = 180.0
-    frequency_difference: ArrayLike = 3000.0
-    periods: ArrayLike = 20
-    on_periods: ArrayLike = 14
-    load_torque: ArrayLike = 0.3
-    start: Start = "periodic"
-    switching_phase: ArrayLike = 0.0
-    phase_lead: ArrayLike = 1
+    prepressure: ArrayLike = _quantity(180.0, "N", Domain(low=0.0, high=1e6), "Prepressure F_c.", "N")
+    frequency_difference: ArrayLike = _quantity(
+        3000.0, "Hz", Domain(low=-1e9, high=1e9), "Drive frequency less resonance.", "HZ"
+    )
+    periods: ArrayLike = _quantity(20, "1", _PULSES, "Drive pulses per cycle, m.", "M")
+    on_periods: ArrayLike = _quantity(14, "1", _PULSES, "Pulses per cycle on each phase, n.", "N")
+    load_torque: ArrayLike = _quantity(0.3, "N*m", Domain(low=-1e9, high=1e9), "Load torque.", "NM")
+    start: Start = field(default=STARTS[0], metadata={"words": STARTS, "text": "State in which every cycle begins."})
+    switching_phase: ArrayLike = _quantity(
+        0.0, "rad", Domain(low=-1e6, high=1e6), "Drive phase of A at the switching.", "RAD"
+    )
+    phase_lead: ArrayLike = field(
+        default=1, metadata={"words": ("1", "-1"), "text": "Quarter periods by which B leads A."}
+    )
 
     def __post_init__(self) -> None:
         """Checks and stores every number as float64."""
+        import numpy as np
+
+        from trum_sym.inputs.checks import broadcast_shape, number
+
         for name, (domain, unit) in DRIVE_DOMAINS.items():
             object.__setattr__(self, name, number(name, getattr(self, name), domain, unit))
         lead = number("phase_lead", self.phase_lead, Domain(), "1")
@@ -96,3 +97,15 @@ class Drive:
     def numbers(self) -> dict[str, ArrayLike]:
         """The numeric fields by name."""
         return {field.name: getattr(self, field.name) for field in fields(self) if field.name != "start"}
+
+    def symbols(self) -> dict[str, ArrayLike]:
+        """Prepressure and load by the symbols of the equations, as the kernels name their arguments."""
+        return {"F_c": self.prepressure, "T_load": self.load_torque}
+
+
+DRIVE_DOMAINS: Mapping[str, tuple[Domain, str]] = {
+    quantity.name: (quantity.metadata["domain"], quantity.metadata["unit"])
+    for quantity in fields(Drive)
+    if "domain" in quantity.metadata
+}
+"""Domain and unit of every number of the drive but the phase lead, which is 1 or -1."""

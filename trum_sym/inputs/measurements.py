@@ -12,16 +12,15 @@ from types import MappingProxyType
 import numpy as np
 
 from trum_sym.errors import ParameterError
-from trum_sym.inputs.checks import Array, Domain, number
-from trum_sym.inputs.drive import DRIVE_DOMAINS
+from trum_sym.inputs.checks import Array, number
+from trum_sym.inputs.domain import Domain
+from trum_sym.inputs.drive import DRIVE_DOMAINS, LEAD
 from trum_sym.inputs.units import Unit, parse_unit
-from trum_sym.quantities import OUTPUTS
+from trum_sym.quantities import QUANTITIES
 
 __all__ = ["INPUTS", "SIGNALS", "UNCERTAINTY", "Measurements", "from_columns", "read_measurements", "table_of"]
 
-INPUTS = MappingProxyType(
-    {**DRIVE_DOMAINS, "phase_lead": (Domain(low=-1, low_open=False, high=1, high_open=False), "1")}
-)
+INPUTS = MappingProxyType({**DRIVE_DOMAINS, "phase_lead": (LEAD, "1")})
 SIGNALS = ("displacement", "velocity", "envelope")  # of a decay, each against time
 UNCERTAINTY = "_uncertainty"
 
@@ -75,7 +74,7 @@ class Measurements:
     @property
     def observed(self) -> tuple[str, ...]:
         """The measured columns: figures, or the signal of a decay."""
-        return tuple(n for n in self.columns if n in (*OUTPUTS, *SIGNALS))
+        return tuple(n for n in self.columns if n in (*QUANTITIES, *SIGNALS))
 
     @property
     def inputs(self) -> tuple[str, ...]:
@@ -111,15 +110,15 @@ def from_columns(name: str, columns: Mapping[str, object], units: Mapping[str, s
 def _expected(column: str) -> tuple[str | None, Domain]:
     """SI unit (None: the user's choice) and domain of a column."""
     of = column.removesuffix(UNCERTAINTY)
-    if of in OUTPUTS or of in SIGNALS:
-        unit = OUTPUTS[of].unit if of in OUTPUTS else {"displacement": "m", "velocity": "m/s"}.get(of)
+    if of in QUANTITIES or of in SIGNALS:
+        unit = QUANTITIES[of].unit if of in QUANTITIES else {"displacement": "m", "velocity": "m/s"}.get(of)
         return unit, Domain(low=0.0) if of != column or of in _POSITIVE else Domain()
     if column in INPUTS:
         domain, unit = INPUTS[column]
         return unit, domain
     if column == "time":
         return "s", Domain()
-    known = (*INPUTS, *OUTPUTS, "time", *SIGNALS)
+    known = (*INPUTS, *QUANTITIES, "time", *SIGNALS)
     from difflib import get_close_matches
 
     close = get_close_matches(column, known, n=3, cutoff=0.5)
@@ -147,7 +146,7 @@ def _check_columns(data: Measurements) -> None:
         raise ParameterError("data", f"{signals.pop()} without time", "a column time beside it")
     if not data.observed:
         raise ParameterError(
-            "data", "no measured column", f"at least one of {', '.join(OUTPUTS)}, or time and a signal"
+            "data", "no measured column", f"at least one of {', '.join(QUANTITIES)}, or time and a signal"
         )
     for column in names:
         of = column.removesuffix(UNCERTAINTY)
@@ -157,9 +156,10 @@ def _check_columns(data: Measurements) -> None:
         for column in data.observed:
             if column + UNCERTAINTY not in names:
                 raise ParameterError(
-                    "data", " and ".join(data.observed),
+                    "data",
+                    " and ".join(data.observed),
                     f"one measured column, or a column {column}{UNCERTAINTY} to weigh it against the others",
-                )  # fmt: skip
+                )
 
 
 def read_measurements(source: str | PathLike[str]) -> Measurements:

@@ -5,18 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, fields, replace
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from trum_sym.errors import ParameterError
-from trum_sym.inputs.checks import ArrayLike, Domain, broadcast_shape, number
+from trum_sym.inputs.checks import ArrayLike, broadcast_shape, number
+from trum_sym.inputs.distributions import Distribution
+from trum_sym.inputs.domain import Domain, Spec
 from trum_sym.inputs.units import parse_quantity
 
-if TYPE_CHECKING:
-    from trum_sym.inputs.distributions import Distribution
-
-__all__ = ["SPECS", "Motor", "Parameter", "Published", "Spec", "spec"]
+__all__ = ["SPECS", "Motor", "Parameter", "Published", "spec"]
 
 _POSITIVE = Domain(low=0.0)
 _SIZE = Domain(low=0.0, high=10.0)  # m
@@ -63,15 +62,11 @@ class Parameter:
     data: str = ""
     distribution: Distribution | None = None
 
-
-@dataclass(frozen=True)
-class Spec:
-    """What a parameter must be: SI unit, symbol, domain, and whether a motor file must give it."""
-
-    unit: str
-    symbol: str
-    domain: Domain
-    required: bool
+    def spread(self) -> Distribution | None:
+        """How the value spreads: its distribution, else uniform over its range, else None."""
+        if self.distribution is not None:
+            return self.distribution
+        return None if self.range is None else Distribution("uniform", *self.range)
 
 
 def _p(unit: str, symbol: str, domain: Domain = _POSITIVE) -> Any:  # noqa: ANN401

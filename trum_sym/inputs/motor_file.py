@@ -9,19 +9,30 @@ from types import MappingProxyType
 from typing import Any
 
 from trum_sym.errors import ParameterError
-from trum_sym.inputs.checks import ArrayLike, Domain, number
+from trum_sym.inputs.checks import ArrayLike, number
 from trum_sym.inputs.distributions import Distribution, checked
+from trum_sym.inputs.domain import Domain, Spec
 from trum_sym.inputs.drive import DRIVE_DOMAINS
-from trum_sym.inputs.motor import SPECS, Motor, Parameter, Published, Spec, spec
+from trum_sym.inputs.motor import SPECS, Motor, Parameter, Published, spec
 from trum_sym.inputs.units import Unit, parse_unit
-from trum_sym.quantities import OUTPUTS
+from trum_sym.quantities import QUANTITIES
 
 __all__ = ["load_motor", "motor_text"]
 
 _KEYS = (
-    "value", "unit", "symbol", "source", "range", "reason", "note", "interval", "data", "distribution", "mean",
+    "value",
+    "unit",
+    "symbol",
+    "source",
+    "range",
+    "reason",
+    "note",
+    "interval",
+    "data",
+    "distribution",
+    "mean",
     "standard_deviation",
-)  # fmt: skip
+)
 
 
 def _unit(name: str, given: str, wanted: str) -> Unit:
@@ -141,9 +152,9 @@ def _read_published(entry: object) -> Published:
     for key in ("output", "unit", "source"):
         if not isinstance(entry[key], str):
             raise ParameterError(f"published.{key}", entry[key], "text")
-    if entry["output"] not in OUTPUTS:
-        raise ParameterError("published.output", entry["output"], f"one of {', '.join(OUTPUTS)}")
-    unit = _unit("published.unit", entry["unit"], OUTPUTS[entry["output"]].unit)
+    if entry["output"] not in QUANTITIES:
+        raise ParameterError("published.output", entry["output"], f"one of {', '.join(QUANTITIES)}")
+    unit = _unit("published.unit", entry["unit"], QUANTITIES[entry["output"]].unit)
     number("published.value", _in_si("published.value", entry["value"], unit, entry["unit"]), Domain(), entry["unit"])
     for name, value in entry["drive"].items():
         if name not in DRIVE_DOMAINS:

@@ -14,7 +14,10 @@ from typing import NamedTuple
 
 from trum_sym.errors import ParameterError, shorten
 
-__all__ = ["Dimension", "Unit", "parse_quantity", "parse_unit"]
+__all__ = ["ARCSEC", "Dimension", "Unit", "parse_quantity", "parse_unit"]
+
+ARCSEC = math.pi / 648000
+"""One second of arc in rad."""
 
 
 class Dimension(NamedTuple):
@@ -69,7 +72,7 @@ _BASE: dict[str, Unit] = {
     "C": Unit(_dim(s=1, A=1), Fraction(1)),
     "rad": Unit(_dim(), Fraction(1)),
     "deg": Unit(_dim(), math.pi / 180),
-    "arcsec": Unit(_dim(), math.pi / 648000),
+    "arcsec": Unit(_dim(), ARCSEC),
     "rpm": Unit(_dim(s=-1), math.pi / 30),
 }
 _PREFIX = {"G": 9, "M": 6, "k": 3, "": 0, "c": -2, "m": -3, "u": -6, "µ": -6, "μ": -6, "n": -9, "p": -12}

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -12,6 +11,7 @@ import numpy as np
 
 from trum_sym.inputs.checks import Array, ArrayLike
 from trum_sym.model.kernels import call, signature
+from trum_sym.output.progress import shown
 
 __all__ = ["StoppedError", "call_in_blocks", "one_thread"]
 
@@ -106,18 +106,8 @@ def _in_threads(run: Callable[[int], None], starts: range, workers: int, label: 
     with ThreadPoolExecutor(workers) as pool:
         try:
             tasks = [pool.submit(run, begin) for begin in starts]
-            if label:
-                import click
-
-                with click.progressbar(
-                    length=len(tasks), label=label, file=sys.stderr, update_min_steps=1, hidden=not sys.stderr.isatty()
-                ) as bar:
-                    for task in as_completed(tasks):
-                        task.result()
-                        bar.update(1)
-            else:
-                for task in tasks:
-                    task.result()
+            for task in shown(as_completed(tasks), label, len(tasks)):
+                task.result()
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)  # what has begun ends by itself, within a block
             raise

@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from importlib.metadata import version
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Unpack
 
 import numpy as np
 
-from trum_sym.errors import MissingExtraError, ParameterError, ValidityWarning
-from trum_sym.inputs.checks import Array, ArrayLike, Domain, number
+from trum_sym.errors import MissingExtraError, ParameterError
+from trum_sym.inputs.checks import Array, ArrayLike, number
+from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
-from trum_sym.model.cycle import modal_values, response, scaled
+from trum_sym.inputs.points import check_single, numbers_of
+from trum_sym.model.cycle import response, scaled
 from trum_sym.model.kernels import call
-from trum_sym.model.operating_point import OperatingPoint, evaluate
-from trum_sym.model.rotor import history, orbit_values, solve_orbit
-from trum_sym.model.stator import Amplitude, Contact, Foundation, Levels, Resonance, solve_stator
+from trum_sym.model.levels import LevelChoice, Levels
+from trum_sym.model.operating_point import Case, OperatingPoint, point_of, prepare
+from trum_sym.model.rotor import history, solve_orbit
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -50,12 +51,9 @@ def simulate(
     *,
     cycles: float = 1,
     samples_per_period: float = 64,
-    contact: Contact = "winkler",
-    resonance: Resonance = "quartic",
-    foundation: Foundation = "harmonic",
-    amplitude: Amplitude = "measured",
     sampling_period: float | None = None,
     tolerance: float = 1e-3,
+    **levels: Unpack[LevelChoice],
 ) -> xr.Dataset:
     """Time histories of one operating point on its periodic orbit.
 
@@ -91,21 +89,20 @@ def simulate(
     except ImportError:
         raise MissingExtraError("simulate", "xarray", "data") from None
     count_domain = Domain(low=1, low_open=False, high=_MAX_SAMPLES, high_open=False, integer=True)
-    repeats = int(_single("cycles", number("cycles", cycles, count_domain, "1")))
-    per_period = int(_single("samples_per_period", number("samples_per_period", samples_per_period, count_domain, "1")))
+    given = {"cycles": cycles, "samples_per_period": samples_per_period}
+    counts = {name: number(name, count, count_domain, "1") for name, count in given.items()}
+    check_single(counts)
+    repeats, per_period = (int(count) for count in counts.values())
     drive = Drive() if drive is None else drive
-    levels = Levels(contact, resonance, foundation, amplitude)
     if isinstance(drive, Drive) and isinstance(motor, Motor):  # evaluate refuses all else
-        _check_single(motor, drive, sampling_period)
+        check_single(numbers_of(motor, drive, sampling_period))
         if repeats * per_period * int(drive.periods) > _MAX_SAMPLES:
             allowed = f"at most {_MAX_SAMPLES} samples, cycles * periods * samples_per_period"
             raise ParameterError("cycles", repeats, allowed)
-    point = evaluate(
-        motor, drive, contact=contact, resonance=resonance, foundation=foundation, amplitude=amplitude,
-        sampling_period=sampling_period, tolerance=tolerance,
-    )  # fmt: skip
+    case = prepare(motor, drive, Levels(**levels), tolerance, sampling_period)
+    point = point_of(case)
     count = int(drive.periods) * per_period
-    columns, region = _cycle(motor, drive, levels, tolerance, point, count)
+    columns, region = _cycle(case, point, count)
     advance = columns.pop("advance")
     laps = np.repeat(np.arange(repeats), count)
     data = {name: np.tile(column, repeats) for name, column in columns.items()}
@@ -125,38 +122,18 @@ def simulate(
                 {"flag_values": [0, 1, 2], "flag_meanings": " ".join(name.replace(" ", "_") for name in REGIONS)},
             ),
         },
-        attrs=_attributes(motor, drive, levels, point, {**settings, "sampling_period": sampling_period}),
+        attrs=_attributes(case, point, {**settings, "sampling_period": sampling_period}),
     )
 
 
-def _single(name: str, value: ArrayLike) -> ArrayLike:
-    if np.ndim(value):
-        raise ParameterError(name, f"an array of shape {np.shape(value)}", "a single number")
-    return value
-
-
-def _check_single(motor: Motor, drive: Drive, sampling_period: ArrayLike | None) -> None:
-    """Raise a ParameterError for an array: a history is that of one point."""
-    numbers = {**drive.numbers(), **{name: parameter.value for name, parameter in motor.parameters()}}
-    if sampling_period is not None:
-        numbers["sampling_period"] = sampling_period
-    for name, value in numbers.items():
-        _single(name, value)
-
-
 def _cycle(
-    motor: Motor, drive: Drive, levels: Levels, tolerance: float, point: OperatingPoint, count: int
+    case: Case, point: OperatingPoint, count: int
 ) -> tuple[dict[str, Array], np.ndarray[tuple[int, ...], np.dtype[np.int8]]]:
     """One cycle at ``count`` equal times from t1 on, what the rotor's angle advances in it, and the regions."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ValidityWarning)  # evaluate has warned
-        stator = solve_stator(motor, drive, levels)
-    radius = float(motor.contact_radius.value)
-    values = scaled(modal_values(stator.omega_n, motor.damping_ratio.value, drive), stator.W)
+    drive, stator, arguments = case.drive, case.stator, case.arguments
+    radius = float(case.motor.contact_radius.value)
     samples = np.arange(count)
-    found = response(point.cycle_time * samples / count, values, stator.D, stator.k_c)
-    symbols = {**motor.symbols(), **stator.values, "F_c": drive.prepressure, "T_load": drive.load_torque}
-    arguments = orbit_values(values, symbols, levels.contact, tolerance)
+    found = response(point.cycle_time * samples / count, scaled(case.values, stator.W), stator.D, stator.k_c)
     touching = surface_and_contact(arguments, found)
     columns = {
         "w_A": found["w_A"],
@@ -169,7 +146,7 @@ def _cycle(
     speed = angle = columns["friction"] = np.full(count, np.nan)
     advance = np.nan
     if np.isfinite(point.mean_speed):
-        lap = history(arguments, solve_orbit(arguments, symbols).raw, count)  # the last one at the cycle's end
+        lap = history(arguments, solve_orbit(arguments, case.symbols).raw, count)  # the last one at the cycle's end
         path = lap["distance"] / radius
         speed, angle, advance = np.roll(lap["speed"], 1) / radius, np.append(0.0, path[:-1]), path[-1]
         columns["friction"] = call("trum_friction", {**touching, "v": speed * radius})["f"]
@@ -195,9 +172,10 @@ def surface_and_contact(values: Mapping[str, ArrayLike], found: Mapping[str, Arr
 
 
 def _attributes(
-    motor: Motor, drive: Drive, levels: Levels, point: OperatingPoint, settings: Mapping[str, float | None]
+    case: Case, point: OperatingPoint, settings: Mapping[str, float | None]
 ) -> dict[str, str | float | int]:
     """Every setting, figure and flag, as text and numbers that any file format holds."""
+    motor, drive, levels = case.motor, case.drive, case.levels
     figures = {name: value for name, value in point.as_dict().items() if name not in ("motor", "converged")}
     attributes = {
         "title": f"{motor.name}: time histories on the periodic orbit",

@@ -4,39 +4,37 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, fields
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 
-from trum_sym.errors import ParameterError
-from trum_sym.inputs.checks import Array, ArrayLike, Domain, broadcast_shape, number
-from trum_sym.inputs.drive import Drive, choice
+from trum_sym.inputs.checks import Array, ArrayLike, broadcast_shape, number
+from trum_sym.inputs.domain import Domain
+from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
+from trum_sym.inputs.points import check_point, numbers_of
 from trum_sym.model.cycle import check_steady_state, cycle_sums, modal_values, scaled
 from trum_sym.model.kernels import call
+from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.model.rotor import Orbit, encoder_deviation, history, orbit_values, solve_orbit
-from trum_sym.model.stator import (
-    AMPLITUDES,
-    CONTACTS,
-    FOUNDATIONS,
-    RESONANCES,
-    Amplitude,
-    Contact,
-    Foundation,
-    Levels,
-    Resonance,
-    Stator,
-    solve_stator,
-)
+from trum_sym.model.stator import Stator, solve_stator
 
-__all__ = ["FIGURES", "OF_CYCLE", "OF_ORBIT", "Case", "OperatingPoint", "evaluate", "figures", "prepare"]
+__all__ = ["OF_CYCLE", "OF_ORBIT", "RESULTS", "Case", "OperatingPoint", "evaluate", "point_of", "prepare", "results"]
 
 OF_CYCLE = frozenset(("q_ratio", "q_square_ratio", "q_average", "q_volatility"))
 """The figures that take the sums over a cycle."""
-OF_ORBIT = frozenset((
-    "mean_speed", "min_speed", "max_speed", "speed_volatility", "stall_torque", "contact_fraction", "converged",
-    "runaway",
-))  # fmt: skip
+OF_ORBIT = frozenset(
+    (
+        "mean_speed",
+        "min_speed",
+        "max_speed",
+        "speed_volatility",
+        "stall_torque",
+        "contact_fraction",
+        "converged",
+        "runaway",
+    )
+)
 """The figures that take the rotor's orbit; ``runaway`` is where no speed balances the load."""
 
 _ENCODER_SAMPLES = 64  # per drive period, of the path that the encoder differences
@@ -104,7 +102,7 @@ class OperatingPoint:
         return {field.name: getattr(self, field.name) for field in fields(self)}
 
 
-FIGURES = tuple(field.name for field in fields(OperatingPoint) if field.name not in ("motor", "start", "contact"))
+RESULTS = tuple(field.name for field in fields(OperatingPoint) if field.name not in ("motor", "start", "contact"))
 """The figures of an operating point that depend on its numbers, in order."""
 
 
@@ -112,13 +110,10 @@ def evaluate(
     motor: Motor,
     drive: Drive | None = None,
     *,
-    contact: Contact = "winkler",
-    resonance: Resonance = "quartic",
-    foundation: Foundation = "harmonic",
-    amplitude: Amplitude = "measured",
     sampling_period: ArrayLike | None = None,
     tolerance: float = 1e-3,
     progress: bool = False,
+    **levels: Unpack[LevelChoice],
 ) -> OperatingPoint:
     """The operating point of a motor under a drive.
 
@@ -128,20 +123,14 @@ def evaluate(
         Its parameters may be arrays.
     drive : Drive, optional
         The paper's Table 3 if not given.  Its fields and the motor's values broadcast.
-    contact : {"winkler", "hertz"}
-        How the half-angle of the contact follows from the prepressure (eqs. 25 to 31).
-    resonance : {"quartic", "eq6", "printed", "euler"}
-        Timoshenko's lower root, its truncation, eq. 6 as printed, Euler-Bernoulli.
-    foundation : {"harmonic", "smeared", "printed", "none"}
-        How the friction layer stiffens the stator.
-    amplitude : {"measured", "forced"}
-        Eq. 8 on the measured amplitude, or on the derived forced one (eq. 7 put right).
     sampling_period : float or array, s, optional
         Averaging period of the encoder behind ``speed_volatility``; continuous if not given.
     tolerance : float
         Of the mean speed and its extremes, relative to the largest speed; from 1e-9 to 1e-2.
     progress : bool
         Whether to show a bar on the standard error while many points are computed.
+    contact, resonance, foundation, amplitude : str, optional
+        Levels of the model, see :class:`trum_sym.model.levels.Levels`.
 
     Returns
     -------
@@ -154,10 +143,7 @@ def evaluate(
     ConvergenceError
         If the forced amplitude and the resonance do not settle.
     """
-    case = prepare(motor, drive, Levels(contact, resonance, foundation, amplitude), tolerance, sampling_period)
-    return OperatingPoint(
-        motor=motor.name, start=case.drive.start, contact=contact, **figures(case, FIGURES, progress)
-    )  # fmt: skip
+    return point_of(prepare(motor, drive, Levels(**levels), tolerance, sampling_period), progress)
 
 
 @dataclass(frozen=True)
@@ -166,6 +152,7 @@ class Case:
 
     motor: Motor
     drive: Drive
+    levels: Levels
     shape: tuple[int, ...]
     stator: Stator
     values: dict[str, ArrayLike]  # of the phases, for an amplitude of 1
@@ -190,19 +177,9 @@ def prepare(
     ParameterError, ConvergenceError
         As :func:`evaluate` does.
     """
-    for name, value, allowed in (
-        ("contact", levels.contact, CONTACTS),
-        ("resonance", levels.resonance, RESONANCES),
-        ("foundation", levels.foundation, FOUNDATIONS),
-        ("amplitude", levels.amplitude, AMPLITUDES),
-    ):
-        choice(name, value, allowed)
     drive = Drive() if drive is None else drive
-    if not isinstance(motor, Motor):
-        raise ParameterError("motor", motor, "a Motor, as load_motor returns it")
-    if not isinstance(drive, Drive):
-        raise ParameterError("drive", drive, "a Drive")
-    inputs = {**drive.numbers(), **{name: p.value for name, p in motor.parameters()}}
+    check_point(motor, drive)
+    inputs = numbers_of(motor, drive)
     if sampling_period is not None:
         inputs["sampling_period"] = number("sampling_period", sampling_period, Domain(low=0.0), "s")
     shape = broadcast_shape(inputs)
@@ -210,19 +187,25 @@ def prepare(
     check_steady_state(motor.damping_ratio.value, drive)
     stator = solve_stator(motor, drive, levels, warn=warn)
     values = modal_values(stator.omega_n, motor.damping_ratio.value, drive)
-    symbols = {**motor.symbols(), **stator.values, "F_c": drive.prepressure, "T_load": drive.load_torque}
+    symbols = {**motor.symbols(), **stator.values, **drive.symbols()}
     arguments = orbit_values(scaled(values, stator.W), symbols, levels.contact, tolerance)
-    return Case(motor, drive, shape, stator, values, symbols, arguments, sampling_period)
+    return Case(motor, drive, levels, shape, stator, values, symbols, arguments, sampling_period)
 
 
-def figures(case: Case, wanted: Collection[str], progress: bool = False) -> dict[str, Any]:
+def point_of(case: Case, progress: bool = False) -> OperatingPoint:
+    """All figures of a case from :func:`prepare`."""
+    found = results(case, RESULTS, progress)
+    return OperatingPoint(motor=case.motor.name, start=case.drive.start, contact=case.levels.contact, **found)
+
+
+def results(case: Case, wanted: Collection[str], progress: bool = False) -> dict[str, Any]:
     """Some figures of a case by name, each of the case's shape; what none of them needs is not computed.
 
     Parameters
     ----------
     case : Case
         From :func:`prepare`.
-    wanted : names of :data:`FIGURES`, or ``"runaway"``
+    wanted : names of :data:`RESULTS`, or ``"runaway"``
         The last says where no speed balances the load.
     progress : bool
         As for :func:`evaluate`.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Mapping
 from dataclasses import replace
+from typing import Unpack
 
 import numpy as np
 
@@ -14,11 +15,12 @@ from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
 from trum_sym.model.batch import call_in_blocks
 from trum_sym.model.kernels import call
+from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.model.operating_point import Case, prepare
 from trum_sym.model.rotor import Orbit, as_orbit
-from trum_sym.model.stator import Amplitude, Contact, Foundation, Levels, Resonance, solve_stator
+from trum_sym.model.stator import solve_stator
 
-__all__ = ["FIGURES", "PARAMETERS", "orbit_with_slopes", "sensitivities"]
+__all__ = ["DIFFERENTIATED", "PARAMETERS", "orbit_with_slopes", "sensitivities"]
 
 PARAMETERS = (
     "prepressure",
@@ -28,7 +30,7 @@ PARAMETERS = (
     "amplitude",
     "resonance_frequency",
 )
-FIGURES = ("mean_speed", "min_speed", "max_speed", "speed_volatility", "contact_fraction", "stall_torque")
+DIFFERENTIATED = ("mean_speed", "min_speed", "max_speed", "speed_volatility", "contact_fraction", "stall_torque")
 
 _TURN = 2 * np.pi
 _STATES = ("a_A", "b_A", "a_B", "b_B")
@@ -39,11 +41,8 @@ def sensitivities(
     motor: Motor,
     drive: Drive | None = None,
     *,
-    contact: Contact = "winkler",
-    resonance: Resonance = "quartic",
-    foundation: Foundation = "harmonic",
-    amplitude: Amplitude = "measured",
     tolerance: float = 1e-6,
+    **levels: Unpack[LevelChoice],
 ) -> dict[str, dict[str, Array]]:
     """Derivatives of an operating point's figures.
 
@@ -62,11 +61,12 @@ def sensitivities(
     Returns
     -------
     dict
-        ``[figure][parameter]`` for all of :data:`FIGURES` and :data:`PARAMETERS`, in SI units (Hz for frequencies):
-        what ``evaluate``'s figure changes by, per change of the parameter.  Amplitude and resonance follow prepressure
-        and frequency difference as they do in ``evaluate``; under ``amplitude`` and ``resonance_frequency`` stands
-        what each does alone.  ``speed_volatility`` is the continuous one.  NaN where no speed balances the load.
-        Where an extreme changes hands the slope is that of the extreme which is seen, one of the two sides'.
+        ``[figure][parameter]`` for all of :data:`DIFFERENTIATED` and :data:`PARAMETERS`, in SI units (frequencies
+        in Hz): what ``evaluate``'s figure changes by, per change of the parameter.  Amplitude and resonance follow
+        prepressure and frequency difference as they do in ``evaluate``; under ``amplitude`` and
+        ``resonance_frequency`` stands what each does alone.  ``speed_volatility`` is the continuous one.  NaN where
+        no speed balances the load.  Where an extreme changes hands the slope is that of the extreme which is seen,
+        one of the two sides'.
 
     Raises
     ------
@@ -75,20 +75,19 @@ def sensitivities(
     ConvergenceError
         If the forced amplitude and the resonance do not settle.
     """
-    levels = Levels(contact, resonance, foundation, amplitude)
-    _, found = orbit_with_slopes(prepare(motor, drive, levels, tolerance), levels)
-    return {name: found[name] for name in FIGURES}
+    _, found = orbit_with_slopes(prepare(motor, drive, Levels(**levels), tolerance))
+    return {name: found[name] for name in DIFFERENTIATED}
 
 
-def orbit_with_slopes(case: Case, levels: Levels) -> tuple[Orbit, dict[str, dict[str, Array]]]:
+def orbit_with_slopes(case: Case) -> tuple[Orbit, dict[str, dict[str, Array]]]:
     """The orbit of a case that :func:`trum_sym.model.operating_point.prepare` has checked, and its figures' slopes.
 
-    Beside those of :data:`FIGURES` stands ``speed_deviation``, the speed's standard deviation in rad/s.
+    Beside those of :data:`DIFFERENTIATED` stands ``speed_deviation``, the speed's standard deviation in rad/s.
     """
     raw = call_in_blocks(
         "rotor_slopes",
         {**case.arguments, **_states(case)},
-        inner={"slopes": (len(FIGURES), len(PARAMETERS))},
+        inner={"slopes": (len(DIFFERENTIATED), len(PARAMETERS))},
         smallest=1,  # steps with slopes are long: a core each
     )
     slopes = raw["slopes"]
@@ -101,7 +100,7 @@ def orbit_with_slopes(case: Case, levels: Levels) -> tuple[Orbit, dict[str, dict
         "amplitude": slopes[..., 4] / _column(case.stator.W),
         "resonance_frequency": slopes[..., 5] * _TURN,
     }
-    for name, (d_omega_n, d_W) in _following(case, levels).items():
+    for name, (d_omega_n, d_W) in _following(case).items():
         alone[name] = alone[name] + alone["amplitude"] * _column(d_W)
         alone[name] = alone[name] + alone["resonance_frequency"] * _column(d_omega_n / _TURN)
     orbit = as_orbit({name: value for name, value in raw.items() if name != "slopes"}, case.symbols)
@@ -121,7 +120,7 @@ def _states(case: Case) -> dict[str, ArrayLike]:
     return {**rates, **call(f"trum_start_{case.drive.start}_slopes", case.arguments)}
 
 
-def _following(case: Case, levels: Levels) -> dict[str, tuple[Array, Array]]:
+def _following(case: Case) -> dict[str, tuple[Array, Array]]:
     """Derivatives of the resonance (rad/s) and the amplitude (m) by prepressure and frequency difference."""
     force, difference = (np.asarray(x) for x in (case.drive.prepressure, case.drive.frequency_difference))
     force_step, difference_step = _STEP * force, _STEP * np.asarray(case.stator.omega_n) / _TURN
@@ -135,7 +134,7 @@ def _following(case: Case, levels: Levels) -> dict[str, tuple[Array, Array]]:
             prepressure=force + along_force * force_step,
             frequency_difference=difference + along_difference * difference_step,
         )
-        stator = solve_stator(case.motor, moved, levels)
+        stator = solve_stator(case.motor, moved, case.levels)
 
     def derivatives(of: ArrayLike) -> tuple[Array, Array]:
         at = np.broadcast_to(of, (8, *case.shape))
@@ -153,7 +152,7 @@ def _figures(case: Case, orbit: Mapping[str, ArrayLike], slopes: Mapping[str, Ar
     """From rim speeds, variance and friction fraction to the rotor's figures."""
     radius, force, friction = (np.asarray(case.symbols[name]) for name in ("r_c", "F_c", "mu"))
     mean, held = np.asarray(orbit["mean"]), np.asarray(orbit["held"])
-    found: dict[str, dict[str, Array]] = {name: {} for name in (*FIGURES, "speed_deviation")}
+    found: dict[str, dict[str, Array]] = {name: {} for name in (*DIFFERENTIATED, "speed_deviation")}
     with np.errstate(all="ignore"):
         deviation = np.sqrt(orbit["variance"])
         for parameter, slope in slopes.items():

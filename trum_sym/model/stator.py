@@ -5,7 +5,6 @@ from __future__ import annotations
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
@@ -14,39 +13,12 @@ from trum_sym.inputs.checks import ArrayLike
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
 from trum_sym.model.kernels import call
+from trum_sym.model.levels import Contact, Levels
 
-__all__ = [
-    "AMPLITUDES",
-    "CONTACTS",
-    "FOUNDATIONS",
-    "RESONANCES",
-    "Levels",
-    "Stator",
-    "solve_stator",
-    "warn_outside_fit",
-]
-
-Contact = Literal["winkler", "hertz"]
-Resonance = Literal["quartic", "eq6", "printed", "euler"]
-Foundation = Literal["harmonic", "smeared", "printed", "none"]
-Amplitude = Literal["measured", "forced"]
-CONTACTS: tuple[Contact, ...] = ("winkler", "hertz")
-RESONANCES: tuple[Resonance, ...] = ("quartic", "eq6", "printed", "euler")
-FOUNDATIONS: tuple[Foundation, ...] = ("harmonic", "smeared", "printed", "none")
-AMPLITUDES: tuple[Amplitude, ...] = ("measured", "forced")
+__all__ = ["Stator", "solve_stator", "warn_outside_fit"]
 
 _TURN = 2 * np.pi
 _MAX_ITERATIONS = 200
-
-
-@dataclass(frozen=True)
-class Levels:
-    """Which level of each model to use."""
-
-    contact: Contact
-    resonance: Resonance
-    foundation: Foundation
-    amplitude: Amplitude
 
 
 @dataclass(frozen=True)

@@ -43,7 +43,7 @@ def chart(model: Model, divisions: int | None = None) -> Chart:
     d = len(model.box.names)
     side = np.linspace(0.0, 1.0, divisions or _DIVISIONS[d])
     share = np.stack(np.meshgrid(*[side] * d, indexing="ij"), axis=-1).reshape(-1, d)
-    return Chart(share, (side.size,) * d, model.figures(model.box.at(share), _TOLERANCE))
+    return Chart(share, (side.size,) * d, model.results(model.box.at(share), _TOLERANCE))
 
 
 def crossings(found: Chart, residual: Array) -> tuple[Index, Index, Array]:

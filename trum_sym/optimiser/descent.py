@@ -195,7 +195,7 @@ def descend(model: Model, tasks: Sequence[Task], tolerance: float) -> list[Visit
 
     def answer(asked: list[tuple[int, Visit]]) -> None:
         points = box.at(np.array([visit.share for _, visit in asked]))
-        figures, slopes = model.figures_with_slopes(points, tolerance)
+        figures, slopes = model.results_with_slopes(points, tolerance)
         for row, (number, visit) in enumerate(asked):
             task = tasks[number]
             own = {name: figures[name][row : row + 1] for name in task.functions.names}

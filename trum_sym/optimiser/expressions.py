@@ -1,7 +1,7 @@
 """Objectives and constraints as users write them: arithmetic on named figures, checked for dimension.
 
 ``"max_speed - min_speed"`` is an objective, ``"stall_torque - load_torque >= 0.05 N*m"`` a constraint.  The text is
-parsed by Python's own parser; only arithmetic, a few functions and the names of :data:`FIGURES` pass, and nothing is
+parsed by Python's own parser; only arithmetic, a few functions and the names of :data:`VARIABLES` pass, and nothing is
 ever executed.  What comes out is a CasADi expression, so its derivatives are exact.
 """
 
@@ -18,9 +18,9 @@ from typing import Any
 from trum_sym.errors import ParameterError, shorten
 from trum_sym.inputs.units import Dimension, parse_quantity, parse_unit
 from trum_sym.optimiser.extra import casadi
-from trum_sym.quantities import OUTPUTS
+from trum_sym.quantities import QUANTITIES
 
-__all__ = ["FIGURES", "Constraint", "Expression", "parse_constraint", "parse_expression"]
+__all__ = ["VARIABLES", "Constraint", "Expression", "parse_constraint", "parse_expression"]
 
 _INPUTS = {
     "prepressure": "N",
@@ -31,9 +31,9 @@ _INPUTS = {
     "on_periods": "1",
 }
 # what an expression may name, with its SI unit
-FIGURES: Mapping[str, str] = MappingProxyType(
+VARIABLES: Mapping[str, str] = MappingProxyType(
     {
-        **{name: output.unit for name, output in OUTPUTS.items()},
+        **{name: output.unit for name, output in QUANTITIES.items()},
         "speed_deviation": "rad/s",
         "peak_pressure": "Pa",
         **_INPUTS,
@@ -82,7 +82,7 @@ class Constraint:
         return f"{name} >= {self.low:.10g}{unit}" if math.isfinite(self.low) else f"{name} <= {self.high:.10g}{unit}"
 
 
-_SYMBOLS = {name: casadi.SX.sym(name) for name in FIGURES}
+_SYMBOLS = {name: casadi.SX.sym(name) for name in VARIABLES}
 
 
 def symbol(name: str) -> Any:  # noqa: ANN401
@@ -143,12 +143,12 @@ class _Reader:
         raise self.refuse(f"not {type(node).__name__.lower()}")
 
     def figure(self, figure: str) -> _Term:
-        if figure not in FIGURES:
-            close = get_close_matches(figure, FIGURES, n=3, cutoff=0.5)
-            hint = f"close names: {', '.join(close)}" if close else f"names are {', '.join(FIGURES)}"
+        if figure not in VARIABLES:
+            close = get_close_matches(figure, VARIABLES, n=3, cutoff=0.5)
+            hint = f"close names: {', '.join(close)}" if close else f"names are {', '.join(VARIABLES)}"
             raise self.refuse(f"no figure is called {shorten(figure)}; {hint}")
         self.names.add(figure)
-        return _Term(_SYMBOLS[figure], parse_unit(FIGURES[figure]).dimension)
+        return _Term(_SYMBOLS[figure], parse_unit(VARIABLES[figure]).dimension)
 
     def same(self, terms: list[_Term]) -> Dimension | None:
         """The one dimension of terms that are added or compared; numbers and weights take what the others need."""
@@ -215,7 +215,7 @@ def parse_expression(name: str, text: object) -> Expression:
     Raises
     ------
     ParameterError
-        For anything but arithmetic on :data:`FIGURES`, or a sum of unlike dimensions.
+        For anything but arithmetic on :data:`VARIABLES`, or a sum of unlike dimensions.
     """
     if not isinstance(text, str) or not text.strip():
         raise ParameterError(name, text, "text: arithmetic on figures such as mean_speed")
@@ -232,7 +232,7 @@ def parse_expression(name: str, text: object) -> Expression:
     dimension = term.dimension or Dimension()
     if any(exponent.denominator != 1 for exponent in dimension):
         raise reader.refuse(f"the root of a unit is left, {dimension}")
-    unit = FIGURES[tree.body.id] if isinstance(tree.body, ast.Name) else str(dimension)
+    unit = VARIABLES[tree.body.id] if isinstance(tree.body, ast.Name) else str(dimension)
     return Expression(text.strip(), term.graph, frozenset(reader.names), unit)
 
 
@@ -252,7 +252,7 @@ def parse_constraint(name: str, text: object) -> Constraint:
         raise ParameterError(name, text, wanted)
     left, right = (side.strip() for side in text.split(operators[0]))
     expression = parse_expression(name, left)
-    if any(figure in right for figure in FIGURES):
+    if any(figure in right for figure in VARIABLES):
         expression, value = parse_expression(name, f"({left}) - ({right})"), 0.0
     else:
         value = parse_quantity(f"{name} {shorten(left)}", right, expression.unit)

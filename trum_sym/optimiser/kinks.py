@@ -74,13 +74,15 @@ def compass(model: Model, rows: Functions, bounds: Bounds, scale: Array, found: 
         around = rng.normal(size=(_DIRECTIONS, d))
         around /= np.linalg.norm(around, axis=1, keepdims=True)
         places = np.clip(best + radius * around, 0.0, 1.0)
-        found_there = rows.values(model.figures(model.box.at(places), tolerance))
+        found_there = rows.values(model.results(model.box.at(places), tolerance))
         if bounds.unit.size:
-            places = np.array([
-                towards(place, slopes, bounds.excess(row[1:])) if np.all(np.isfinite(row)) else place
-                for place, row in zip(places, found_there, strict=True)
-            ])  # fmt: skip
-            found_there = rows.values(model.figures(model.box.at(places), tolerance))
+            places = np.array(
+                [
+                    towards(place, slopes, bounds.excess(row[1:])) if np.all(np.isfinite(row)) else place
+                    for place, row in zip(places, found_there, strict=True)
+                ]
+            )
+            found_there = rows.values(model.results(model.box.at(places), tolerance))
         missed = np.max(np.abs(bounds.excess(found_there[:, 1:])) * bounds.unit / scale[1:], axis=1, initial=0.0)
         objective = np.where(missed <= _MET, found_there[:, 0], np.inf)
         objective = np.where(np.isfinite(objective), objective, np.inf)

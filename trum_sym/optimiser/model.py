@@ -15,11 +15,11 @@ from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
 from trum_sym.model.cycle import cycle_sums
 from trum_sym.model.kernels import call
+from trum_sym.model.levels import Levels
 from trum_sym.model.operating_point import Case, evaluate, prepare
 from trum_sym.model.pressure import peak_pressure
 from trum_sym.model.rotor import Orbit, solve_orbit
 from trum_sym.model.sensitivities import orbit_with_slopes
-from trum_sym.model.stator import Levels
 from trum_sym.optimiser.expressions import Expression, symbol
 from trum_sym.optimiser.extra import casadi
 
@@ -116,17 +116,17 @@ class Model:
         varied: dict[str, Any] = {name: points[..., k] for k, name in enumerate(self.box.names)}
         return replace(self.drive, **varied)
 
-    def figures(self, points: Array, tolerance: float) -> dict[str, Array]:
+    def results(self, points: Array, tolerance: float) -> dict[str, Array]:
         """The wanted figures, mean speed and deviation always among them; NaN where no speed balances the load."""
         case = self._case(points, tolerance)
         self.evaluations += len(points)
         return {**self._closed(case), **_speeds(solve_orbit(case.arguments, case.symbols))}
 
-    def figures_with_slopes(self, points: Array, tolerance: float) -> tuple[dict[str, Array], dict[str, Array]]:
+    def results_with_slopes(self, points: Array, tolerance: float) -> tuple[dict[str, Array], dict[str, Array]]:
         """The same and their derivatives by the box's variables, each (n, d)."""
         case = self._case(points, tolerance)
         self.evaluations += len(points)
-        orbit, found = orbit_with_slopes(case, self.levels)
+        orbit, found = orbit_with_slopes(case)
         figures = {**self._closed(case), **_speeds(orbit)}
         closed = self.names.difference(found)
         slopes = self._differences(points, range(points.shape[1])) if closed else {}
@@ -180,7 +180,7 @@ class Model:
             moved = np.repeat(points[np.newaxis], 6, axis=0)
             moved[:, :, k] += shifts[:, np.newaxis] * step
             if orbits:
-                flat = self.figures(moved.reshape(-1, points.shape[1]), _FINEST)
+                flat = self.results(moved.reshape(-1, points.shape[1]), _FINEST)
                 found = {name: value.reshape(6, -1) for name, value in flat.items()}
             else:
                 found = self._closed(self._case(moved, _FINEST))

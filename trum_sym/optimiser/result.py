@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import json
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING
 
 from trum_sym.inputs.units import parse_unit
-from trum_sym.quantities import OUTPUTS
+from trum_sym.output.json_text import finite, json_text
+from trum_sym.quantities import QUANTITIES
 
 if TYPE_CHECKING:
     from trum_sym.optimiser.solve import Problem
@@ -105,22 +104,18 @@ class Optimum:
     def as_dict(self) -> dict[str, object]:
         """The answer by name, without ``figures`` and ``problem``; None for what has no meaning or is infinite."""
         names = [field.name for field in fields(self) if field.name not in ("figures", "problem")]
-        found = {name: _known(getattr(self, name)) for name in names}
+        found = {name: finite(getattr(self, name)) for name in names}
         evidence = {field.name: getattr(self.evidence, field.name) for field in fields(Evidence)}
         return {**found, "evidence": evidence}
 
 
-def _known(value: object) -> object:
-    return None if isinstance(value, float) and not math.isfinite(value) else value
-
-
 def as_json_text(optimum: Optimum) -> str:
     """The answer as a JSON object; null where a figure has no meaning."""
-    return json.dumps(optimum.as_dict(), indent=1, allow_nan=False)
+    return json_text(optimum.as_dict())
 
 
 def _shown(name: str, value: float) -> tuple[str, str, str]:
-    label, unit, shown = OUTPUTS[name]
+    label, unit, shown = QUANTITIES[name]
     return label, f"{parse_unit(unit).to_si(value) / parse_unit(shown).to_si(1.0):.8g}", "" if shown == "1" else shown
 
 
@@ -138,9 +133,15 @@ def as_table(optimum: Optimum, title: str) -> str:
         ("switching phase", f"{optimum.switching_phase:.8g}", "rad"),
     ]
     names = (
-        "mean_speed", "min_speed", "max_speed", "speed_volatility", "q_average", "q_volatility", "stall_torque",
+        "mean_speed",
+        "min_speed",
+        "max_speed",
+        "speed_volatility",
+        "q_average",
+        "q_volatility",
+        "stall_torque",
         "contact_fraction",
-    )  # fmt: skip
+    )
     rows += [_shown(name, optimum.figures[name]) for name in names]
     rows.append(("constraint violation", f"{optimum.constraint_violation:.1e}", ""))
     evidence = optimum.evidence

@@ -7,25 +7,35 @@ import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 
 from trum_sym.errors import ParameterError, ValidityWarning
-from trum_sym.inputs.checks import Domain, number
+from trum_sym.inputs.checks import number
+from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import DRIVE_DOMAINS, Drive
 from trum_sym.inputs.motor import Motor
-from trum_sym.inputs.units import parse_quantity
-from trum_sym.model.stator import Amplitude, Contact, Foundation, Levels, Resonance
+from trum_sym.inputs.points import check_point, check_single, numbers_of
+from trum_sym.inputs.units import ARCSEC, parse_quantity
+from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.optimiser.chart import basins, chart
 from trum_sym.optimiser.expressions import Constraint, Expression, parse_constraint, parse_expression, symbol
 from trum_sym.optimiser.model import Box, functions
 from trum_sym.optimiser.result import Evidence, Optimum
 from trum_sym.optimiser.solve import Answer, Problem, solve
+from trum_sym.paper.published import BOX
 
 __all__ = [
-    "OBJECTIVES", "Bound", "aim_of", "box_of", "check_scalars", "one_number", "optimize", "warn_outside_fit",
-]  # fmt: skip
+    "OBJECTIVES",
+    "Bound",
+    "aim_of",
+    "box_of",
+    "check_scalars",
+    "one_number",
+    "optimize",
+    "warn_outside_fit",
+]
 
 OBJECTIVES: Mapping[str, str] = MappingProxyType(
     {
@@ -36,7 +46,6 @@ OBJECTIVES: Mapping[str, str] = MappingProxyType(
         "wear": "peak_pressure",
     }
 )
-PAPER_BOX = {"prepressure": (160.0, 210.0), "frequency_difference": (2800.0, 3300.0)}
 _VARIABLES = ("prepressure", "frequency_difference", "switching_phase")
 _PULSES = ("periods", "on_periods")
 _COARSE = 8  # divisions of the maps that rank pulse counts
@@ -54,10 +63,7 @@ def optimize(
     target_speed: float | str | None = None,
     bounds: Mapping[str, Bound] | None = None,
     constraints: Sequence[str] = (),
-    contact: Contact = "winkler",
-    resonance: Resonance = "quartic",
-    foundation: Foundation = "harmonic",
-    amplitude: Amplitude = "measured",
+    **levels: Unpack[LevelChoice],
 ) -> Optimum:
     """The operating point of least objective in a box, under constraints.
 
@@ -103,8 +109,7 @@ def optimize(
     target = None if target_speed is None else one_number("target_speed", target_speed, "rad/s")
     box, pulses, drive = box_of(drive, bounds)
     aim, limits = aim_of(objective, target, constraints)
-    levels = Levels(contact, resonance, foundation, amplitude)
-    problem = Problem(motor, drive, levels, box, aim, limits)
+    problem = Problem(motor, drive, Levels(**levels), box, aim, limits)
     warn_outside_fit(problem)
     best, chosen, pruned, evaluations = _over_pulses(problem, pulses)
     return _optimum(objective, target, chosen, best, len(pulses), pruned, evaluations)
@@ -112,15 +117,8 @@ def optimize(
 
 def check_scalars(motor: Motor, drive: Drive) -> None:
     """Refuse what is no motor or drive, and arrays in them: one problem has one answer."""
-    if not isinstance(motor, Motor):
-        raise ParameterError("motor", motor, "a Motor, as load_motor returns it")
-    if not isinstance(drive, Drive):
-        raise ParameterError("drive", drive, "a Drive")
-    for name, value in [*drive.numbers().items(), *((name, p.value) for name, p in motor.parameters())]:
-        if np.ndim(value):
-            raise ParameterError(
-                name, f"an array of shape {np.shape(value)}", "one number; optimize each case by itself"
-            )
+    check_point(motor, drive)
+    check_single(numbers_of(motor, drive), "one number; optimize each case by itself")
 
 
 def one_number(name: str, value: object, unit: str) -> float:
@@ -136,26 +134,46 @@ def box_of(drive: Drive, bounds: Mapping[str, Bound] | None) -> tuple[Box, list[
     """The box of what varies, the pairs of periods and on_periods, and the drive with what is held."""
     if bounds is not None and not isinstance(bounds, Mapping):
         raise ParameterError("bounds", bounds, "a mapping of names to (low, high)")
-    given = {**PAPER_BOX, **(bounds or {})}
+    given: dict[str, Any] = {**BOX, **(bounds or {})}
     ranges: dict[str, tuple[float, float]] = {}
     held: dict[str, float] = {}
     for name, value in given.items():
         if name not in (*_VARIABLES, *_PULSES):
             raise ParameterError("bounds", name, f"one of {', '.join((*_VARIABLES, *_PULSES))}")
-        domain, unit = DRIVE_DOMAINS[name]
-        if not isinstance(value, tuple | list):
-            held[name] = float(number(name, one_number(name, value, unit), domain, unit))
-            continue
-        if len(value) != 2:
-            raise ParameterError(f"bounds of {name}", value, "two numbers, low and high")
-        low, high = (float(number(f"bounds of {name}", one_number(f"bounds of {name}", end, unit), domain, unit))
-                     for end in value)  # fmt: skip
-        if low > high or (low == high and name in _VARIABLES):
-            empty = "one number holds it there" if low == high else "these are reversed"
-            raise ParameterError(f"bounds of {name}", f"{low:g} to {high:g}", f"low < high in {unit} ({empty})")
-        ranges[name] = (low, high)
+        if isinstance(value, tuple | list):
+            ranges[name] = _range(name, value)
+        else:
+            held[name] = _checked(name, name, value)
     continuous: dict[str, Any] = {name: value for name, value in held.items() if name not in _PULSES}
     drive = replace(drive, **continuous)
+    names = tuple(name for name in _VARIABLES if name in ranges)
+    if not names:
+        raise ParameterError("bounds", "every variable held", "a range for prepressure or frequency_difference")
+    ends = np.array([ranges[name] for name in names])
+    return Box(names, ends[:, 0], ends[:, 1]), _pulse_counts(drive, ranges, held), drive
+
+
+def _checked(label: str, name: str, value: object) -> float:
+    domain, unit = DRIVE_DOMAINS[name]
+    return float(number(label, one_number(label, value, unit), domain, unit))
+
+
+def _range(name: str, value: Sequence[object]) -> tuple[float, float]:
+    """The ends of a variable's range, checked."""
+    label, unit = f"bounds of {name}", DRIVE_DOMAINS[name][1]
+    if len(value) != 2:
+        raise ParameterError(label, value, "two numbers, low and high")
+    low, high = (_checked(label, name, end) for end in value)
+    if low > high or (low == high and name in _VARIABLES):
+        empty = "one number holds it there" if low == high else "these are reversed"
+        raise ParameterError(label, f"{low:g} to {high:g}", f"low < high in {unit} ({empty})")
+    return low, high
+
+
+def _pulse_counts(
+    drive: Drive, ranges: Mapping[str, tuple[float, float]], held: Mapping[str, float]
+) -> list[tuple[int, int]]:
+    """The pairs of periods and on_periods that the bounds allow."""
     axes = []
     for name in _PULSES:
         alone = held.get(name, float(getattr(drive, name)))
@@ -163,14 +181,10 @@ def box_of(drive: Drive, bounds: Mapping[str, Bound] | None) -> tuple[Box, list[
     counts = [range(int(low), int(high) + 1) for low, high in axes]
     pulses = [(m, n) for m in counts[0] for n in counts[1] if m <= 2 * n <= 2 * m]
     if not pulses:
-        of, m = axes[1], axes[0]
+        m, n = axes
         wanted = f"a range with periods/2 to periods in it, with periods {m[0]:g} to {m[1]:g}"
-        raise ParameterError("bounds of on_periods", f"{of[0]:g} to {of[1]:g}", wanted)
-    names = tuple(name for name in _VARIABLES if name in ranges)
-    if not names:
-        raise ParameterError("bounds", "every variable held", "a range for prepressure or frequency_difference")
-    ends = np.array([ranges[name] for name in names])
-    return Box(names, ends[:, 0], ends[:, 1]), pulses, drive
+        raise ParameterError("bounds of on_periods", f"{n[0]:g} to {n[1]:g}", wanted)
+    return pulses
 
 
 def aim_of(
@@ -185,8 +199,12 @@ def aim_of(
     if objective == "speed-error" and target is None:
         raise ParameterError("target_speed", "none", "a speed in rad/s for the objective speed-error")
     if target == 0 and objective in ("volatility", "ripple"):
-        raise ParameterError("target_speed", target, f"a speed other than 0 for the objective {objective}, which is "
-                             "relative to it; speed_deviation and max_speed - min_speed are not")  # fmt: skip
+        raise ParameterError(
+            "target_speed",
+            target,
+            f"a speed other than 0 for the objective {objective}, which is "
+            "relative to it; speed_deviation and max_speed - min_speed are not",
+        )
     try:
         aim = parse_expression("objective", OBJECTIVES.get(objective, objective))
     except ParameterError as error:
@@ -245,8 +263,9 @@ def _over_pulses(problem: Problem, pulses: list[tuple[int, int]]) -> tuple[Answe
         coarse = chart(model, _COARSE)
         values = rows.values(coarse.figures)[:, 1:]
         with np.errstate(all="ignore"):
-            span = np.array([np.ptp(column[np.isfinite(column)]) if np.isfinite(column).any() else 1.0
-                             for column in values.T])  # fmt: skip
+            span = np.array(
+                [np.ptp(column[np.isfinite(column)]) if np.isfinite(column).any() else 1.0 for column in values.T]
+            )
         places = basins(coarse, rows, low, high, np.where(span > 0, span, 1.0))
         evaluations += model.evaluations
         if len(places[0]):
@@ -297,26 +316,44 @@ def _optimum(
     at = [problem.box.at(share).tolist() for share, _ in answer.optima[: len(optima)]]
     places = tuple(dict(zip(problem.box.names, place, strict=True)) for place in at)
     evidence = Evidence(
-        map_shape=answer.map_shape, basins=answer.basins, starts=answer.starts, optima=optima, places=places,
+        map_shape=answer.map_shape,
+        basins=answer.basins,
+        starts=answer.starts,
+        optima=optima,
+        places=places,
         stationarity=answer.stationarity,
-        pulses=pulses, pruned=pruned, reachable_speed=reachable,
-    )  # fmt: skip
+        pulses=pulses,
+        pruned=pruned,
+        reachable_speed=reachable,
+    )
     drive = problem.drive
     if best is not None:
         drive = replace(drive, **dict(zip(problem.box.names, best.point.tolist(), strict=True)))
-    known = {} if best is None else {
-        "prepressure": float(drive.prepressure),
-        "frequency_difference": float(drive.frequency_difference),
-        "on_periods": int(drive.on_periods),
-        "periods": int(drive.periods),
-        "switching_phase": float(drive.switching_phase),
-        **{name: figures[name] for name in ("mean_speed", "speed_volatility", "q_average", "q_volatility")},
-        "constraint_violation": best.violation,
-    }  # fmt: skip
+    known = (
+        {}
+        if best is None
+        else {
+            "prepressure": float(drive.prepressure),
+            "frequency_difference": float(drive.frequency_difference),
+            "on_periods": int(drive.on_periods),
+            "periods": int(drive.periods),
+            "switching_phase": float(drive.switching_phase),
+            **{name: figures[name] for name in ("mean_speed", "speed_volatility", "q_average", "q_volatility")},
+            "constraint_violation": best.violation,
+        }
+    )
     names = (
-        "prepressure", "frequency_difference", "on_periods", "periods", "switching_phase", "mean_speed",
-        "speed_volatility", "q_average", "q_volatility", "constraint_violation",
-    )  # fmt: skip
+        "prepressure",
+        "frequency_difference",
+        "on_periods",
+        "periods",
+        "switching_phase",
+        "mean_speed",
+        "speed_volatility",
+        "q_average",
+        "q_volatility",
+        "constraint_violation",
+    )
     return Optimum(
         status=status,
         objective=value if status == "solved" else None,
@@ -332,16 +369,15 @@ def _optimum(
 def _message(
     status: str, objective: str, target: float | None, answer: Answer, reachable: tuple[float, float] | None
 ) -> str:
-    arcsec = math.pi / 648000
     if status == "solved":
         count = len(answer.optima)
         return f"least {objective} in the box; {count} distinct local {'optimum' if count == 1 else 'optima'} found"
     if answer.best is None:
         return "no speed balances the load anywhere in the box: it exceeds what friction can transmit"
     if status == "infeasible" and reachable is not None and target is not None:
-        low, high = (speed / arcsec for speed in reachable)
+        low, high = (speed / ARCSEC for speed in reachable)
         return (
-            f"{target / arcsec:.6g} arcsec/s cannot be reached in the box: mean speeds are {low:.6g} to {high:.6g} "
+            f"{target / ARCSEC:.6g} arcsec/s cannot be reached in the box: mean speeds are {low:.6g} to {high:.6g} "
             "arcsec/s; the point given is the nearest"
         )
     if status == "infeasible":

@@ -10,7 +10,7 @@ import numpy as np
 from trum_sym.inputs.checks import Array
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
-from trum_sym.model.stator import Levels
+from trum_sym.model.levels import Levels
 from trum_sym.optimiser.chart import Chart, basins, chart
 from trum_sym.optimiser.descent import Task, Visit, descend
 from trum_sym.optimiser.expressions import Constraint, Expression
@@ -106,10 +106,16 @@ class _Search:
     def answer(self, status: str, best: Finished | None) -> Answer:
         """As it stands."""
         return Answer(
-            status=status, best=best, optima=self.optima, map_shape=self.map.shape, basins=self.basins,
-            starts=self.starts, stationarity=self.stationarity, ranges=self.ranges,
+            status=status,
+            best=best,
+            optima=self.optima,
+            map_shape=self.map.shape,
+            basins=self.basins,
+            starts=self.starts,
+            stationarity=self.stationarity,
+            ranges=self.ranges,
             evaluations=self.model.evaluations,
-        )  # fmt: skip
+        )
 
 
 def solve(problem: Problem, model: Model | None = None, known: Chart | None = None) -> Answer:
@@ -169,8 +175,10 @@ def _descend_and_finish(search: _Search, starts: Array, objective: Array) -> Fin
     missed = [
         float(np.max(np.abs(bounds.excess(v.values[1:])) * bounds.unit / search.span, initial=0.0)) for v in found
     ]
-    missed = [miss if np.isfinite(miss) and np.isfinite(v.values[0]) else math.inf
-              for miss, v in zip(missed, found, strict=True)]  # fmt: skip
+    missed = [
+        miss if np.isfinite(miss) and np.isfinite(v.values[0]) else math.inf
+        for miss, v in zip(missed, found, strict=True)
+    ]
     best: Finished | None = None
     for k in sorted(range(len(found)), key=lambda k: (max(missed[k], 1e-5), found[k].values[0])):
         place, value = found[k].share, float(found[k].values[0])
@@ -249,7 +257,7 @@ def _looked(search: _Search, rows: Functions, places: Array) -> list[Visit]:
     if not len(places):
         return []
     model = search.model
-    figures, by = model.figures_with_slopes(model.box.at(places), _DESCENT)
+    figures, by = model.results_with_slopes(model.box.at(places), _DESCENT)
     slopes = rows.slopes(figures, {name: slope * model.box.width for name, slope in by.items()})
     return [Visit(*entry) for entry in zip(places, rows.values(figures), slopes, strict=True)]
 
@@ -310,7 +318,7 @@ def _between(search: _Search, rows: Functions, low: Array, high: Array, value: f
     for _ in range(_STEPS):
         along = np.linspace(0.0, 1.0, 10)[1:-1, np.newaxis]
         places = low + along * (high - low)
-        found = rows.values(model.figures(model.box.at(places), _DESCENT))[:, 0]
+        found = rows.values(model.results(model.box.at(places), _DESCENT))[:, 0]
         below = np.flatnonzero(found <= value)
         above = np.flatnonzero(found > value)
         if below.size + above.size < len(places):  # no orbit in between

@@ -2,10 +2,52 @@
 
 from __future__ import annotations
 
+import sys
 import time
-from typing import TextIO
+from collections.abc import Callable, Iterable, Iterator
+from typing import TextIO, TypeVar
 
-__all__ = ["Progress", "duration"]
+__all__ = ["Progress", "duration", "said", "shown"]
+
+T = TypeVar("T")
+
+
+def shown(
+    items: Iterable[T],
+    label: str | None,
+    length: int | None = None,
+    describe: Callable[[T | None], str | None] | None = None,
+) -> Iterator[T]:
+    """The items one by one, with a bar on the standard error while they are worked through.
+
+    Parameters
+    ----------
+    items : iterable
+        What is worked through.
+    label : str or None
+        The bar's; no bar without one, nor where the standard error is no terminal.
+    length : int, optional
+        How many items there are, where they do not say.
+    describe : callable, optional
+        What to say of the item in work.
+    """
+    if label is None or not sys.stderr.isatty():
+        yield from items
+        return
+    import click
+
+    with click.progressbar(items, length, label, file=sys.stderr, item_show_func=describe, update_min_steps=1) as bar:
+        yield from bar
+
+
+def said(label: str | None) -> Callable[[str], None]:
+    """For work whose length is not known: tells the standard error what is done now, or nothing without a label."""
+    if label is None:
+        return lambda _: None
+    import click
+
+    return lambda what: click.echo(f"{label}: {what}", err=True)
+
 
 _TERMINAL, _LOG = 0.5, 30.0  # s between two lines
 

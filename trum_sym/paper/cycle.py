@@ -12,17 +12,15 @@ from trum_sym.inputs.checks import Array, ArrayLike
 from trum_sym.inputs.drive import Drive, Start
 from trum_sym.inputs.motor import Motor
 from trum_sym.inputs.motor_file import load_motor
-from trum_sym.inputs.units import parse_unit
 from trum_sym.model.cycle import response
 from trum_sym.model.histories import surface_and_contact
 from trum_sym.model.kernels import call
+from trum_sym.model.levels import Levels
 from trum_sym.model.operating_point import Case, prepare
 from trum_sym.model.rotor import Orbit, history, solve_orbit
-from trum_sym.model.stator import Levels
 
-__all__ = ["ARCSEC", "READINGS", "Cycle", "Reading", "solve"]
+__all__ = ["READINGS", "Cycle", "Reading", "solve"]
 
-ARCSEC = parse_unit("arcsec").to_si(1.0)
 _GATES = {"A": np.array([0.0, 1.0, 1.0]), "B": np.array([1.0, 0.0, 1.0])}
 _STATES = ("redu", "addredu", "add")
 
@@ -132,5 +130,5 @@ def solve(motor: Motor | None, drive: Drive | None, tolerance: float = 1e-6) -> 
     ParameterError
         For bad input.
     """
-    levels = Levels("winkler", "quartic", "harmonic", "measured")
+    levels = Levels()
     return Cycle(prepare(load_motor("trum60") if motor is None else motor, drive, levels, tolerance))

@@ -16,7 +16,8 @@ from trum_sym.inputs.motor import Motor
 from trum_sym.model.cycle import modal_values, response
 from trum_sym.model.kernels import call
 from trum_sym.model.operating_point import evaluate
-from trum_sym.paper.readings import DEFAULT, ENCODER, LEADS, PHASES, POINTS, Readings
+from trum_sym.paper.published import BOX, ENCODER
+from trum_sym.paper.readings import DEFAULT, LEADS, PHASES, POINTS, Readings
 
 __all__ = ["ASSUMED", "Beat", "Check", "Context", "Finding", "Truth", "falls", "rank_correlation", "rises", "together"]
 
@@ -169,7 +170,9 @@ class Context:
     @cached_property
     def box(self) -> Mapping[str, Array]:
         """The default level over the paper's box, 160 to 210 N and 2800 to 3300 Hz; the last axis is its points."""
-        force, difference = np.meshgrid(np.linspace(160, 210, 6), np.linspace(2800, 3300, 6))
+        force, difference = np.meshgrid(
+            *(np.linspace(*BOX[name], 6) for name in ("prepressure", "frequency_difference"))
+        )
         return self.evaluated(self.motor, force.ravel(), difference.ravel())
 
     @cached_property

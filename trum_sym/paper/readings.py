@@ -20,17 +20,18 @@ from trum_sym.errors import ParameterError, ValidityWarning
 from trum_sym.inputs.checks import Array
 from trum_sym.inputs.drive import STARTS, Drive, Start
 from trum_sym.inputs.motor import Motor
+from trum_sym.inputs.units import ARCSEC
 from trum_sym.model.batch import call_in_blocks
 from trum_sym.model.cycle import PANELS_PER_PERIOD, modal_values, scaled
 from trum_sym.model.kernels import call
+from trum_sym.model.levels import AMPLITUDES, CONTACTS, FOUNDATIONS, RESONANCES, Levels
 from trum_sym.model.rotor import encoder_deviation, history, orbit_values, solve_orbit
-from trum_sym.model.stator import AMPLITUDES, CONTACTS, FOUNDATIONS, RESONANCES, Levels, solve_stator
+from trum_sym.model.stator import solve_stator
+from trum_sym.paper.published import ENCODER, TABLE_5
 
 __all__ = [
-    "ARCSEC",
     "AXES",
     "DEFAULT",
-    "ENCODER",
     "LEADS",
     "LEVELS",
     "PHASES",
@@ -44,7 +45,6 @@ __all__ = [
     "readings",
 ]
 
-ARCSEC = math.pi / 648000
 MEASURED = "39703 Hz"
 LEADS = (1.0, -1.0)
 PHASES = {"A at its crest at t1 (eqs. 18, 23)": 0.0, "B at its crest at t1 (eq. 10)": math.pi / 2}
@@ -65,10 +65,6 @@ TABLE_4 = ("q_average", "q_volatility", "mean_speed", "speed_volatility")
 
 _DIFFERENCES = np.arange(2800.0, 3301.0, 100.0)
 _FORCES = np.arange(160.0, 211.0, 10.0)
-_TABLE_5 = np.array(
-    [(180.0, 3300.0), (170.0, 3100.0), (160.0, 3000.0), (190.0, 2800.0), (200.0, 2900.0), (210.0, 3200.0)]
-)
-ENCODER = 2e-3  # s, Sect. 8.2
 _SAMPLES = 64  # of a drive period, of the path that the encoder differences
 _TOLERANCE = 1e-4
 
@@ -91,7 +87,7 @@ def _points() -> Points:
         (np.array([180.0]), np.array([3000.0])),
         (np.full(_DIFFERENCES.size, 180.0), _DIFFERENCES),
         (_FORCES, np.full(_FORCES.size, 3000.0)),
-        (_TABLE_5[:, 0], _TABLE_5[:, 1]),
+        (TABLE_5["prepressure"], TABLE_5["frequency_difference"]),
         (_FORCES, np.full(_FORCES.size, 3300.0)),
     ]
     ends = np.cumsum([group[0].size for group in groups])

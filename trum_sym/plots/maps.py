@@ -14,15 +14,16 @@ from trum_sym.inputs.motor import Motor
 from trum_sym.inputs.motor_file import load_motor
 from trum_sym.model.operating_point import evaluate
 from trum_sym.paper.cycle import READINGS
+from trum_sym.paper.published import BOX
 from trum_sym.plots.style import COLOURS, INK, Panels, figure_of, legend, panels, styled
-from trum_sym.plots.trends import BOX, Variable, measures
+from trum_sym.plots.trends import measures
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 __all__ = ["BEYOND", "maps", "prediction", "rank_correlation"]
 
-BEYOND: dict[Variable, tuple[float, float]] = {"frequency_difference": (500.0, 5000.0), "prepressure": (100.0, 220.0)}
+BEYOND: dict[str, tuple[float, float]] = {"frequency_difference": (500.0, 5000.0), "prepressure": (100.0, 220.0)}
 """Around the box: from near resonance to twice its middle, Hz; the range of Table 2, N."""
 
 
@@ -33,7 +34,7 @@ def rank_correlation(first: Array, second: Array) -> float:
 
 
 def _grid(
-    motor: Motor | None, drive: Drive, ranges: Mapping[Variable, tuple[float, float]], across: int, up: int
+    motor: Motor | None, drive: Drive, ranges: Mapping[str, tuple[float, float]], across: int, up: int
 ) -> tuple[Array, Array, dict[str, Array]]:
     """Frequency differences, prepressures, and the figures on their grid, shape (up, across)."""
     difference = np.linspace(*ranges["frequency_difference"], across)

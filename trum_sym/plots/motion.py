@@ -9,8 +9,9 @@ import numpy as np
 from trum_sym.inputs.checks import Array
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
+from trum_sym.inputs.units import ARCSEC
 from trum_sym.model.histories import REGIONS
-from trum_sym.paper.cycle import ARCSEC, Cycle, solve
+from trum_sym.paper.cycle import Cycle, solve
 from trum_sym.plots.style import COLOURS, GRID, INK, Panels, figure_of, legend, panels, styled
 
 if TYPE_CHECKING:
@@ -41,8 +42,15 @@ def _shade(axes: Axes, cycle: Cycle, named: bool) -> None:
     for low, high, colour, name in zip(cycle.edges, cycle.edges[1:], _SHADES, REGIONS, strict=False):
         axes.axvspan(1e3 * low, 1e3 * high, color=colour, alpha=0.09, linewidth=0)
         if named and high > low:
-            axes.annotate(name, (5e2 * (low + high), 1.0), (0, 3), xycoords=("data", "axes fraction"),
-                          textcoords="offset points", ha="center", fontsize=8)  # fmt: skip
+            axes.annotate(
+                name,
+                (5e2 * (low + high), 1.0),
+                (0, 3),
+                xycoords=("data", "axes fraction"),
+                textcoords="offset points",
+                ha="center",
+                fontsize=8,
+            )
 
 
 @styled

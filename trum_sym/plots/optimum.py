@@ -11,7 +11,7 @@ import numpy as np
 
 from trum_sym.errors import MissingExtraError
 from trum_sym.inputs.checks import Array
-from trum_sym.inputs.units import parse_unit
+from trum_sym.inputs.units import ARCSEC
 from trum_sym.optimiser.chart import chart
 from trum_sym.optimiser.expressions import parse_expression
 from trum_sym.optimiser.model import functions
@@ -22,7 +22,6 @@ from trum_sym.output.files import check_target, write_bytes
 __all__ = ["SUFFIXES", "draw"]
 
 SUFFIXES = (".png", ".svg", ".pdf")
-_ARCSEC = parse_unit("arcsec/s").to_si(1.0)
 _DIVISIONS = {1: 201, 2: 41}
 _AXES = {
     "prepressure": "prepressure / N",
@@ -106,7 +105,7 @@ def _targets(problem: Problem) -> list[tuple[int, float, str]]:
 def _map(axes: Any, problem: Problem, points: Array, shape: tuple[int, ...], values: Array) -> None:  # noqa: ANN401
     """Two variables: the frequency difference, or what comes second, to the right."""
     up, right = (points[:, k].reshape(shape) for k in (0, 1))
-    speed = values[:, 0].reshape(shape) / _ARCSEC
+    speed = values[:, 0].reshape(shape) / ARCSEC
     filled = axes.contourf(right, up, speed, 20, cmap="viridis")
     axes.figure.colorbar(filled, ax=axes, label="mean speed / (arcsec/s)")
     axes.contour(right, up, speed, filled.levels, colors="k", linewidths=0.3, alpha=0.5)
@@ -129,14 +128,22 @@ def _map(axes: Any, problem: Problem, points: Array, shape: tuple[int, ...], val
 def _line(axes: Any, problem: Problem, points: Array, _: tuple[int, ...], values: Array) -> None:  # noqa: ANN401
     """One variable: the speed over it."""
     across = points[:, 0]
-    axes.plot(across, values[:, 0] / _ARCSEC, color="C0")
+    axes.plot(across, values[:, 0] / ARCSEC, color="C0")
     for k, value, text in _targets(problem):
         if problem.constraints[k - 1].expression.text == "mean_speed":
-            axes.axhline(value / _ARCSEC, color="grey", label=_words(text))
+            axes.axhline(value / ARCSEC, color="grey", label=_words(text))
     for number, (text, inside) in enumerate(_beyond(problem, values)):
         bad = ~(inside >= 0)
-        axes.fill_between(across, 0, 1, where=bad, transform=axes.get_xaxis_transform(), alpha=0.25,
-                          color=f"C{1 + number}", label=f"not met: {_words(text)}")  # fmt: skip
+        axes.fill_between(
+            across,
+            0,
+            1,
+            where=bad,
+            transform=axes.get_xaxis_transform(),
+            alpha=0.25,
+            color=f"C{1 + number}",
+            label=f"not met: {_words(text)}",
+        )
     axes.set_xlabel(_AXES[problem.box.names[0]])
     axes.set_ylabel("mean speed / (arcsec/s)")
 
@@ -144,7 +151,7 @@ def _line(axes: Any, problem: Problem, points: Array, _: tuple[int, ...], values
 def _words(text: str) -> str:
     """A target speed in the unit that people read."""
     name, _, rest = text.partition(" == ")
-    return f"mean speed {float(rest.split()[0]) / _ARCSEC:.6g} arcsec/s" if name == "mean_speed" and rest else text
+    return f"mean speed {float(rest.split()[0]) / ARCSEC:.6g} arcsec/s" if name == "mean_speed" and rest else text
 
 
 def _optima(axes: Any, optimum: Optimum, problem: Problem) -> None:  # noqa: ANN401
@@ -153,14 +160,28 @@ def _optima(axes: Any, optimum: Optimum, problem: Problem) -> None:  # noqa: ANN
     def coordinates(place: dict[str, float], speed: float | None) -> tuple[float, float]:
         if len(names) == 2:
             return place[names[1]], place[names[0]]
-        return place[names[0]], (speed or 0.0) / _ARCSEC
+        return place[names[0]], (speed or 0.0) / ARCSEC
 
     for k, place in enumerate(optimum.evidence.places[1:]):
         if len(names) == 2:
-            axes.plot(*coordinates(place, None), "o", color="w", markeredgecolor="k", clip_on=False,
-                      label="other local optima" if k == 0 else None)  # fmt: skip
+            axes.plot(
+                *coordinates(place, None),
+                "o",
+                color="w",
+                markeredgecolor="k",
+                clip_on=False,
+                label="other local optima" if k == 0 else None,
+            )
     if optimum.prepressure is not None:
         best = {name: getattr(optimum, name) for name in names}
         label = "optimum" if optimum.status == "solved" else "nearest that can be reached"
-        axes.plot(*coordinates(best, optimum.mean_speed), "*", color="r", markeredgecolor="w", markersize=16,
-                  clip_on=False, zorder=5, label=label)  # fmt: skip
+        axes.plot(
+            *coordinates(best, optimum.mean_speed),
+            "*",
+            color="r",
+            markeredgecolor="w",
+            markersize=16,
+            clip_on=False,
+            zorder=5,
+            label=label,
+        )

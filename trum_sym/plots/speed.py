@@ -10,12 +10,13 @@ import numpy as np
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
 from trum_sym.inputs.motor_file import load_motor
+from trum_sym.inputs.units import ARCSEC
 from trum_sym.model.kernels import call
 from trum_sym.model.operating_point import evaluate
 from trum_sym.model.rotor import encoder_readings, history
-from trum_sym.paper.cycle import ARCSEC, READINGS, solve
+from trum_sym.paper.cycle import READINGS, solve
+from trum_sym.paper.published import ENCODER
 from trum_sym.plots.style import COLOURS, INK, Panels, figure_of, legend, panels, styled
-from trum_sym.plots.trends import ENCODER
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -144,8 +144,16 @@ def figure_of(axes: Axes) -> Figure:
 def legend(axes: Axes, **options: Any) -> None:  # noqa: ANN401
     """A legend above the axes, where it covers no data."""
     count = len(axes.get_legend_handles_labels()[1])
-    axes.legend(**{"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "ncols": min(count, 4), "borderaxespad": 0.2,
-                   "columnspacing": 1.2, **options})  # fmt: skip
+    axes.legend(
+        **{
+            "loc": "lower left",
+            "bbox_to_anchor": (0.0, 1.0),
+            "ncols": min(count, 4),
+            "borderaxespad": 0.2,
+            "columnspacing": 1.2,
+            **options,
+        }
+    )
 
 
 def save(figure: Figure, target: Path) -> None:

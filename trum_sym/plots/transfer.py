@@ -56,9 +56,19 @@ def _surface(u: ArrayLike, phi: ArrayLike, v: ArrayLike, theta: ArrayLike = 1.0)
     """The interface kernel in units of the surface's greatest speed and of the mean pressure, a Winkler contact."""
     scale = 1.0 / np.subtract(np.sin(theta), np.multiply(theta, np.cos(theta)))
     values = {
-        "x": u, "x_max": 0.0, "k_c": 1.0, "R_v": 1.0, "cos_phi": np.cos(phi), "sin_phi": np.sin(phi), "v": v,
-        "engagement": scale, "share": -scale * np.cos(theta), "F_c": 1.0, "n_j": 1.0, "mu": 1.0,
-    }  # fmt: skip
+        "x": u,
+        "x_max": 0.0,
+        "k_c": 1.0,
+        "R_v": 1.0,
+        "cos_phi": np.cos(phi),
+        "sin_phi": np.sin(phi),
+        "v": v,
+        "engagement": scale,
+        "share": -scale * np.cos(theta),
+        "F_c": 1.0,
+        "n_j": 1.0,
+        "mu": 1.0,
+    }
     return {name: np.asarray(value) for name, value in call("trum_interface", values).items()}
 
 
@@ -156,8 +166,16 @@ def contact_zone(motor: Motor | None = None, drive: Drive | None = None, *, axes
     u = np.linspace(-1, 1, 121) * min(np.pi, 1.15 * float(np.max(theta)))
     traction = cycle.interface(inside[None, :], u[:, None], v[None, :])["traction"]
     limit = float(np.quantile(abs(traction[traction != 0]), 0.98))
-    mesh = upper.pcolormesh(1e3 * time, u, 1e-3 * traction, cmap="RdBu", vmin=-1e-3 * limit, vmax=1e-3 * limit,
-                            shading="nearest", rasterized=True)  # fmt: skip
+    mesh = upper.pcolormesh(
+        1e3 * time,
+        u,
+        1e-3 * traction,
+        cmap="RdBu",
+        vmin=-1e-3 * limit,
+        vmax=1e-3 * limit,
+        shading="nearest",
+        rasterized=True,
+    )
     figure_of(upper).colorbar(mesh, ax=upper, label="traction (N/mm)", extend="both")
     for sign in (1, -1):
         label = "edge of the contact" if sign > 0 else None

@@ -11,27 +11,19 @@ from trum_sym.inputs.checks import Array, ArrayLike
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
 from trum_sym.inputs.motor_file import load_motor
-from trum_sym.inputs.units import parse_unit
+from trum_sym.inputs.units import ARCSEC, parse_unit
 from trum_sym.model.operating_point import OperatingPoint, evaluate
-from trum_sym.paper.cycle import ARCSEC, READINGS, solve
+from trum_sym.paper.cycle import READINGS, solve
+from trum_sym.paper.published import BOX, ENCODER, TABLE_5
 from trum_sym.plots.style import COLOURS, INK, Panels, figure_of, panels, styled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["BOX", "ENCODER", "MEASURES", "TABLE_5", "Variable", "cycles", "measures", "multivariable", "trends"]
+__all__ = ["MEASURES", "Variable", "cycles", "measures", "multivariable", "trends"]
 
 Variable = Literal["frequency_difference", "prepressure"]
-BOX: dict[Variable, tuple[float, float]] = {"frequency_difference": (2800.0, 3300.0), "prepressure": (160.0, 210.0)}
-"""Sect. 9's ranges, Hz and N."""
-ENCODER = 2e-3
-"""Sampling period of Sect. 8, s."""
-TABLE_5 = {
-    "prepressure": np.array([180.0, 170.0, 160.0, 190.0, 200.0, 210.0]),
-    "frequency_difference": np.array([3300.0, 3100.0, 3000.0, 2800.0, 2900.0, 3200.0]),
-}
-"""Table 5; printed in rad/s, of the size of Hz."""
 _LABELS = {"frequency_difference": "frequency difference Δf (Hz)", "prepressure": "prepressure F_c (N)"}
 
 
@@ -57,9 +49,12 @@ def measures(point: OperatingPoint) -> dict[str, Array]:
 
 @styled
 def cycles(
-    motor: Motor | None = None, drive: Drive | None = None, *, variable: Variable = "frequency_difference",
+    motor: Motor | None = None,
+    drive: Drive | None = None,
+    *,
+    variable: Variable = "frequency_difference",
     axes: Panels = None,
-) -> Figure:  # fmt: skip
+) -> Figure:
     """Figs. 20 and 22: rotor speed and determinant over a cycle at six values, as the motor runs and from rest.
 
     Parameters
@@ -97,9 +92,13 @@ def cycles(
 
 @styled
 def trends(
-    motor: Motor | None = None, drive: Drive | None = None, *, variable: Variable = "frequency_difference",
-    sampling_period: float | None = None, axes: Panels = None,
-) -> Figure:  # fmt: skip
+    motor: Motor | None = None,
+    drive: Drive | None = None,
+    *,
+    variable: Variable = "frequency_difference",
+    sampling_period: float | None = None,
+    axes: Panels = None,
+) -> Figure:
     """Figs. 21 and 23 (continuous) or 30 and 31 (an encoder): speed, volatility and their determinants.
 
     Parameters

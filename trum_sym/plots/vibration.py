@@ -11,7 +11,8 @@ from trum_sym.inputs.checks import Array
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
 from trum_sym.inputs.motor_file import load_motor
-from trum_sym.model.stator import FOUNDATIONS, RESONANCES, Levels, solve_stator
+from trum_sym.model.levels import FOUNDATIONS, RESONANCES, Levels
+from trum_sym.model.stator import solve_stator
 from trum_sym.paper.cycle import Cycle, solve
 from trum_sym.plots.style import COLOURS, INK, Panels, figure_of, legend, panels, styled
 
@@ -88,8 +89,13 @@ def power_off(motor: Motor | None = None, *, axes: Panels = None) -> Figure:
     (ax,) = panels(axes, height=2.5)
     time, steady, free = _around(cycle)
     scale = float(np.max(np.abs(steady["A"])))
-    ax.plot(1e3 * time, np.concatenate([steady["A"], free["A"]]) / scale, color=COLOURS[0], linewidth=0.8,
-            label="velocity of M, phase A alone")  # fmt: skip
+    ax.plot(
+        1e3 * time,
+        np.concatenate([steady["A"], free["A"]]) / scale,
+        color=COLOURS[0],
+        linewidth=0.8,
+        label="velocity of M, phase A alone",
+    )
     ax.axvline(0, color=INK, linewidth=0.8, linestyle=":")
     ax.annotate("t_off", (0, 1), (3, -2), xycoords=("data", "axes fraction"), textcoords="offset points", va="top")
     ax.set_xlabel("time since t_off (ms)")
@@ -120,8 +126,13 @@ def beat(motor: Motor | None = None, *, axes: Panels = None) -> Figure:
     period = 1e3 / (APPLIED - MEASURED)
     ax.axvline(0, color=INK, linewidth=0.8, linestyle=":")
     for number in range(int(1e3 * time[-1] / period) + 1):
-        ax.axvspan(number * period, min((number + 1) * period, 1e3 * time[-1]), color=COLOURS[number % 2], alpha=0.08,
-                   linewidth=0)  # fmt: skip
+        ax.axvspan(
+            number * period,
+            min((number + 1) * period, 1e3 * time[-1]),
+            color=COLOURS[number % 2],
+            alpha=0.08,
+            linewidth=0,
+        )
     ax.set_xlabel("time since t_off (ms); bands last 1/(f_q − f_n) = " + f"{period:.3f} ms")
     ax.set_ylabel("over its amplitude (1)")
     legend(ax)

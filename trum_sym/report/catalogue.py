@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
 
-from trum_sym import plots as figures
+from trum_sym import plots
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
 from trum_sym.paper.cycle import READINGS
-from trum_sym.plots.trends import ENCODER
+from trum_sym.paper.published import ENCODER
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -75,175 +75,223 @@ def _section_5() -> Iterator[Picture]:
         first = 9 + 3 * region
         settings = f"{meaning}, 180 N, 3000 Hz, each cycle begun in steady state."
         yield Picture(
-            f"figure-{first}", _MOTION, f"Path of a surface point, {name}",
+            f"figure-{first}",
+            _MOTION,
+            f"Path of a surface point, {name}",
             f"In {settings} The four panels are the quarters of the region's first beat, 1/(4 Δf) each; the dot is "
             "where the quarter begins. Blue turns clockwise (Q > 0), orange counter-clockwise. The point lies "
             "at k_c x = π/4.",
             f"Four small plots of the surface point's path in the quarters of a beat while {name}.",
-            partial(figures.ellipse, region=region),
-        )  # fmt: skip
+            partial(plots.ellipse, region=region),
+        )
         yield Picture(
-            f"figure-{first + 1}", _MOTION, f"Vertical displacement, {name}",
+            f"figure-{first + 1}",
+            _MOTION,
+            f"Vertical displacement, {name}",
             f"In {settings} The orange envelope is the length of the rotating vectors' sum (eq. 12), in closed form.",
             f"Vertical displacement of a surface point over the region {name}, oscillating inside a beating envelope.",
-            partial(figures.vertical_displacement, region=region),
-        )  # fmt: skip
+            partial(plots.vertical_displacement, region=region),
+        )
         yield Picture(
-            f"figure-{first + 2}", _MOTION, f"Direction determinant, {name}",
+            f"figure-{first + 2}",
+            _MOTION,
+            f"Direction determinant, {name}",
             f"In {settings} Above Q, the exact determinant of eq. A5; below, the crest's tangential velocity, whose "
             "sign is Q's (eq. 42).",
             f"Determinant Q and tangential velocity of the crest over the region {name}, with the signs of Q shaded.",
-            partial(figures.determinant, region=region),
-        )  # fmt: skip
+            partial(plots.determinant, region=region),
+        )
 
 
 PICTURES: tuple[Picture, ...] = (
     Picture(
-        "figure-3", _DRIVE, "Both phases over a drive cycle",
+        "figure-3",
+        _DRIVE,
+        "Both phases over a drive cycle",
         "Table 3's drive: 20 periods, 14 on, in its periodic state. A phase that is switched off rings down at the "
         "resonance; one that is switched on beats before it settles. Dashed: envelopes.",
         "Displacements of phase A and phase B over a drive cycle in three shaded regions: A off, B off, both on.",
-        figures.phase_responses,
+        plots.phase_responses,
     ),
     Picture(
-        "figure-6", _CONTACT, "Tangential velocity along the surface",
+        "figure-6",
+        _CONTACT,
+        "Tangential velocity along the surface",
         "One wavelength in the middle of each region, at Table 3's drive. The velocity is a sine along x; dots mark "
         "the crest, which is the fastest point only when the wave does not grow or shrink.",
         "Three sine curves of the tangential velocity over one wavelength, with dots at the wave's crest.",
-        figures.tangential_velocity,
+        plots.tangential_velocity,
     ),
     *(
         Picture(
-            f"figure-{number}", _CONTACT, f"Transfer models, rotor running {word}",
+            f"figure-{number}",
+            _CONTACT,
+            f"Transfer models, rotor running {word}",
             "The half zone from the crest to the contact's edge. Line: surface speed; dashed: the rotor's. Blue (+) "
             "drives the rotor, orange (−) brakes it, by the sign of the kernel's traction. Each panel says which share "
             "of Table 3's cycle the rotor's orbit spends in the model; both figures together make 100 %.",
             f"Eight panels of surface speed against the angle from the crest, driving and braking zones, rotor {word}.",
-            partial(figures.transfer_models, forward=forward),
+            partial(plots.transfer_models, forward=forward),
         )
         for number, word, forward in ((7, "forward", True), (8, "backward", False))
     ),
     *_section_5(),
     Picture(
-        "figure-18", _OUTPUT, "Instantaneous speed, its mean and deviation",
+        "figure-18",
+        _OUTPUT,
+        "Instantaneous speed, its mean and deviation",
         "Two cycles at Table 3's drive on the periodic orbit. v_s is the mean over time (eq. 39), S_k the standard "
         "deviation (eq. 41); sigma_s is their ratio (eq. 40).",
         "Rotor speed over two cycles with its mean as a dashed line and a band of one standard deviation.",
-        figures.instantaneous_speed,
+        plots.instantaneous_speed,
     ),
     Picture(
-        "figure-19", _OUTPUT, "Forward and backward parts of the determinant",
+        "figure-19",
+        _OUTPUT,
+        "Forward and backward parts of the determinant",
         "Table 3's drive. Blue and orange areas are the sums of eqs. 43 and 44; dotted lines separate the regions.",
         "Determinant Q over a cycle with its positive parts shaded blue and its negative parts orange.",
-        figures.forward_and_backward,
+        plots.forward_and_backward,
     ),
     Picture(
-        "figure-20", _OUTPUT, "Speed and determinant over a cycle, by frequency difference",
+        "figure-20",
+        _OUTPUT,
+        "Speed and determinant over a cycle, by frequency difference",
         "180 N, load 0.3 N m. Left as the motor keeps running, right as if every cycle began from rest with the other "
         "phase leading, which is the reading closest to Table 4.",
         "Rotor speed and determinant over a cycle for six frequency differences, two readings side by side.",
-        figures.cycles,
+        plots.cycles,
     ),
     Picture(
-        "figure-21", _OUTPUT, "Trends with the frequency difference",
+        "figure-21",
+        _OUTPUT,
+        "Trends with the frequency difference",
         f"180 N, load 0.3 N m. {_LEADS} Stars: what Table 4 prints.",
         "Mean speed, Q_aver, volatility and Q_vib against the frequency difference for three starts.",
-        figures.trends,
+        plots.trends,
     ),
     Picture(
-        "figure-22", _OUTPUT, "Speed and determinant over a cycle, by prepressure",
+        "figure-22",
+        _OUTPUT,
+        "Speed and determinant over a cycle, by prepressure",
         "3000 Hz, load 0.3 N m; left and right as in Figure 20.",
         "Rotor speed and determinant over a cycle for six prepressures, two readings side by side.",
-        partial(figures.cycles, variable="prepressure"),
+        partial(plots.cycles, variable="prepressure"),
     ),
     Picture(
-        "figure-23", _OUTPUT, "Trends with the prepressure",
+        "figure-23",
+        _OUTPUT,
+        "Trends with the prepressure",
         f"3000 Hz, load 0.3 N m. {_LEADS} Stars: what Table 4 prints.",
         "Mean speed, Q_aver, volatility and Q_vib against the prepressure for three starts.",
-        partial(figures.trends, variable="prepressure"),
+        partial(plots.trends, variable="prepressure"),
     ),
     Picture(
-        "figure-25b", _STATOR, "Resonance against prepressure, every level",
+        "figure-25b",
+        _STATOR,
+        "Resonance against prepressure, every level",
         "Colour: level of the resonance; line: how the friction layer stiffens the stator. The grey line was measured "
         "(prepressure not stated). The paper's own points are not printed as numbers.",
         "Resonance frequency against prepressure for sixteen combinations of levels, with the measured 39703 Hz.",
-        figures.resonance_levels,
+        plots.resonance_levels,
     ),
     Picture(
-        "figure-26b", _STATOR, "Power-off of one phase",
+        "figure-26b",
+        _STATOR,
+        "Power-off of one phase",
         "45 kHz until t_off, then free at the measured resonance of 39.703 kHz with Table 1's damping ratio. The "
         "amplitude at 80 V is not printed, so velocity is over its amplitude.",
         "Velocity of phase A, constant amplitude until power-off, then decaying.",
-        figures.power_off,
+        plots.power_off,
     ),
     Picture(
-        "figure-27b", _STATOR, "Beat after power-off of one of two phases",
+        "figure-27b",
+        _STATOR,
+        "Beat after power-off of one of two phases",
         "Both phases at 45 kHz until A is switched off; bands last 1/(f_q − f_n), the paper's 0.188 ms.",
         "Velocity of a surface point: steady until power-off, then a beat that dies away.",
-        figures.beat,
+        plots.beat,
     ),
     Picture(
-        "figure-29", _MOTOR, "Speed as the encoder reads it",
+        "figure-29",
+        _MOTOR,
+        "Speed as the encoder reads it",
         "Sixty readings of 2 ms at Table 3's drive, for each start. Table 4 prints a mean of 633 arcsec/s and a "
         "volatility of 17.3 %.",
         "Deviation of sixty encoder readings from their mean for three starts.",
-        figures.measured_speed,
+        plots.measured_speed,
     ),
     Picture(
-        "figure-30", _MOTOR, "Trends with the frequency difference, as measured",
+        "figure-30",
+        _MOTOR,
+        "Trends with the frequency difference, as measured",
         f"As Figure 21, with the volatility that the encoder of 2 ms reads. {_LEADS}",
         "Mean speed, Q_aver, volatility of a 2 ms encoder and Q_vib against the frequency difference.",
-        partial(figures.trends, sampling_period=ENCODER),
+        partial(plots.trends, sampling_period=ENCODER),
     ),
     Picture(
-        "figure-31", _MOTOR, "Trends with the prepressure, as measured",
+        "figure-31",
+        _MOTOR,
+        "Trends with the prepressure, as measured",
         f"At 3300 Hz, as the paper's experiment, with the volatility that the encoder of 2 ms reads. {_LEADS}",
         "Mean speed, Q_aver, volatility of a 2 ms encoder and Q_vib against the prepressure at 3300 Hz.",
-        lambda motor: figures.trends(
+        lambda motor: plots.trends(
             motor, Drive(frequency_difference=3300.0), variable="prepressure", sampling_period=ENCODER
         ),
     ),
     Picture(
-        "figure-32", _MOTOR, "The six points of Table 5",
+        "figure-32",
+        _MOTOR,
+        "The six points of Table 5",
         f"Prepressure and frequency difference change together. {_LEADS}",
         "Mean speed, Q_aver, volatility and Q_vib at the six numbered points of Table 5.",
-        figures.multivariable,
+        plots.multivariable,
     ),
     Picture(
-        "map-periodic", _MORE, "The box as the motor keeps running",
+        "map-periodic",
+        _MORE,
+        "The box as the motor keeps running",
         "Above the paper's box, below its surroundings with the box outlined; start periodic, lead +1, load 0.3 N m. "
         "The orange line is zero speed, where the volatility has no bound.",
         "Maps of mean speed, volatility and Q_aver over frequency difference and prepressure, periodic start.",
-        figures.maps,
+        plots.maps,
     ),
     Picture(
-        "map-rest", _MORE, "The box in the reading closest to Table 4",
+        "map-rest",
+        _MORE,
+        "The box in the reading closest to Table 4",
         "As above, but every cycle begins from rest and the other phase leads.",
         "Maps of mean speed, volatility and Q_aver over frequency difference and prepressure, start rest, lead −1.",
-        lambda motor: figures.maps(motor, READINGS[-1].of(Drive())),
+        lambda motor: plots.maps(motor, READINGS[-1].of(Drive())),
     ),
     Picture(
-        "speed-determinant", _MORE, "Do the determinants predict speed and volatility?",
+        "speed-determinant",
+        _MORE,
+        "Do the determinants predict speed and volatility?",
         "Each dot is an operating point at 0.3 N m. The paper concludes that Q_aver and Q_vib follow v_s and sigma_s; "
         "the legend gives the rank correlation in each reading (+1: always; 0: not at all).",
         "Scatter of mean speed against Q_aver and of volatility against Q_vib, over the box and around it.",
-        figures.prediction,
+        plots.prediction,
     ),
     Picture(
-        "torque-speed", _MORE, "Torque against speed",
+        "torque-speed",
+        _MORE,
+        "Torque against speed",
         "Up to 98 % of what friction can hold. A dot is the mean torque on the rotor held still: a larger load drives "
         "it back. Dotted: Table 3's load.",
         "Mean speed against load torque for three starts, falling curves, with the stall torque on the axis.",
-        figures.torque_speed,
+        plots.torque_speed,
     ),
     Picture(
-        "contact-zone", _MORE, "The contact over a cycle",
+        "contact-zone",
+        _MORE,
+        "The contact over a cycle",
         "Above: where the layer presses, and which way its friction pulls (blue forward, red backward), at Table 3's "
         "drive. Below: half-angle over π, 1 where the whole wave touches.",
         "Traction over time and angle from the crest, and the contact's half-angle over time.",
-        figures.contact_zone,
+        plots.contact_zone,
     ),
-)  # fmt: skip
+)
 
 
 def picture(anchor: str) -> Picture:

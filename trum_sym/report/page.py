@@ -8,11 +8,10 @@ from importlib.resources import files
 from itertools import groupby
 from typing import Any
 
-import click
-
 from trum_sym.errors import MissingExtraError
 from trum_sym.inputs.motor import Motor
 from trum_sym.model.operating_point import evaluate
+from trum_sym.output.progress import shown
 from trum_sym.paper.claims import PARTLY
 from trum_sym.paper.ledger import Record, load_ledger
 from trum_sym.paper.tables import tables
@@ -47,9 +46,12 @@ def page(motor: Motor, *, progress: bool = False) -> str:
     except ImportError as error:
         raise MissingExtraError("report", str(error.name), "report") from None
     environment = Environment(
-        loader=PackageLoader("trum_sym.report", "templates"), autoescape=True, undefined=StrictUndefined,
-        trim_blocks=True, lstrip_blocks=True,
-    )  # fmt: skip
+        loader=PackageLoader("trum_sym.report", "templates"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
     folder = files("trum_sym.report") / "templates"
     drawn = _drawn(motor, progress)
     judged = judge(motor, progress)
@@ -84,41 +86,49 @@ def _facts(motor: Motor, records: list[Record], judged: Judged | None) -> list[d
     measured = next((entry.value for entry in motor.published if entry.output == "resonance_frequency"), None)
     facts = []
     if judged is not None:
-        facts += [{
-            "value": f"{len(judged.claims)} claims judged:",
-            "text": ", ".join(f"{count} {_said(verdict)}" for verdict, count in judged.verdicts) + ".",
-            "link": "#claims", "label": "The claims",
-        }, {
-            "value": f"{judged.distance:.2f} %",
-            "text": "is how near the best reading of what the paper leaves open comes to both determinants of "
-            f"Table 4: {judged.best}.", "link": "#readings", "label": "All readings",
-        }]  # fmt: skip
-    facts.append({
-        "value": f"{1e-3 * found:.2f} kHz",
-        "text": "resonance at 180 N by the full Timoshenko root"
-        + ("" if measured is None else f"; {1e-3 * measured:.2f} kHz was measured."),
-        "link": "#figure-25b", "label": "Every level",
-    })  # fmt: skip
+        facts += [
+            {
+                "value": f"{len(judged.claims)} claims judged:",
+                "text": ", ".join(f"{count} {_said(verdict)}" for verdict, count in judged.verdicts) + ".",
+                "link": "#claims",
+                "label": "The claims",
+            },
+            {
+                "value": f"{judged.distance:.2f} %",
+                "text": "is how near the best reading of what the paper leaves open comes to both determinants of "
+                f"Table 4: {judged.best}.",
+                "link": "#readings",
+                "label": "All readings",
+            },
+        ]
+    facts.append(
+        {
+            "value": f"{1e-3 * found:.2f} kHz",
+            "text": "resonance at 180 N by the full Timoshenko root"
+            + ("" if measured is None else f"; {1e-3 * measured:.2f} kHz was measured."),
+            "link": "#figure-25b",
+            "label": "Every level",
+        }
+    )
     errata = sum(record["verdict"] == "erratum" and record["id"].removeprefix("A").isdigit() for record in records)
     numbered = sum(record["id"].removeprefix("A").isdigit() for record in records)
-    facts.append({
-        "value": f"{errata} of {numbered}", "text": "numbered equations are misprinted or wrong.",
-        "link": "ledger.html", "label": "The ledger",
-    })  # fmt: skip
+    facts.append(
+        {
+            "value": f"{errata} of {numbered}",
+            "text": "numbered equations are misprinted or wrong.",
+            "link": "ledger.html",
+            "label": "The ledger",
+        }
+    )
     return facts
 
 
 def _drawn(motor: Motor, progress: bool) -> list[dict[str, Any]]:
     """The pictures with their SVG, in order."""
-    import sys
-
-    found = []
-    with click.progressbar(
-        PICTURES, label="figures", file=sys.stderr, item_show_func=lambda p: p.anchor if p else "", hidden=not progress
-    ) as bar:
-        for picture in bar:
-            found.append({"picture": picture, "svg": _themed(svg(picture.draw(motor), picture.anchor, picture.alt))})
-    return found
+    return [
+        {"picture": picture, "svg": _themed(svg(picture.draw(motor), picture.anchor, picture.alt))}
+        for picture in shown(PICTURES, "figures" if progress else None, describe=lambda p: p.anchor if p else "")
+    ]
 
 
 def _labels() -> dict[str, str]:

@@ -132,7 +132,7 @@ class Minimax:
         values, slopes = [], []
         box = self.problem.box
         for model in self.models:
-            figures, by = model.figures_with_slopes(box.at(share[np.newaxis]), _SEARCH)
+            figures, by = model.results_with_slopes(box.at(share[np.newaxis]), _SEARCH)
             values.append(self._rows.values(figures)[0])
             slopes.append(self._rows.slopes(figures, {name: slope * box.width for name, slope in by.items()})[0])
         return np.array(values), np.array(slopes)
@@ -172,17 +172,24 @@ class Minimax:
 
         limits = [{"type": "ineq", "fun": above, "jac": above_slopes}]
         if self.held:
-            limits.append({
-                "type": "eq",
-                "fun": lambda x: np.array([(look(x)[0][0, 1] - self._low[0]) / self._unit[0]]),
-                "jac": lambda x: np.append(look(x)[1][0, 1] / self._unit[0], 0.0)[np.newaxis],
-            })  # fmt: skip
+            limits.append(
+                {
+                    "type": "eq",
+                    "fun": lambda x: np.array([(look(x)[0][0, 1] - self._low[0]) / self._unit[0]]),
+                    "jac": lambda x: np.append(look(x)[1][0, 1] / self._unit[0], 0.0)[np.newaxis],
+                }
+            )
         first = float(np.max(self._figure(look(start)[0][:, 0])) / self._size)
         with suppress(_Enough):
             minimize(
-                lambda x: x[d], np.append(start, first), jac=lambda _: np.append(np.zeros(d), 1.0), method="SLSQP",
-                bounds=[(0.0, 1.0)] * d + [(None, None)], constraints=limits, options={"maxiter": 40, "ftol": _CLOSE},
-            )  # fmt: skip
+                lambda x: x[d],
+                np.append(start, first),
+                jac=lambda _: np.append(np.zeros(d), 1.0),
+                method="SLSQP",
+                bounds=[(0.0, 1.0)] * d + [(None, None)],
+                constraints=limits,
+                options={"maxiter": 40, "ftol": _CLOSE},
+            )
         # whatever it says of its success: the best place that it saw
         best = min(seen, key=lambda key: self._rank(*seen[key]))
         return np.frombuffer(best).copy()
@@ -211,7 +218,7 @@ class Minimax:
     def _onto(self, share: Array) -> Array:
         """Newton's least steps onto what is violated: the held speed, and constraints in their worst cases."""
         for _ in range(_NEWTON):
-            figures = [m.figures_with_slopes(self.problem.box.at(share[np.newaxis]), TOLERANCE) for m in self.models]
+            figures = [m.results_with_slopes(self.problem.box.at(share[np.newaxis]), TOLERANCE) for m in self.models]
             width = self.problem.box.width
             values = np.array([self._rows.values(f)[0] for f, _ in figures])
             slopes = np.array([self._rows.slopes(f, {n: s * width for n, s in by.items()})[0] for f, by in figures])

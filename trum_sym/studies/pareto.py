@@ -2,26 +2,29 @@
 
 from __future__ import annotations
 
-import json
 import math
-import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import Unpack
 
 import numpy as np
 
 from trum_sym.errors import ParameterError
-from trum_sym.inputs.checks import Domain, number
+from trum_sym.inputs.checks import number
+from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
-from trum_sym.model.stator import Amplitude, Contact, Foundation, Levels, Resonance
+from trum_sym.inputs.units import ARCSEC
+from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.optimiser.chart import chart
 from trum_sym.optimiser.expressions import Constraint, Expression, parse_expression
 from trum_sym.optimiser.finish import Finished
 from trum_sym.optimiser.model import Model, functions
 from trum_sym.optimiser.search import one_number
 from trum_sym.optimiser.solve import Answer, Problem, solve
+from trum_sym.output.json_text import json_text
+from trum_sym.output.progress import shown
 from trum_sym.studies.posed import Bound, posed
 
 __all__ = ["AGAINST", "ParetoFront", "ParetoPoint", "pareto"]
@@ -82,31 +85,40 @@ class ParetoFront:
     def as_json_text(self) -> str:
         """One JSON object; SI units."""
         keys = [name for name in ParetoPoint.__dataclass_fields__ if name != "figures"]
-        points = [{key: _finite(getattr(point, key)) for key in keys} for point in self.points]
+        points = [{key: getattr(point, key) for key in keys} for point in self.points]
         record = {name: getattr(self, name) for name in self.__dataclass_fields__ if name != "points"}
-        return json.dumps({**record, "points": points}, indent=1, allow_nan=False)
+        return json_text({**record, "points": points})
 
     def as_table(self, title: str) -> str:
         """For people."""
         from tabulate import tabulate
 
-        arcsec = math.pi / 648000
         rows = [
-            (f"{p.objective:.6g}", f"{p.against:.6g}", f"{p.prepressure:.6g}", f"{p.frequency_difference:.7g}",
-             f"{p.mean_speed / arcsec:.6g}", f"{100 * p.speed_volatility:.5g}", f"{p.stall_torque:.5g}")
+            (
+                f"{p.objective:.6g}",
+                f"{p.against:.6g}",
+                f"{p.prepressure:.6g}",
+                f"{p.frequency_difference:.7g}",
+                f"{p.mean_speed / ARCSEC:.6g}",
+                f"{100 * p.speed_volatility:.5g}",
+                f"{p.stall_torque:.5g}",
+            )
             for p in self.points
-        ]  # fmt: skip
-        headers = (self.objective, self.against, "prepressure N", "difference Hz", "mean arcsec/s", "volatility %",
-                   "stall N m")  # fmt: skip
+        ]
+        headers = (
+            self.objective,
+            self.against,
+            "prepressure N",
+            "difference Hz",
+            "mean arcsec/s",
+            "volatility %",
+            "stall N m",
+        )
         lines = [title, "", f"{self.status}: {self.message}"]
         if rows:
             lines += ["", tabulate(rows, headers, disable_numparse=True, colalign=("right",) * 7)]
         lines += [f"gap: nothing between {self.against} {low:.6g} and {high:.6g}" for low, high in self.gaps]
         return "\n".join([*lines, "", f"{self.asked} problems, {self.evaluations} orbits computed"])
-
-
-def _finite(value: float) -> float | None:
-    return value if math.isfinite(value) else None
 
 
 def pareto(
@@ -119,11 +131,8 @@ def pareto(
     points: int = 11,
     bounds: Mapping[str, Bound] | None = None,
     constraints: Sequence[str] = (),
-    contact: Contact = "winkler",
-    resonance: Resonance = "quartic",
-    foundation: Foundation = "harmonic",
-    amplitude: Amplitude = "measured",
     progress: bool = False,
+    **levels: Unpack[LevelChoice],
 ) -> ParetoFront:
     """The points of a box that cannot be bettered in one figure without losing in another.
 
@@ -157,9 +166,8 @@ def pareto(
     target = None if target_speed is None else one_number("target_speed", target_speed, "rad/s")
     if against == "speed-error" and target is None:
         raise ParameterError("target_speed", "none", "a speed in rad/s for speed-error")
-    levels = Levels(contact, resonance, foundation, amplitude)
     held = None if against == "speed-error" else target
-    problem = posed(motor, drive, levels, objective, held, bounds, constraints)
+    problem = posed(motor, drive, Levels(**levels), objective, held, bounds, constraints)
     expression, sign = _against(against, target)
     walk = _walk(problem, expression, sign, target if against == "speed-error" else None, count, progress)
     best, answers = walk.answers[0], walk.answers
@@ -168,10 +176,16 @@ def pareto(
         found = _front(walk.candidates(problem.objective), sign)
         message = f"{len(found)} points of the front of {objective} against {against}"
     return ParetoFront(
-        status=status, objective=objective, against=against, larger_is_better=sign < 0,
-        points=tuple(_point(problem, candidate) for candidate in found), gaps=_gaps(found, walk.limits),
-        asked=len(answers), evaluations=walk.model.evaluations, message=message,
-    )  # fmt: skip
+        status=status,
+        objective=objective,
+        against=against,
+        larger_is_better=sign < 0,
+        points=tuple(_point(problem, candidate) for candidate in found),
+        gaps=_gaps(found, walk.limits),
+        asked=len(answers),
+        evaluations=walk.model.evaluations,
+        message=message,
+    )
 
 
 def _against(against: object, target: float | None) -> tuple[Expression, float]:
@@ -241,7 +255,7 @@ def _walk(
         walk.answers.append(ask(problem.objective, Constraint(expression, target, target)))
     first, last = (walk.value(answer.best) for answer in walk.answers if answer.best is not None)
     walk.limits += [*np.linspace(first, last, count)[1:-1]] if target is None else _towards_zero(first, last, count)
-    for limit in _shown(walk.limits, progress):
+    for limit in shown(walk.limits, "front" if progress else None):
         if target is None:
             ends = (-math.inf, limit) if sign > 0 else (limit, math.inf)
             walk.answers.append(ask(problem.objective, Constraint(expression, *ends)))
@@ -258,16 +272,6 @@ def _towards_zero(first: float, last: float, count: int) -> list[float]:
     least = max(last, 1e-4 * first)
     even, ratio = np.linspace(first, least, count // 2 + 1)[1:], np.geomspace(first, least, count - count // 2)[1:-1]
     return sorted((float(limit) for limit in {*even, *ratio}), reverse=True)
-
-
-def _shown(limits: list[float], progress: bool) -> Iterator[float]:
-    if not progress:
-        yield from limits
-        return
-    import click
-
-    with click.progressbar(limits, label="front", file=sys.stderr, hidden=not sys.stderr.isatty()) as bar:
-        yield from bar
 
 
 def _front(found: list[_Candidate], sign: float) -> list[_Candidate]:
@@ -295,7 +299,11 @@ def _point(problem: Problem, found: _Candidate) -> ParetoPoint:
     drive = {**problem.drive.numbers(), **dict(zip(problem.box.names, found.point.point.tolist(), strict=True))}
     figures = found.point.figures
     return ParetoPoint(
-        objective=found.objective, against=found.against, prepressure=float(drive["prepressure"]),
-        frequency_difference=float(drive["frequency_difference"]), constraint_violation=found.point.violation,
-        figures=figures, **{name: figures[name] for name in ("mean_speed", "speed_volatility", "stall_torque")},
-    )  # fmt: skip
+        objective=found.objective,
+        against=found.against,
+        prepressure=float(drive["prepressure"]),
+        frequency_difference=float(drive["frequency_difference"]),
+        constraint_violation=found.point.violation,
+        figures=figures,
+        **{name: figures[name] for name in ("mean_speed", "speed_volatility", "stall_torque")},
+    )

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from trum_sym.errors import ParameterError
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
-from trum_sym.model.stator import Levels
+from trum_sym.model.levels import Levels
 from trum_sym.optimiser.search import Bound, aim_of, box_of, check_scalars, warn_outside_fit
 from trum_sym.optimiser.solve import Problem
 

@@ -3,24 +3,26 @@
 from __future__ import annotations
 
 import itertools
-import json
 import math
-import sys
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, TypeVar
+from functools import partial
+from typing import Any, TypeVar, Unpack
 
 import numpy as np
 
 from trum_sym.errors import ParameterError
-from trum_sym.inputs.checks import Domain, number
+from trum_sym.inputs.checks import number
+from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import DRIVE_DOMAINS, Drive
 from trum_sym.inputs.motor import Motor, spec
-from trum_sym.inputs.units import parse_quantity
-from trum_sym.model.stator import Amplitude, Contact, Foundation, Levels, Resonance
+from trum_sym.inputs.units import ARCSEC, parse_quantity
+from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.optimiser.model import Model
 from trum_sym.optimiser.search import one_number
 from trum_sym.optimiser.solve import Problem, solve
+from trum_sym.output.json_text import json_text
+from trum_sym.output.progress import shown
 from trum_sym.studies.minimax import Minimax, Outcome
 from trum_sym.studies.posed import Bound, posed
 
@@ -86,26 +88,30 @@ class RobustPoint:
 
     def as_json_text(self) -> str:
         """One JSON object; SI units."""
-        record = {name: _known(getattr(self, name)) for name in self.__dataclass_fields__ if name != "cases"}
+        record = {name: getattr(self, name) for name in self.__dataclass_fields__ if name != "cases"}
         keys = RobustCase.__dataclass_fields__
-        cases = [{key: _known(getattr(case, key)) for key in keys} for case in self.cases]
-        return json.dumps({**record, "cases": cases}, indent=1, allow_nan=False)
+        cases = [{key: getattr(case, key) for key in keys} for case in self.cases]
+        return json_text({**record, "cases": cases})
 
     def as_table(self, title: str) -> str:
         """For people: the point, then every case."""
         from tabulate import tabulate
 
-        arcsec = math.pi / 648000
         lines = [title, "", f"{self.status}: {self.message}"]
         if math.isfinite(self.prepressure):
             at = f"prepressure {self.prepressure:.7g} N, frequency difference {self.frequency_difference:.8g} Hz"
             lines += ["", f"{at}, switching phase {self.switching_phase:.6g} rad"]
             rows = [
-                (_words(case.changed),
-                 f"{case.objective:.6g}", f"{case.mean_speed / arcsec:.6g}", f"{100 * case.speed_volatility:.5g}",
-                 f"{case.stall_torque:.5g}", f"{case.violation:.1e}")
+                (
+                    _words(case.changed),
+                    f"{case.objective:.6g}",
+                    f"{case.mean_speed / ARCSEC:.6g}",
+                    f"{100 * case.speed_volatility:.5g}",
+                    f"{case.stall_torque:.5g}",
+                    f"{case.violation:.1e}",
+                )
                 for case in self.cases
-            ]  # fmt: skip
+            ]
             headers = ("case", self.objective, "mean arcsec/s", "volatility %", "stall N m", "violation")
             lines += ["", tabulate(rows, headers, disable_numparse=True, colalign=("left", *["right"] * 5)), ""]
             if math.isfinite(self.worst_inside):
@@ -119,12 +125,6 @@ def _words(changed: Mapping[str, float]) -> str:
     return ", ".join(f"{name} {value:.6g}" for name, value in changed.items()) or "nominal"
 
 
-def _known(value: object) -> object:
-    if isinstance(value, Mapping):
-        return dict(value)
-    return None if isinstance(value, float) and not math.isfinite(value) else value
-
-
 def robust(
     motor: Motor,
     drive: Drive | None = None,
@@ -135,11 +135,8 @@ def robust(
     target_speed: float | str | None = None,
     bounds: Mapping[str, Bound] | None = None,
     constraints: Sequence[str] = (),
-    contact: Contact = "winkler",
-    resonance: Resonance = "quartic",
-    foundation: Foundation = "harmonic",
-    amplitude: Amplitude = "measured",
     progress: bool = False,
+    **levels: Unpack[LevelChoice],
 ) -> RobustPoint:
     """The point of a box whose worst case over what is not known exactly is the best.
 
@@ -167,17 +164,16 @@ def robust(
         Without CasADi or SciPy.
     """
     target = None if target_speed is None else one_number("target_speed", target_speed, "rad/s")
-    levels = Levels(contact, resonance, foundation, amplitude)
     error = objective == "speed-error"
     if error and target is None:
         raise ParameterError("target_speed", "none", "a speed in rad/s for the objective speed-error")
-    problem = posed(motor, drive, levels, "mean_speed" if error else objective, None if error else target, bounds,
-                    constraints)  # fmt: skip
+    aim, held = ("mean_speed", None) if error else (objective, target)
+    problem = posed(motor, drive, Levels(**levels), aim, held, bounds, constraints)
     ranges = _ranges(problem, tolerances, samples)
     cases = _cases(problem, ranges, samples)
     models = [_model(problem, case) for case in cases]
     task = Minimax(problem, models, target if error else None, held=target is not None and not error)
-    task.map(_bar(progress))
+    task.map(partial(shown, label="cases" if progress else None))
     found = task.solve()
     nominal_optimum = math.nan
     if found is not None and not error:
@@ -265,19 +261,6 @@ def _model(problem: Problem, case: Mapping[str, float]) -> Model:
     return Model(problem.motor.with_values(values), drive, problem.levels, problem.box, problem.names)
 
 
-def _bar(progress: bool) -> Callable[[Sequence[_T]], Iterable[_T]]:
-    def shown(items: Sequence[_T]) -> Iterable[_T]:
-        if not progress:
-            yield from items
-            return
-        import click
-
-        with click.progressbar(items, label="cases", file=sys.stderr, hidden=not sys.stderr.isatty()) as bar:
-            yield from bar
-
-    return shown
-
-
 def _result(
     problem: Problem,
     objective: str,
@@ -289,27 +272,44 @@ def _result(
 ) -> RobustPoint:
     if found is None:
         return RobustPoint(
-            status="infeasible", objective=objective, worst=math.nan, nominal=math.nan,
-            worst_of_nominal_optimum=math.nan, worst_inside=math.nan, prepressure=math.nan,
-            frequency_difference=math.nan, switching_phase=math.nan, constraint_violation=math.nan, cases=(),
+            status="infeasible",
+            objective=objective,
+            worst=math.nan,
+            nominal=math.nan,
+            worst_of_nominal_optimum=math.nan,
+            worst_inside=math.nan,
+            prepressure=math.nan,
+            frequency_difference=math.nan,
+            switching_phase=math.nan,
+            constraint_violation=math.nan,
+            cases=(),
             evaluations=evaluations,
             message="no point found that meets the constraints in every case, by map and searches from its best places",
-        )  # fmt: skip
+        )
     drive = {**problem.drive.numbers(), **dict(zip(problem.box.names, found.point.tolist(), strict=True))}
     worst = max(found.objectives)
     alike = [case for case, value in zip(cases, found.objectives, strict=True) if value >= worst - 1e-4 * abs(worst)]
     named = " and at ".join(_words(case) for case in alike[:4]) + (" and others" if len(alike) > 4 else "")
     return RobustPoint(
-        status="solved", objective=objective, worst=worst, nominal=found.objectives[0],
-        worst_of_nominal_optimum=nominal_optimum, worst_inside=inside,
+        status="solved",
+        objective=objective,
+        worst=worst,
+        nominal=found.objectives[0],
+        worst_of_nominal_optimum=nominal_optimum,
+        worst_inside=inside,
         **{name: float(drive[name]) for name in ("prepressure", "frequency_difference", "switching_phase")},
-        constraint_violation=max(found.violations), evaluations=evaluations,
+        constraint_violation=max(found.violations),
+        evaluations=evaluations,
         cases=tuple(
-            RobustCase(changed=case, objective=value, violation=violation,
-                       **{name: figures[name] for name in ("mean_speed", "speed_volatility", "stall_torque")})
+            RobustCase(
+                changed=case,
+                objective=value,
+                violation=violation,
+                **{name: figures[name] for name in ("mean_speed", "speed_volatility", "stall_torque")},
+            )
             for case, value, violation, figures in zip(
                 cases, found.objectives, found.violations, found.figures, strict=True
             )
         ),
         message=f"least worst {objective} of {len(cases)} cases, {worst:.6g} at {named}",
-    )  # fmt: skip
+    )

@@ -14,7 +14,7 @@ from trum_sym.optimiser.expressions import Constraint
 from trum_sym.optimiser.model import Model, functions
 from trum_sym.studies.path import Candidates, candidates, choose
 
-__all__ = ["TOLERANCE", "Builder", "Entry"]
+__all__ = ["TOLERANCE", "Builder", "TableEntry"]
 
 TOLERANCE = 1e-9  # of the orbits
 _MET = 1e-6  # of a speed, or the orbits' tolerance where that is more
@@ -27,7 +27,7 @@ _INSIDE = 0.01  # of a constraint's span, by which the path on the map keeps awa
 
 
 @dataclass
-class Entry:
+class TableEntry:
     """A speed, its place in the unit cube, and the speed's slope, standard deviation and the drive frequency there."""
 
     speed: float
@@ -69,10 +69,11 @@ class Builder:
         self.accuracy = TOLERANCE * fastest
         if self.error * self.floor < 2 * self.accuracy:
             raise ParameterError(
-                "error", self.error,
+                "error",
+                self.error,
                 f"at least {2 * self.accuracy / self.floor:.2g}: the rotor swings up to {fastest:.3g} rad/s, and its "
                 f"mean is known to {self.accuracy:.2g} rad/s",
-            )  # fmt: skip
+            )
         self._rows = functions([c.expression for c in self.constraints]) if self.constraints else None
         self._excess = np.full(figures["mean_speed"].size, -1.0)
         if self._rows is not None:
@@ -83,7 +84,7 @@ class Builder:
                 self._excess = beyond if k == 0 else np.maximum(self._excess, beyond)
             self._excess = np.where(np.isfinite(self._excess), self._excess, 1e300)
 
-    def build(self) -> list[list[Entry]]:
+    def build(self) -> list[list[TableEntry]]:
         """Entries by segment, speeds rising; fills ``gaps`` and ``largest_error``."""
         levels = [self._level(speed) for speed in self.speeds]
         chosen = choose(levels)
@@ -91,7 +92,7 @@ class Builder:
         self.say(f"{len(here)} of {len(self.speeds)} speeds are on the map")
         begun = np.array([levels[k].share[chosen[k]] for k in here]).reshape(len(here), len(self.known.shape))
         entries = dict(zip(here, self._onto(self.speeds[here], begun), strict=True))
-        runs: list[list[Entry]] = []
+        runs: list[list[TableEntry]] = []
         for k in range(len(self.speeds)):
             entry = entries.get(k)
             if entry is None:
@@ -108,17 +109,17 @@ class Builder:
         figures = self.known.figures
         return candidates(self.known, figures["mean_speed"], speed, figures["speed_deviation"], self._excess)
 
-    def _onto(self, speeds: Array, share: Array) -> list[Entry | None]:
+    def _onto(self, speeds: Array, share: Array) -> list[TableEntry | None]:
         """Newton along the speed's slope inside the box, all speeds side by side; None where it does not arrive."""
         share, wanted = share.copy(), np.asarray(speeds)
-        found: list[Entry | None] = [None] * wanted.size
+        found: list[TableEntry | None] = [None] * wanted.size
         best = np.full(wanted.size, np.inf)
         active = np.arange(wanted.size)
         for _ in range(_NEWTON):
             if active.size == 0:
                 break
             points = self.model.box.at(share[active])
-            figures, slopes = self.model.figures_with_slopes(points, TOLERANCE)
+            figures, slopes = self.model.results_with_slopes(points, TOLERANCE)
             off = figures["mean_speed"] - wanted[active]
             allowed = np.maximum(_MET * np.abs(wanted[active]), self.accuracy)
             met = np.abs(off) <= allowed
@@ -127,7 +128,7 @@ class Builder:
                 k = int(active[place])
                 if self._allowed({name: value[place : place + 1] for name, value in figures.items()}):
                     more = (float(figures[name][place]) for name in ("speed_deviation", "drive_frequency"))
-                    found[k] = Entry(float(wanted[k]), share[k].copy(), slope[place], *more)
+                    found[k] = TableEntry(float(wanted[k]), share[k].copy(), slope[place], *more)
             go = ~met & np.isfinite(off) & np.all(np.isfinite(slope), axis=1)
             # a step that does not help is halved by trying again from between
             worse = np.abs(off) > best[active]
@@ -145,9 +146,9 @@ class Builder:
             for c, value in zip(self.constraints, values, strict=True)
         )
 
-    def _grown(self, segments: list[list[Entry]]) -> list[list[Entry]]:
+    def _grown(self, segments: list[list[TableEntry]]) -> list[list[TableEntry]]:
         """Segments with both ends moved into the gaps as far as it goes."""
-        grown: list[list[Entry]] = []
+        grown: list[list[TableEntry]] = []
         for k, segment in enumerate(segments):
             low = grown[-1][-1].speed if grown else float(self.speeds[0])
             high = segments[k + 1][0].speed if k + 1 < len(segments) else float(self.speeds[-1])
@@ -156,9 +157,9 @@ class Builder:
             grown += [part for part in self._refined([*down[::-1], *segment, *up]) if len(part) > 1]
         return grown
 
-    def _towards(self, end: Entry, limit: float) -> list[Entry]:
+    def _towards(self, end: TableEntry, limit: float) -> list[TableEntry]:
         """Entries from the end of a segment towards a speed, by bisection for the last that can be had."""
-        found: list[Entry] = []
+        found: list[TableEntry] = []
         last, far = end, limit
         for _ in range(_EDGE):
             middle = 0.5 * (last.speed + far)
@@ -173,7 +174,7 @@ class Builder:
                 far = middle
         return found
 
-    def _refined(self, run: list[Entry]) -> list[list[Entry]]:
+    def _refined(self, run: list[TableEntry]) -> list[list[TableEntry]]:
         """A run with entries added until interpolation holds, cut where it cannot."""
         if len(run) < 2:
             return [run]
@@ -183,7 +184,7 @@ class Builder:
             self.say(f"{len(run)} entries, {len(open_pairs)} stretches to check")
             wrong = self._wrong(run, open_pairs)
             news = self._between([(run[k], run[k + 1]) for k in wrong])
-            added: dict[int, Entry] = {}
+            added: dict[int, TableEntry] = {}
             for k, entry in zip(wrong, news, strict=True):
                 a, b = run[k], run[k + 1]
                 step = (b.speed - a.speed) / max(abs(a.speed), abs(b.speed), self.floor)
@@ -191,7 +192,7 @@ class Builder:
                     cut.add(id(a))
                 else:
                     added[k] = entry
-            grown: list[Entry] = []
+            grown: list[TableEntry] = []
             open_pairs = []
             for k, entry in enumerate(run):
                 grown.append(entry)
@@ -199,14 +200,14 @@ class Builder:
                     open_pairs += [len(grown) - 1, len(grown)]
                     grown.append(added[k])
             run = grown
-        segments: list[list[Entry]] = [[]]
+        segments: list[list[TableEntry]] = [[]]
         for entry in run:
             segments[-1].append(entry)
             if id(entry) in cut:
                 segments.append([])
         return [segment for segment in segments if segment]
 
-    def _wrong(self, run: list[Entry], pairs: list[int]) -> list[int]:
+    def _wrong(self, run: list[TableEntry], pairs: list[int]) -> list[int]:
         """Those pairs between which the motor does not do what interpolation says."""
         low = np.array([run[k].share for k in pairs])[:, np.newaxis]
         high = np.array([run[k + 1].share for k in pairs])[:, np.newaxis]
@@ -215,14 +216,14 @@ class Builder:
         v_high = np.array([run[k + 1].speed for k in pairs])[:, np.newaxis]
         wanted = v_low + _BETWEEN * (v_high - v_low)
         points = self.model.box.at(share.reshape(-1, share.shape[-1]))
-        found = self.model.figures(points, TOLERANCE)["mean_speed"].reshape(wanted.shape)
+        found = self.model.results(points, TOLERANCE)["mean_speed"].reshape(wanted.shape)
         off = np.abs(found - wanted) / np.maximum(np.abs(wanted), self.floor)
         worst = np.max(np.where(np.isfinite(off), off, np.inf), axis=1)
         good = worst <= self.error
         self.largest_error = max(self.largest_error, float(np.max(worst[good], initial=0.0)))
         return [k for k, fine in zip(pairs, good, strict=True) if not fine]
 
-    def _between(self, pairs: list[tuple[Entry, Entry]]) -> list[Entry | None]:
+    def _between(self, pairs: list[tuple[TableEntry, TableEntry]]) -> list[TableEntry | None]:
         """An entry halfway between each two: from the middle of their places, from either, or from the map.
 
         On the way from one to the other the speed rises; a place where it falls along that way is none of it.
@@ -231,7 +232,7 @@ class Builder:
             return []
         speeds = np.array([0.5 * (a.speed + b.speed) for a, b in pairs])
         middles = np.array([0.5 * (a.share + b.share) for a, b in pairs])
-        found: list[Entry | None] = [None] * len(pairs)
+        found: list[TableEntry | None] = [None] * len(pairs)
         for starts in (
             middles,
             [a.share for a, _ in pairs],
@@ -257,7 +258,7 @@ class Builder:
             places.append(level.share[np.argmin(away)] if away.size else middle)
         return places
 
-    def _name_gaps(self, segments: list[list[Entry]]) -> None:
+    def _name_gaps(self, segments: list[list[TableEntry]]) -> None:
         """Every speed between the first and the last asked for that no segment has."""
         figures = self.known.figures["mean_speed"]
         least, most = float(np.nanmin(figures)), float(np.nanmax(figures))

@@ -11,7 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from trum_sym.errors import ParameterError
-from trum_sym.inputs.checks import Array, ArrayLike, Domain, number
+from trum_sym.inputs.checks import Array, ArrayLike, number
+from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import DRIVE_DOMAINS
 from trum_sym.inputs.motor import SPECS
 from trum_sym.sweeps.notation import MAX_VALUES, Column, parse
@@ -20,8 +21,10 @@ __all__ = ["PARAMETERS", "Axis", "Grid", "chunk_shape", "read_ranges"]
 
 _OWN = {"phase_lead": (Domain(), "1"), "sampling_period": (Domain(low=0.0), "s")}
 PARAMETERS: Mapping[str, tuple[Domain, str]] = {
-    **DRIVE_DOMAINS, **_OWN, **{name: (spec.domain, spec.unit) for name, spec in SPECS.items()},
-}  # fmt: skip
+    **DRIVE_DOMAINS,
+    **_OWN,
+    **{name: (spec.domain, spec.unit) for name, spec in SPECS.items()},
+}
 """What can be swept: domain and unit by name."""
 
 

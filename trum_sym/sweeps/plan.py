@@ -12,12 +12,16 @@ from typing import Any
 import numpy as np
 
 from trum_sym.errors import ConvergenceError, ParameterError
-from trum_sym.inputs.checks import ArrayLike, Domain, number
-from trum_sym.inputs.drive import Drive, choice
+from trum_sym.inputs.checks import ArrayLike, number
+from trum_sym.inputs.choices import choice
+from trum_sym.inputs.domain import Domain
+from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import SPECS, Motor
+from trum_sym.inputs.points import check_point
+from trum_sym.model.levels import Levels
 from trum_sym.model.operating_point import OF_ORBIT
-from trum_sym.model.stator import Levels, warn_outside_fit
-from trum_sym.quantities import OUTPUTS
+from trum_sym.model.stator import warn_outside_fit
+from trum_sym.quantities import QUANTITIES
 from trum_sym.sweeps.grid import PARAMETERS, Grid, chunk_shape, read_ranges
 from trum_sym.sweeps.task import STATUS, Settings, Task, identity, sort_out
 
@@ -80,13 +84,16 @@ class Plan:
         """Unit and meaning of a coordinate or a figure."""
         if name == "status":
             values = [*range(len(STATUS)), 255]
-            return {"long_name": "what became of the point", "flag_values": values,
-                    "flag_meanings": " ".join((*STATUS, "not_computed"))}  # fmt: skip
+            return {
+                "long_name": "what became of the point",
+                "flag_values": values,
+                "flag_meanings": " ".join((*STATUS, "not_computed")),
+            }
         if name == "converged":
             return {"long_name": "whether mean and extremes met the tolerance"}
         if any(name in axis.values for axis in self.grid.axes):
             return {"units": PARAMETERS[name][1], "long_name": name.replace("_", " ")}
-        return {"units": OUTPUTS[name].unit, "long_name": OUTPUTS[name].label}
+        return {"units": QUANTITIES[name].unit, "long_name": QUANTITIES[name].label}
 
     def attributes(self) -> dict[str, str | float]:
         """Everything that decides about the result but the swept values: as text and numbers that any file holds."""
@@ -135,11 +142,8 @@ def make_plan(
     """
     fixed, grid = read_ranges(ranges)
     swept = {name for axis in grid.axes for name in axis.values}
-    if not isinstance(motor, Motor):
-        raise ParameterError("motor", motor, "a Motor, as load_motor returns it")
     drive = Drive() if drive is None else drive
-    if not isinstance(drive, Drive):
-        raise ParameterError("drive", drive, "a Drive")
+    check_point(motor, drive)
     numbers = {**drive.numbers(), **{name: value for name, value in fixed.items() if name in drive.numbers()}}
     set_values = {name: value for name, value in fixed.items() if name in SPECS}
     machine = replace(motor, published=()).with_values(set_values)
@@ -160,7 +164,7 @@ def make_plan(
 
 
 def _outputs(given: Sequence[str] | None, swept: set[str]) -> tuple[str, ...]:
-    known = [name for name in (*OUTPUTS, "converged") if name not in swept]
+    known = [name for name in (*QUANTITIES, "converged") if name not in swept]
     if given is None:
         return tuple(known)
     if isinstance(given, str) or not given:

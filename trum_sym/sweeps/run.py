@@ -18,7 +18,7 @@ from trum_sym.errors import MissingExtraError, ParameterError, UnfinishedError
 from trum_sym.inputs.checks import ArrayLike
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
-from trum_sym.model.stator import Contact, Foundation, Levels, Resonance
+from trum_sym.model.levels import LEVEL_NAMES, Levels
 from trum_sym.output.progress import Progress
 from trum_sym.sweeps.engine import Cluster, Here, Pool, compute_all
 from trum_sym.sweeps.plan import Plan, make_plan
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from trum_sym.sweeps.store import Store
 
-__all__ = ["Estimate", "Summary", "check_out", "estimate", "run", "sweep"]
+__all__ = ["Summary", "Workload", "check_out", "estimate", "run", "sweep"]
 
 _SMALL = 2**30  # bytes of a result that is held in memory
 _SAMPLE_SECONDS = 2.0
@@ -57,7 +57,7 @@ class Summary:
 
 
 @dataclass(frozen=True)
-class Estimate:
+class Workload:
     """What a sweep would take: seconds for what is missing, at ``rate`` points a second on ``threads`` threads."""
 
     plan: Plan
@@ -82,10 +82,6 @@ def sweep(
     scheduler: str | None = None,
     chunk: int | None = None,
     progress: bool = False,
-    contact: Contact = "winkler",
-    resonance: Resonance = "quartic",
-    foundation: Foundation = "harmonic",
-    amplitude: str | ArrayLike = "measured",
     sampling_period: ArrayLike | None = None,
     tolerance: float = 1e-3,
     **ranges: object,
@@ -94,7 +90,7 @@ def sweep(
 
     Parameters
     ----------
-    motor, drive, contact, resonance, foundation, tolerance
+    motor, drive, tolerance
         As for :func:`trum_sym.evaluate`, single numbers.
     outputs : names of figures, optional
         All of them if not given; what none of them needs is not computed.
@@ -107,13 +103,12 @@ def sweep(
         Points a chunk at most; by the size of the grid, its figures and this machine's memory if not given.
     progress : bool
         Whether to tell the standard error how far it is.
-    amplitude : {"measured", "forced"}, or a range
-        The level, as for ``evaluate``; or values of the motor's ``amplitude``.
     sampling_period : float or range, s, optional
         As for ``evaluate``.
     **ranges
-        Any number of the drive or value of the motor by name: a sequence, or text such as ``"160:210:51"``,
-        ``"160:210:by=1"``, ``"160,180"`` or ``"@FILE.csv"``.  Each is an axis; xarray.DataArrays of one dimension, and
+        Levels of the model by name, as words (see :class:`trum_sym.model.levels.Levels`).  Any number of the drive or
+        value of the motor by name: a sequence, or text such as ``"160:210:51"``, ``"160:210:by=1"``, ``"160,180"`` or
+        ``"@FILE.csv"``.  Each is an axis; xarray.DataArrays of one dimension, and
         columns of one file, vary together.  A single number is set.
 
     Returns
@@ -132,13 +127,12 @@ def sweep(
     MissingExtraError
         Without xarray and zarr.
     """
-    if not isinstance(amplitude, str):
-        ranges, amplitude = {**ranges, "amplitude": amplitude}, "measured"
+    level_names = [name for name in LEVEL_NAMES if name != "amplitude" or isinstance(ranges.get(name), str)]
+    levels = Levels(**{name: ranges.pop(name) for name in level_names if name in ranges})  # type: ignore[arg-type]
     if np.ndim(sampling_period) or isinstance(sampling_period, str):  # type: ignore[arg-type]
         ranges, sampling_period = {**ranges, "sampling_period": sampling_period}, None
     target = None if out is None else Path(out)
     check_out("out", target)
-    levels = Levels(contact, resonance, foundation, amplitude)  # type: ignore[arg-type]
     plan = make_plan(motor, drive, levels, sampling_period, tolerance, outputs, chunk, ranges)
     return run("out", plan, target, scheduler, chunk is not None, sys.stderr if progress else None)[0]
 
@@ -251,7 +245,7 @@ def _unfinished(progress: Progress, reason: str) -> str:
     )
 
 
-def estimate(name: str, plan: Plan, target: Path | None, scheduler: str | None, chunk_given: bool) -> Estimate:
+def estimate(name: str, plan: Plan, target: Path | None, scheduler: str | None, chunk_given: bool) -> Workload:
     """Measure a sample of a plan's points, and say what the rest would take; writes nothing.
 
     Raises
@@ -277,4 +271,4 @@ def estimate(name: str, plan: Plan, target: Path | None, scheduler: str | None, 
                 break
             count = int(count * min(8.0, max(2.0, _SAMPLE_SECONDS / max(seconds, 1e-3))))
     sample = threads * min(count, plan.grid.size)
-    return Estimate(plan, left, int(missing.sum()), sample, sample / seconds, threads)
+    return Workload(plan, left, int(missing.sum()), sample, sample / seconds, threads)

@@ -28,6 +28,12 @@ from trum_sym.sweeps.plan import Plan
 __all__ = ["Store", "open_store"]
 
 _ABSENT = 255  # of the status, where a chunk is missing
+_BUILD = {
+    "package": "another version began it",
+    "code_sha256": "other Python code began it",
+    "kernels_sha256": "other compiled kernels began it",
+    "instruction_set": "a processor with another instruction set began it",
+}
 
 
 @dataclass(frozen=True)
@@ -114,15 +120,26 @@ def _create(store: LocalStore | MemoryStore, plan: Plan) -> zarr.Group:
     for axis in plan.grid.axes:
         for name, values in axis.values.items():
             group.create_array(
-                name, data=values, chunks=(axis.size,), compressors=codecs, fill_value=np.nan,
-                dimension_names=[axis.name], attributes=plan.about(name),
-            )  # fmt: skip
+                name,
+                data=values,
+                chunks=(axis.size,),
+                compressors=codecs,
+                fill_value=np.nan,
+                dimension_names=[axis.name],
+                attributes=plan.about(name),
+            )
     for name in (*plan.settings.outputs, "status"):
         kind, absent = {"status": (np.uint8, _ABSENT), "converged": (np.bool_, False)}.get(name, (np.float64, np.nan))
         group.create_array(
-            name, shape=plan.grid.shape, chunks=plan.chunk, dtype=kind, fill_value=absent, compressors=codecs,
-            dimension_names=dimensions, attributes=plan.about(name),
-        )  # fmt: skip
+            name,
+            shape=plan.grid.shape,
+            chunks=plan.chunk,
+            dtype=kind,
+            fill_value=absent,
+            compressors=codecs,
+            dimension_names=dimensions,
+            attributes=plan.about(name),
+        )
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ZarrUserWarning)  # its form is not settled, but xarray looks for it
         zarr.consolidate_metadata(store)
@@ -202,8 +219,9 @@ def _differs(name: str, root: Path, key: str, theirs: object, ours: object) -> P
         text = " ".join(str(value).split())
         return text if len(text) <= 40 else text[:37] + "..."
 
+    why = f"; {_BUILD[key]}, and one store does not mix the bits of two" if key in _BUILD else ""
     return ParameterError(
         name,
         str(root),
-        f"another name, or the sweep that this store is of: its {key} is {shown(theirs)}, not {shown(ours)}",
+        f"another name, or the sweep that this store is of: its {key} is {shown(theirs)}, not {shown(ours)}{why}",
     )

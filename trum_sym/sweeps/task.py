@@ -21,8 +21,8 @@ from trum_sym.inputs.checks import Array, ArrayLike
 from trum_sym.inputs.drive import Drive, Start
 from trum_sym.inputs.motor import SPECS, Motor
 from trum_sym.model.batch import StoppedError, one_thread
-from trum_sym.model.operating_point import OF_ORBIT, Case, figures, prepare
-from trum_sym.model.stator import Levels
+from trum_sym.model.levels import Levels
+from trum_sym.model.operating_point import OF_ORBIT, Case, prepare, results
 
 __all__ = ["STATUS", "Found", "Settings", "Task", "compute", "identity", "sort_out"]
 
@@ -42,12 +42,14 @@ def identity() -> Mapping[str, str]:
     code = hashlib.sha256()
     for digest in sorted(hashlib.sha256(file.read_bytes()).digest() for file in files):
         code.update(digest)
-    return MappingProxyType({
-        "package": f"trum-sym {version('trum-sym')}",
-        "code_sha256": code.hexdigest(),
-        "kernels_sha256": hashlib.sha256(Path(_kernels.__file__).read_bytes()).hexdigest(),
-        "instruction_set": list(_kernels.instruction_sets())[-1],
-    })  # fmt: skip
+    return MappingProxyType(
+        {
+            "package": f"trum-sym {version('trum-sym')}",
+            "code_sha256": code.hexdigest(),
+            "kernels_sha256": hashlib.sha256(Path(_kernels.__file__).read_bytes()).hexdigest(),
+            "instruction_set": list(_kernels.instruction_sets())[-1],
+        }
+    )
 
 
 @dataclass(frozen=True)
@@ -136,7 +138,7 @@ def _evaluate(settings: Settings, case: Case, shape: tuple[int, ...]) -> dict[st
     """The outputs and the status of points that can be evaluated."""
     orbit = not OF_ORBIT.isdisjoint(settings.outputs)
     flags = ("converged", "runaway") if orbit else ()
-    found = figures(case, {*settings.outputs, *flags})
+    found = results(case, {*settings.outputs, *flags})
     status = np.full(shape, _DONE, np.uint8)
     if orbit:
         status[~np.broadcast_to(found["converged"], shape)] = _UNCONVERGED

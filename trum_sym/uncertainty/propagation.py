@@ -15,12 +15,24 @@ import numpy as np
 import numpy.typing as npt
 
 from trum_sym.errors import MissingExtraError, ParameterError
-from trum_sym.inputs.checks import Array, Domain, number
+from trum_sym.inputs.checks import Array, number
+from trum_sym.inputs.domain import Domain
+from trum_sym.output.json_text import finite
 
-__all__ = ["CONFIDENCE", "LEVELS", "Estimate", "Indices", "Propagation", "Spread", "check_design", "propagate", "share"]
+__all__ = [
+    "CONFIDENCE",
+    "PROBABILITIES",
+    "Estimate",
+    "Indices",
+    "Propagation",
+    "Spread",
+    "check_design",
+    "propagate",
+    "share",
+]
 
 CONFIDENCE = 0.95
-LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)  # of the quantiles
+PROBABILITIES = (0.05, 0.25, 0.5, 0.75, 0.95)  # of the quantiles
 # the fewest for which order statistics of A and B bound the 5 % quantile at 95 % confidence: 0.95^(2 n) < 0.025
 _MIN_SAMPLES = 64
 _MAX_SAMPLES = 2**20
@@ -40,7 +52,8 @@ class Estimate(NamedTuple):
 
     def as_dict(self) -> dict[str, float | None]:
         """By name; null where the samples do not give a number."""
-        return {name: x if np.isfinite(x) else None for name, x in self._asdict().items()}
+        known: dict[str, float | None] = finite(self._asdict())
+        return known
 
 
 @dataclass(frozen=True)
@@ -76,7 +89,7 @@ class Spread:
     ----------
     mean, standard_deviation : float
     quantiles : mapping of float to Estimate
-        At each of ``LEVELS``, with distribution-free intervals from order statistics.
+        At each of ``PROBABILITIES``, with distribution-free intervals from order statistics.
     without_value : int
         Points left out of all this because the output is not finite there.
     """
@@ -110,7 +123,7 @@ class Propagation:
         drawn = self.values[output][:2].ravel()
         kept = drawn[np.isfinite(drawn)]
         quantiles = {}
-        for level in LEVELS:
+        for level in PROBABILITIES:
             interval = stats.quantile_test(kept, p=level).confidence_interval(CONFIDENCE)
             quantiles[level] = Estimate(float(np.quantile(kept, level)), float(interval.low), float(interval.high))
         return Spread(float(kept.mean()), float(kept.std(ddof=1)), quantiles, drawn.size - kept.size)

@@ -4,112 +4,35 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from dataclasses import asdict, replace
+from typing import TYPE_CHECKING, Unpack
 
 import numpy as np
 
 from trum_sym.errors import ParameterError
 from trum_sym.inputs.checks import Array, ArrayLike
-from trum_sym.inputs.distributions import Distribution, checked, default_distribution, from_text
+from trum_sym.inputs.distributions import Distribution, checked, from_text
+from trum_sym.inputs.domain import Spec
 from trum_sym.inputs.drive import DRIVE_DOMAINS, Drive
-from trum_sym.inputs.motor import SPECS, Motor, Spec, spec
+from trum_sym.inputs.motor import SPECS, Motor, spec
+from trum_sym.inputs.points import check_point, check_single, numbers_of
 from trum_sym.inputs.units import parse_quantity
-from trum_sym.model.operating_point import OperatingPoint, evaluate
-from trum_sym.model.stator import Amplitude, Contact, Foundation, Resonance
-from trum_sym.quantities import OUTPUTS
-from trum_sym.uncertainty.propagation import Estimate, Propagation, check_design, propagate, share
+from trum_sym.model.levels import LevelChoice, Levels
+from trum_sym.model.operating_point import evaluate
+from trum_sym.quantities import QUANTITIES
+from trum_sym.uncertainty.propagation import check_design, propagate
+from trum_sym.uncertainty.result import BALANCED, MISSED, Study, Target
 
 if TYPE_CHECKING:
-    import xarray as xr
+    pass
 
-__all__ = ["BALANCED", "MISSED", "MOTOR_FILE", "Given", "Study", "Target", "tolerance"]
+__all__ = ["MOTOR_FILE", "Given", "tolerance"]
 
 MOTOR_FILE = "motor"  # stands for every parameter that the motor file gives a range or a distribution
-BALANCED, MISSED = "balanced", "missed"  # outputs of the study itself: 1 or 0
 
 Given = Distribution | str | None
 
 _TARGET = re.compile(r"\s*(\w+)\s*(>=|<=|>|<)\s*(.+)", re.DOTALL)
-_COMPARE = {">=": np.greater_equal, "<=": np.less_equal, ">": np.greater, "<": np.less}
-
-
-@dataclass(frozen=True)
-class Target:
-    """What an output has to keep to, such as ``mean_speed >= 600 arcsec/s``; ``bound`` in the output's SI unit."""
-
-    text: str
-    output: str
-    relation: str
-    bound: float
-
-    def missed(self, values: Array) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
-        """Where it is missed; a point without a value misses it."""
-        return ~np.asarray(_COMPARE[self.relation](values, self.bound), bool)
-
-
-@dataclass(frozen=True)
-class Study:
-    """A tolerance study; SI units, frequencies in Hz, speeds in rad/s.
-
-    Attributes
-    ----------
-    motor, drive, levels
-        The point that is studied.
-    distributions : mapping of str to Distribution
-        Of the uncertain parameters, as they were given.
-    samples, seed : int
-    outputs : tuple of str
-        The figures that were asked for.
-    targets : tuple of Target
-    nominal : OperatingPoint
-        With every parameter at its own value.
-    propagation : Propagation
-        All points, all figures there, and indices; besides the outputs, ``balanced`` is 1 where a speed balances the
-        load and ``missed`` 1 where a target is missed.
-    settled : (d + 2, n) array of bool
-        Whether the rotor's orbit met the tolerance, by point.
-    """
-
-    motor: Motor
-    drive: Drive
-    levels: Mapping[str, object]
-    distributions: Mapping[str, Distribution]
-    samples: int
-    seed: int
-    outputs: tuple[str, ...]
-    targets: tuple[Target, ...]
-    nominal: OperatingPoint
-    propagation: Propagation
-    settled: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
-
-    @property
-    def unbalanced(self) -> Estimate:
-        """The probability that no speed balances the load."""
-        return share(self.propagation.values[BALANCED][:2] == 0)
-
-    @property
-    def unbounded(self) -> tuple[str, ...]:
-        """Outputs without a variance: the volatility, if the mean speed passes zero among the points."""
-        speed = self.propagation.values["mean_speed"]
-        passes = bool((speed > 0).any() and (speed < 0).any())
-        return ("speed_volatility",) if passes and "speed_volatility" in self.outputs else ()
-
-    def points_where(self, chosen: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]) -> list[dict[str, float]]:
-        """The uncertain parameters at the chosen points of A and B."""
-        drawn = {name: values[:2][chosen[:2]] for name, values in self.propagation.points.items()}
-        return [dict(zip(drawn, map(float, row), strict=True)) for row in zip(*drawn.values(), strict=True)]
-
-    def missing(self, target: Target | None = None) -> Estimate:
-        """The probability of missing one target, or any of them; a point without a value misses."""
-        values = self.propagation.values
-        return share(values[MISSED][:2] == 1 if target is None else target.missed(values[target.output][:2]))
-
-    def dataset(self) -> xr.Dataset:
-        """Every point that was computed, with units and all settings."""
-        from trum_sym.uncertainty.tables import as_dataset
-
-        return as_dataset(self)
 
 
 def _spec_of(name: str) -> Spec:
@@ -127,7 +50,7 @@ def _spec_of(name: str) -> Spec:
 
 def _chosen(motor: Motor, parameters: Mapping[str, Given] | Sequence[str] | None) -> dict[str, Distribution]:
     """The uncertain parameters, as given."""
-    own = {name: default_distribution(p) for name, p in motor.parameters()}
+    own = {name: p.spread() for name, p in motor.parameters()}
     uncertain = {name: found for name, found in own.items() if found is not None}
     if parameters is None:
         parameters = [MOTOR_FILE]
@@ -166,15 +89,15 @@ def _read_target(text: object) -> Target:
         raise ParameterError("target", text, "OUTPUT >= NUMBER or <=, >, <, such as mean_speed >= 600 arcsec/s")
     output, relation, bound = found.groups()
     _check_output("target", output)
-    value = parse_quantity(f"target, {output}", bound, OUTPUTS[output].unit)
+    value = parse_quantity(f"target, {output}", bound, QUANTITIES[output].unit)
     if not np.isfinite(value):
         raise ParameterError(f"target, {output}", bound, "a finite number")
     return Target(" ".join(str(text).split()), output, relation, value)
 
 
 def _check_output(name: str, output: object) -> None:
-    if not isinstance(output, str) or output not in OUTPUTS:
-        raise ParameterError(name, output, f"one of {', '.join(OUTPUTS)}")
+    if not isinstance(output, str) or output not in QUANTITIES:
+        raise ParameterError(name, output, f"one of {', '.join(QUANTITIES)}")
 
 
 def _texts(name: str, given: object) -> tuple[str, ...]:
@@ -186,13 +109,6 @@ def _texts(name: str, given: object) -> tuple[str, ...]:
     return tuple(dict.fromkeys(given))
 
 
-def _check_one_point(motor: Motor, drive: Drive) -> None:
-    numbers = {**drive.numbers(), **{name: p.value for name, p in motor.parameters()}}
-    for name, value in numbers.items():
-        if np.ndim(value):
-            raise ParameterError(name, f"an array of shape {np.shape(value)}", "one number: a study is of one point")
-
-
 def tolerance(
     motor: Motor,
     drive: Drive | None = None,
@@ -202,13 +118,10 @@ def tolerance(
     outputs: Sequence[str] = ("mean_speed", "speed_volatility"),
     target: str | Sequence[str] = (),
     seed: int = 0,
-    contact: Contact = "winkler",
-    resonance: Resonance = "quartic",
-    foundation: Foundation = "harmonic",
-    amplitude: Amplitude = "measured",
     sampling_period: ArrayLike | None = None,
     tolerance: float = 1e-6,
     progress: bool = False,
+    **levels: Unpack[LevelChoice],
 ) -> Study:
     """How uncertain parameters spread the figures of an operating point, and which of them does it.
 
@@ -248,27 +161,17 @@ def tolerance(
     """
     samples, seed = check_design(samples, seed)
     drive = Drive() if drive is None else drive
-    if not isinstance(motor, Motor):
-        raise ParameterError("motor", motor, "a Motor, as load_motor returns it")
-    if not isinstance(drive, Drive):
-        raise ParameterError("drive", drive, "a Drive")
-    _check_one_point(motor, drive)
+    check_point(motor, drive)
+    check_single(numbers_of(motor, drive), "one number: a study is of one point")
     outputs = _texts("outputs", outputs)
     for output in outputs:
         _check_output("outputs", output)
     if not outputs:
-        raise ParameterError("outputs", "none", f"at least one of {', '.join(OUTPUTS)}")
+        raise ParameterError("outputs", "none", f"at least one of {', '.join(QUANTITIES)}")
     targets = tuple(map(_read_target, _texts("target", target)))
     distributions = _chosen(motor, parameters)
     sampled = {name: checked(name, given, _spec_of(name)) for name, given in distributions.items()}
-    levels = {
-        "contact": contact,
-        "resonance": resonance,
-        "foundation": foundation,
-        "amplitude": amplitude,
-        "sampling_period": sampling_period,
-    }
-    nominal = evaluate(motor, drive, **levels, tolerance=tolerance)  # type: ignore[arg-type]
+    nominal = evaluate(motor, drive, tolerance=tolerance, sampling_period=sampling_period, **levels)
     settled = []
 
     def figures(point: Mapping[str, Array]) -> dict[str, ArrayLike]:
@@ -277,11 +180,12 @@ def tolerance(
         found = evaluate(
             motor.with_values(of_motor),
             replace(drive, **of_drive),  # type: ignore[arg-type]
-            **levels,  # type: ignore[arg-type]
             tolerance=tolerance,
             progress=progress,
+            sampling_period=sampling_period,
+            **levels,
         )
-        values: dict[str, ArrayLike] = {name: np.asarray(getattr(found, name)) for name in OUTPUTS}
+        values: dict[str, ArrayLike] = {name: np.asarray(getattr(found, name)) for name in QUANTITIES}
         settled.append(np.asarray(found.converged))
         values[BALANCED] = np.isfinite(values["mean_speed"]).astype(float)
         if targets:
@@ -298,6 +202,17 @@ def tolerance(
         indicators=(BALANCED, MISSED) if targets else (BALANCED,),
     )
     shape = found.values[BALANCED].shape
+    settings = {**asdict(Levels(**levels)), "sampling_period": sampling_period}
     return Study(
-        motor, drive, levels, distributions, samples, seed, outputs, targets, nominal, found, settled[0].reshape(shape)
+        motor,
+        drive,
+        settings,
+        distributions,
+        samples,
+        seed,
+        outputs,
+        targets,
+        nominal,
+        found,
+        settled[0].reshape(shape),
     )

@@ -2,31 +2,23 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Sequence
-from importlib.metadata import version
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from trum_sym.inputs.drive import DRIVE_DOMAINS
-from trum_sym.inputs.motor import SPECS
 from trum_sym.inputs.units import parse_unit
-from trum_sym.quantities import OUTPUTS
+from trum_sym.output.json_text import json_text
+from trum_sym.quantities import QUANTITIES
 from trum_sym.uncertainty.propagation import CONFIDENCE, Estimate, Indices
-from trum_sym.uncertainty.study import BALANCED, MISSED, Study
+from trum_sym.uncertainty.result import BALANCED, MISSED, Study, unit_of
 
 if TYPE_CHECKING:
-    import xarray as xr
+    pass
 
-__all__ = ["as_dataset", "as_json_text", "as_text", "label", "shown", "unit_of"]
+__all__ = ["as_json_text", "as_text", "label", "shown"]
 
 _NAMED = 3  # points of each kind that the text names; the JSON names all
-
-
-def unit_of(name: str) -> str:
-    """The SI unit of a parameter of motor or drive."""
-    return DRIVE_DOMAINS[name][1] if name in DRIVE_DOMAINS else SPECS[name].unit
 
 
 def label(output: str) -> str:
@@ -38,7 +30,7 @@ def label(output: str) -> str:
 
 def shown(output: str, value: float) -> float:
     """A value in the unit that people read."""
-    return value / parse_unit(OUTPUTS[output].shown).to_si(1.0)
+    return value / parse_unit(QUANTITIES[output].shown).to_si(1.0)
 
 
 def _percent(share: Estimate) -> str:
@@ -90,7 +82,7 @@ def _parameters(study: Study) -> list[str]:
 def _spreads(study: Study) -> list[str]:
     rows = []
     for output in study.outputs:
-        spread, unit = study.propagation.spread(output), OUTPUTS[output].shown
+        spread, unit = study.propagation.spread(output), QUANTITIES[output].shown
         median = spread.quantiles[0.5]
         values = [getattr(study.nominal, output), spread.mean, spread.standard_deviation]
         values += [spread.quantiles[level].value for level in (0.05, 0.5, 0.95)]
@@ -210,14 +202,14 @@ def as_json_text(study: Study) -> str:
         if not study.targets
         else {**study.missing().as_dict(), "indices": _indices_record(study.propagation.indices[MISSED])},
     }
-    return json.dumps(found, indent=1, allow_nan=False)
+    return json_text(found)
 
 
 def _output_record(study: Study, output: str) -> dict[str, object]:
     spread, nominal = study.propagation.spread(output), getattr(study.nominal, output)
     return {
-        "unit": OUTPUTS[output].unit,
-        "nominal": nominal if np.isfinite(nominal) else None,
+        "unit": QUANTITIES[output].unit,
+        "nominal": nominal,
         "mean": spread.mean,
         "standard_deviation": spread.standard_deviation,
         "quantiles": [{"probability": p, **estimate.as_dict()} for p, estimate in spread.quantiles.items()],
@@ -239,44 +231,3 @@ def _indices_record(indices: Indices | None) -> dict[str, object] | None:
         "lead": indices.lead,
         "rows": indices.rows,
     }
-
-
-# --- Data ----------------------------------------------------------------------------------------
-
-
-def as_dataset(study: Study) -> xr.Dataset:
-    """Every computed point with its figures, units and settings.
-
-    Raises
-    ------
-    MissingExtraError
-        Without xarray.
-    """
-    try:
-        import xarray as xr
-    except ImportError as error:
-        from trum_sym.errors import MissingExtraError
-
-        raise MissingExtraError("a data set", str(error.name), "sweep") from None
-    dims = ("matrix", "sample")
-    found = study.propagation
-    variables: dict[str, Any] = {
-        name: (dims, values, {"units": unit_of(name)}) for name, values in found.points.items()
-    }
-    for name, output in OUTPUTS.items():
-        # an uncertain amplitude is both, and the same
-        variables[name] = (dims, found.values[name], {"units": output.unit, "long_name": output.label})
-    variables["converged"] = (dims, study.settled, {"long_name": "the orbit met its tolerance"})
-    attributes = {
-        "title": f"tolerance study of {study.motor.name}",
-        "trum_sym": version("trum-sym"),
-        "samples": study.samples,
-        "seed": study.seed,
-        "distributions": "; ".join(f"{name}: {d.describe()}" for name, d in study.distributions.items()),
-        **{f"drive_{name}": value for name, value in study.drive.numbers().items()},
-        "start": study.drive.start,
-        **{f"motor_{name}": p.value for name, p in study.motor.parameters()},
-        **{name: "" if level is None else level for name, level in study.levels.items()},
-    }
-    matrices = ["A", "B", *(f"A with {name} of B" for name in study.distributions)]
-    return xr.Dataset(variables, coords={"matrix": matrices}, attrs=attributes)

@@ -1,0 +1,154 @@
+"""A speed table: the drive against the mean speed, and what it says of itself."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+
+import numpy as np
+
+from trum_sym.errors import ParameterError
+from trum_sym.inputs.checks import Array
+from trum_sym.inputs.drive import Drive
+from trum_sym.inputs.units import ARCSEC
+
+__all__ = ["Gap", "Segment", "SpeedTable"]
+
+_ALWAYS = {"prepressure": "N", "frequency_difference": "Hz", "drive_frequency": "Hz"}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Segment:
+    """A stretch of speeds along which the drive varies continuously; arrays of one length, speeds rising.
+
+    Speeds and their standard deviation in rad/s, drive frequency in Hz; ``drive`` has what varies, in SI units.
+    """
+
+    speed: Array
+    deviation: Array
+    drive_frequency: Array
+    drive: Mapping[str, Array]
+
+
+@dataclass(frozen=True)
+class Gap:
+    """Speeds that the table does not have, rad/s, and why."""
+
+    low: float
+    high: float
+    reason: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class SpeedTable:
+    """The drive against the mean speed.
+
+    Attributes
+    ----------
+    motor : str
+    drive : Drive
+        What does not vary.
+    variables : tuple of str
+        What varies with the speed.
+    segments : tuple of Segment
+        By rising speed.
+    gaps : tuple of Gap
+        Speeds asked for that lie in no segment.
+    error : float
+        Largest difference, over the speed, between a speed and what the motor does at the drive interpolated linearly
+        for it: not above it halfway between all neighbours, where it was evaluated.
+    largest_error : float
+        The largest that was seen there.
+    floor : float
+        Speed in rad/s of which ``error`` is taken where the speed is smaller, and the accuracy of the orbits.
+    reachable : (float, float)
+        Lowest and highest mean speed on the map of the box, rad/s.
+    evaluations : int
+        Orbits computed.
+    """
+
+    motor: str
+    drive: Drive
+    variables: tuple[str, ...]
+    segments: tuple[Segment, ...]
+    gaps: tuple[Gap, ...]
+    error: float
+    largest_error: float
+    floor: float
+    reachable: tuple[float, float]
+    evaluations: int
+
+    def __len__(self) -> int:
+        return sum(segment.speed.size for segment in self.segments)
+
+    def held(self) -> str:
+        """What does not vary of prepressure and frequency difference, in words."""
+        numbers = self.drive.numbers()
+        known = {"prepressure": "N", "frequency_difference": "Hz"}
+        return ", ".join(f"{name} {numbers[name]:g} {known[name]}" for name in known if name not in self.variables)
+
+    def at(self, speed: float) -> dict[str, float]:
+        """The drive for a speed in rad/s, linear between neighbours.
+
+        Raises
+        ------
+        ParameterError
+            For a speed that lies in no segment.
+        """
+        for segment in self.segments:
+            if segment.speed[0] <= speed <= segment.speed[-1]:
+                return {name: float(np.interp(speed, segment.speed, x)) for name, x in segment.drive.items()}
+        ranges = ", ".join(f"{s.speed[0]:.6g} to {s.speed[-1]:.6g}" for s in self.segments) or "none at all"
+        raise ParameterError("speed", speed, f"a speed in a segment of the table, in rad/s: {ranges}")
+
+    def columns(self) -> dict[str, str]:
+        """The table's columns beside the speed, with units; the switching phase is one if it varies."""
+        return {**_ALWAYS, "switching_phase": "rad"} if "switching_phase" in self.variables else dict(_ALWAYS)
+
+    def values(self, segment: Segment) -> list[Array]:
+        """The columns of a segment, a value an entry."""
+        held = {**self.drive.numbers(), "drive_frequency": segment.drive_frequency}
+        size = segment.speed.size
+        return [np.asarray(np.broadcast_to(segment.drive.get(name, held[name]), size)) for name in self.columns()]
+
+    def about(self) -> list[str]:
+        """What holds for all entries, and the gaps, a line each."""
+        drive = self.drive
+        held = "" if len(self.variables) == 2 else f"{self.held()}, "
+        phase = "" if "switching_phase" in self.variables else f", switching phase {drive.switching_phase:g} rad"
+        lines = [
+            f"speed table of {self.motor}: {held}load {drive.load_torque:g} N m, {drive.on_periods:g} of "
+            f"{drive.periods:g} periods on, start {drive.start}, phase lead {drive.phase_lead:+g}" + phase,
+            f"linear interpolation between entries meets the speed within {100 * self.error:g} % "
+            f"(of {self.floor / ARCSEC:.6g} arcsec/s where it is slower); largest error seen "
+            f"{100 * self.largest_error:.3g} %",
+        ]
+        for gap in self.gaps:
+            lines.append(f"gap: {gap.low / ARCSEC:.9g} to {gap.high / ARCSEC:.9g} arcsec/s: {gap.reason}")
+        if not self.gaps:
+            lines.append("no gaps")
+        return lines
+
+    def save(self, target: str | PathLike[str], name: str = "speed table") -> None:
+        """Write a CSV file (.csv) or a C header (.h), whole or not at all.
+
+        Raises
+        ------
+        ParameterError
+            For another suffix, a table without entries, or a file that cannot be written.
+        """
+        from trum_sym.output.files import check_target, write_bytes
+        from trum_sym.studies.table_files import Rows, as_c, as_csv
+
+        path = Path(target)
+        check_target(name, path, (".csv", ".h"))
+        if not self.segments:
+            raise ParameterError(name, "a table without entries", "a range of speeds that the box has")
+        rows = [Rows(segment.speed, self.values(segment), segment.deviation) for segment in self.segments]
+        csv = path.suffix == ".csv"
+        text = (
+            as_csv(self.about(), self.columns(), rows) if csv else as_c(path.stem, self.about(), self.columns(), rows)
+        )
+        write_bytes(name, text.encode(), path)
