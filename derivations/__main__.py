@@ -1,5 +1,5 @@
 """``python -m derivations``: ``generate [--check]`` writes generated/, ``verify`` re-proves the ledger,
-``wasm [--check]`` compiles the C library for the report.
+``transcription`` compares its two copies of the print, ``wasm [--check]`` compiles the C library for the report.
 """
 
 from __future__ import annotations
@@ -48,6 +48,8 @@ def main(arguments: list[str] | None = None) -> int:
     proving.add_argument("--circular", action="store_true", help="look for checks of a thing against itself")
     proving.add_argument("--write", action="store_true", help="write generated/ledger.json and ledger.html")
     proving.add_argument("--check", action="store_true", help="change nothing; exit 1 if those two are stale")
+    copies = commands.add_parser("transcription", help="compare both transcriptions of the paper's equations")
+    copies.add_argument("--mutants", action="store_true", help="change 200 characters, one at a time: is each noticed?")
     module = commands.add_parser("wasm", help="compile the C library for the report's interactive part")
     module.add_argument("--check", action="store_true", help="change nothing, need no compiler; exit 1 if it is stale")
     options = parser.parse_args(arguments)
@@ -57,8 +59,10 @@ def main(arguments: list[str] | None = None) -> int:
         return command(options.check)
     if options.command == "generate":
         return _generate(options.check)
-    from derivations.ledger.command import verify
+    from derivations.ledger.command import transcription, verify
 
+    if options.command == "transcription":
+        return transcription(mutants=options.mutants)
     return verify(
         options.equation, json_=options.json, mutants=options.mutants, write=options.write, check=options.check,
         effects=options.effects, circular=options.circular,

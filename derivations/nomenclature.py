@@ -191,8 +191,8 @@ A_ell       | m^2      | r | A_{ell} | eq. 23 | coefficient of zeta_x^2 in the c
 B_ell       | m^2      | r | B_{ell} | eq. 23 | coefficient of zeta_x zeta_z in the conic
 C_ell       | m^2      | r | C_{ell} | eq. 23 | coefficient of zeta_z^2 in the conic
 F_ell       | m^4      | r | F_{ell} | eq. 23 | right side of the conic
-p_A         | 1        | r | P_{Aredu}/W_{maxf} | eq. 23 | modal response of phase A over W_maxf, in T_redu
-p_B         | 1        | r | P_{Bredu}/W_{maxf} | eq. 23 | modal response of phase B over W_maxf, in T_redu
+p_A         | 1        | r | P_{Aredu} | eq. 23 | modal response of phase A in T_redu, printed without W_maxf
+p_B         | 1        | r | P_{Bredu} | eq. 23 | modal response of phase B in T_redu, printed without W_maxf
 P_A         | m        | r | P_A | eq. 23 | modal response of phase A
 P_B         | m        | r | P_B | eq. 23 | modal response of phase B
 rho_k       | m        | + | \rho_k | eq. 25 | equivalent curvature diameter of the crest

@@ -341,7 +341,8 @@ def _judge_a8(forms: Forms) -> Iterator[Evidence]:
             most = worse(most, abs(evaluate(forms["Q_q"] - _exact(), point)) / scale)
         return _share(), float(most)
 
-    yield error_size("Q_q, in D k_c W_a W_b times the mean frequency,", sizes, 0.12)
+    yield error_size("Q_q, in D k_c W_a W_b times the mean frequency,", sizes, "equal frequencies",
+                     lambda: _share() / 100)  # fmt: skip
     same = forms["Q_q"].subs({omega_b: omega_a})
     yield evidence("limit", vanishes(same - _exact().subs(omega_b, omega_a)), "exact for equal frequencies")
     average = sp.integrate(sp.expand_trig(sp.sin(omega_a * t)), (t, 0, 2 * sp.pi / omega_a))

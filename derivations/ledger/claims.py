@@ -283,7 +283,12 @@ def _judge_power(forms: Forms) -> Iterator[Evidence]:
         grid = [stated / _power_at(W, force) - 1 for W in np.linspace(3e-6, 9e-6, 7) for force in (100, 160, 220)]
         return stated / _power_at(p["W"], p["F_c"]) - 1, largest(abs(g) for g in grid)
 
-    yield error_size("the power of the speed, W from 3 to 9 um and 100 to 220 N,", sizes, 0.03)
+    def narrow() -> float:
+        return float(forms["power_of_W"]) / _power_at(p["W"], p["F_c"] / 100) - 1
+
+    yield error_size(
+        "the power of the speed, W from 3 to 9 um and 100 to 220 N,", sizes, "a narrow contact, F_c -> 0", narrow
+    )
 
 
 def _effect_power() -> str:
@@ -390,9 +395,11 @@ def _judge_constant(forms: Forms) -> Iterator[Evidence]:
     stated = float(forms["T_over_T"])
     over_f, over_p = (_period(180, 3300) / _period(180, 2800), _period(210, 3000) / _period(160, 3000))
     worst = largest(abs(stated / found - 1) for found in (over_f, over_p))
-    yield evidence(
-        "error_size", worst < 0.02, f"T at 3300 over 2800 Hz is {over_f:.5f}, at 210 over 160 N {over_p:.5f}"
-    )
+    closer = stated / (_period(180, 2805) / _period(180, 2800)) - 1
+    yield error_size(
+        f"T (at 3300 over 2800 Hz {over_f:.5f}, at 210 over 160 N {over_p:.5f})",
+        lambda: (float(worst), float(worst)), "a narrow range of frequency differences", lambda: float(closer),
+    )  # fmt: skip
     yield evidence("limit", stated == 1, "no change of the drive, no change of T")
 
 

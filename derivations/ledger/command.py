@@ -15,10 +15,12 @@ from derivations.codegen.emit import GENERATED
 from derivations.ledger import ENTRIES, entry
 from derivations.ledger.model import Entry, confirm
 from derivations.ledger.mutate import MUTATED, Outcome, try_misreadings, try_mutants
+from derivations.ledger.referee import review
 from derivations.ledger.report import record
+from derivations.ledger.transcription import copy_of, differences, load
 from trum_sym.paper.ledger import table, written_out
 
-__all__ = ["as_json", "check_mutants", "prove", "verify"]
+__all__ = ["as_json", "check_mutants", "prove", "transcription", "verify"]
 
 
 def _progress(text: str) -> None:
@@ -31,8 +33,9 @@ def prove(entries: tuple[Entry, ...]) -> list[dict[str, Any]]:
     for number, candidate in enumerate(entries, 1):
         start = time.perf_counter()
         result = confirm(candidate)
-        records.append(record(result))
-        state = "confirmed" if result.confirmed else "NOT CONFIRMED: " + "; ".join(result.problems)
+        records.append(record(result, review(result)))
+        problems = records[-1]["problems"]
+        state = "NOT CONFIRMED: " + "; ".join(problems) if problems else "confirmed"
         line = f"[{number}/{len(entries)}] ({candidate.id}) {candidate.verdict}: {state}"
         _progress(f"{line}, {time.perf_counter() - start:.1f} s")
     return records
@@ -180,3 +183,25 @@ def verify(
         print(f"\n{len(records)} entries, {len(records) - failed} confirmed, {failed} not confirmed")
     outputs = _write(records, check) if equation is None and (write or check) else 0
     return 0 if outputs == 0 and all(r["confirmed"] for r in records) else 1
+
+
+def transcription(*, mutants: bool) -> int:
+    """Compare both transcriptions of every entry, or see what changing a character does; 1 if something is amiss."""
+    if mutants:
+        from derivations.ledger.copy_mutants import copy_mutants, tally
+
+        changed = list(copy_mutants())
+        print(tally(changed))
+        for mutant in changed:
+            if not mutant.noticed:
+                print(f"not noticed: {mutant.where}, {mutant.old!r} to {mutant.new!r}")
+        return 0 if all(mutant.noticed for mutant in changed) else 1
+    found = [line for candidate in ENTRIES for line in differences(candidate)]
+    for line in found:
+        print(line)
+    quotes = [quote for block in load().values() for quote in block["quote"]]
+    forms = sum(len(candidate.printed) for candidate in ENTRIES if candidate.id in load())
+    doubtful = [candidate.id for candidate in ENTRIES if copy_of(candidate).word == "doubtful"]
+    print(f"{len(load())} entries, {len(quotes)} lines quoted, {forms} forms twice: {len(found)} differences")
+    print(f"the copy is doubtful in {len(doubtful)}: {', '.join(doubtful)}")
+    return 1 if found else 0

@@ -12,10 +12,10 @@ from latex2mathml.converter import convert
 from derivations.ledger.model import Entry
 from derivations.ledger.pictures import svg
 from derivations.nomenclature import CLASHES, NOMENCLATURE
+from trum_sym.paper.ledger import SEVERITIES, VERDICTS, counted
 
 __all__ = ["page"]
 
-VERDICTS = ("verified", "approximation", "erratum", "definition", "reconstructed", "empirical")
 
 _STYLE = """
 :root { color-scheme: light dark; --page: #fff; --ink: #1b1f24; --soft: #57606a; --line: #d0d7de; --wash: #f6f8fa;
@@ -58,19 +58,20 @@ td, th { border: 1px solid var(--line); padding: .15rem .5rem; text-align: left;
 _SCRIPT = """
 const entries = [...document.querySelectorAll('article')], box = document.querySelector('#search');
 const buttons = [...document.querySelectorAll('.bar button')], shown = document.querySelector('#shown');
-let verdict = 'all';
+let chosen = 'all';
 function refresh() {
   const words = box.value.toLowerCase().split(/\\s+/).filter(Boolean);
   let count = 0;
   for (const e of entries) {
     const text = e.dataset.words;
-    e.hidden = !((verdict === 'all' || e.dataset.verdict === verdict) && words.every(w => text.includes(w)));
+    const kinds = [e.dataset.verdict, e.dataset.severity, e.dataset.copy];
+    e.hidden = !((chosen === 'all' || kinds.includes(chosen)) && words.every(w => text.includes(w)));
     count += !e.hidden;
   }
   shown.textContent = count + ' of ' + entries.length;
 }
 for (const b of buttons) b.addEventListener('click', () => {
-  verdict = b.dataset.verdict;
+  chosen = b.dataset.kind;
   for (const other of buttons) other.setAttribute('aria-pressed', other === b);
   refresh();
 });
@@ -151,19 +152,53 @@ def _computed_with(conditions: dict[str, str] | None) -> str:
     return f'<p class="place">Computed with {_prose(listed)}.</p>'
 
 
+def _tags(r: dict[str, Any]) -> str:
+    """How bad, and whether the copy of the text is doubtful."""
+    words = [r["severity"]] + (["doubtful copy"] if r["copy"] == "doubtful" else [])
+    return "".join(f'<span class="tag">{escape(word)}</span>' for word in words if word)
+
+
+def _sureness(r: dict[str, Any]) -> str:
+    """Severity and sureness in sentences, with both outcomes where the verdict hangs on a doubtful sign."""
+    said = []
+    if r["severity"]:
+        said.append(f"<p><b>Severity.</b> {escape(r['severity'].capitalize())}: {_prose(r['severity_detail'])}.</p>")
+    elif r["conditional"]:
+        said.append("<p><b>Conditional.</b> Judged against the reconstruction of the supplement that is missing.</p>")
+    if r["copy"] == "doubtful":
+        items = [
+            f"<li>{_prose(o['what'])}: <b>{escape(o['verdict'])}</b>; {_prose(o['detail'])}</li>"
+            for o in r["other_readings"]
+        ]
+        outcome = f"<ul>{''.join(items)}</ul>" if items else " The verdict does not hang on it."
+        said.append(f"<div><b>Copy.</b> What it may have lost: {_prose(r['copy_doubt'])}.{outcome}</div>")
+    return "".join(said)
+
+
 def _article(r: dict[str, Any], picture: str) -> str:
-    words = " ".join([r["id"], _label(r["id"]), r["title"], r["reason"], r["effect"], r["place"], r["verdict"]]).lower()
+    said = (
+        r["id"],
+        _label(r["id"]),
+        r["title"],
+        r["reason"],
+        r["effect"],
+        r["place"],
+        r["verdict"],
+        r["severity"] or "",
+    )
+    words = " ".join(said).lower()
     corrected = {"erratum": "put right", "reconstructed": "reconstructed"}.get(r["verdict"], "derived")
     found_by = f"<p>Found by: {escape(', '.join(r['found_by']).replace('_', ' '))}.</p>" if r["found_by"] else ""
     figure = f"<figure>{picture}</figure>" if picture else ""
     return (
-        f'<article id="{escape(anchor(r["id"]))}" data-verdict="{r["verdict"]}" data-words="{escape(words)}">'
+        f'<article id="{escape(anchor(r["id"]))}" data-verdict="{r["verdict"]}" data-severity="{r["severity"] or ""}" '
+        f'data-copy="{r["copy"]}" data-words="{escape(words)}">'
         f'<h2><a href="#{escape(anchor(r["id"]))}">{escape(_label(r["id"]))}</a> {_prose(r["title"])}'
-        f'<span class="tag {r["verdict"]}">{r["verdict"]}</span></h2>'
+        f'<span class="tag {r["verdict"]}">{r["verdict"]}</span>{_tags(r)}</h2>'
         f'<p class="place">{escape(r["place"])}</p><p>{_prose(r["reason"])}</p>{found_by}'
         f'<div class="pair">{_formulas("printed", r["printed_latex"])}'
         f"{_formulas(corrected, r['derived_latex'])}</div>"
-        f"<p><b>Effect.</b> {_prose(r['effect'])}</p>{_computed_with(r['effect_at'])}{figure}"
+        f"{_sureness(r)}<p><b>Effect.</b> {_prose(r['effect'])}</p>{_computed_with(r['effect_at'])}{figure}"
         f"<details open><summary>Derivation</summary>{_steps(r['steps'])}</details>"
         f"<details><summary>Evidence</summary>{_evidence(r['evidence'])}</details></article>"
     )
@@ -191,10 +226,15 @@ def _nomenclature() -> str:
 def page(records: list[dict[str, Any]], entries: Iterable[Entry]) -> str:
     """The page of a whole ledger."""
     pictures = {e.id: svg(e.picture(), anchor(e.id)) for e in entries if e.picture is not None}
-    counts = {v: sum(r["verdict"] == v for r in records) for v in VERDICTS}
-    buttons = f'<button data-verdict="all" aria-pressed="true">all {len(records)}</button>' + "".join(
-        f'<button data-verdict="{v}" aria-pressed="false">{v} {counts[v]}</button>' for v in VERDICTS
+    kinds = {
+        **{v: sum(r["verdict"] == v for r in records) for v in VERDICTS},
+        **{s: sum(r["severity"] == s for r in records) for s in SEVERITIES},
+        "doubtful": sum(r["copy"] == "doubtful" for r in records),
+    }
+    buttons = f'<button data-kind="all" aria-pressed="true">all {len(records)}</button>' + "".join(
+        f'<button data-kind="{kind}" aria-pressed="false">{kind} {count}</button>' for kind, count in kinds.items()
     )
+    counts = "; ".join(counted(records).splitlines())
     index = "".join(
         f'<a class="{r["verdict"]}" href="#{escape(anchor(r["id"]))}">{escape(r["id"])}</a>' for r in records
     )
@@ -207,7 +247,10 @@ def page(records: list[dict[str, Any]], entries: Iterable[Entry]) -> str:
         "304), the definitions between them, its tables and statements: what is printed, what follows from first "
         "principles, the verdict, the evidence, and what the difference does to TRUM-60 at the operating point of "
         "Table 3 (180 N, 3000 Hz, 14 of 20 pulses). A tick marks a step or finding that is checked by machine each "
-        "time this page is made.</p></header>"
+        f"time this page is made.</p><p>{escape(counts)}. An erratum is typographical if no figure changes, "
+        "conditional if it is judged against our reconstruction of the supplement, structural if no change of a few "
+        "signs mends it, else quantitative. A copy is doubtful where the text at hand may have lost a "
+        "sign.</p></header>"
         f'<div class="bar">{buttons}<input id="search" type="search" placeholder="search" aria-label="search">'
         f'<span id="shown"></span></div><nav class="index">{index}</nav>\n{articles}\n{_nomenclature()}'
         f"<script>{_SCRIPT}</script></body></html>\n"

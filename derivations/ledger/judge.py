@@ -16,7 +16,7 @@ import sympy as sp
 
 from derivations.ledger.algebra import difference, vanishes
 from derivations.ledger.figures import figure
-from derivations.ledger.model import WORKING_DIGITS, Evidence, Forms, Kind
+from derivations.ledger.model import APPROXIMATION_LIMIT, WORKING_DIGITS, Evidence, Forms, Kind
 from trum_sym.inputs.motor import Motor
 
 __all__ = [
@@ -171,8 +171,26 @@ def agrees(
     return Evidence(kind, True, f"equals {against} at {count} random points, {digits}: {', '.join(forms)}")
 
 
-def error_size(name: str, relative: Callable[[], tuple[float, float]], limit: float) -> Evidence:
-    """The relative error of an approximation, at the operating point and at most over the domain."""
+def error_size(
+    name: str, relative: Callable[[], tuple[float, float]], limit: str, closer: Callable[[], float]
+) -> Evidence:
+    """The relative error of an approximation, by the one rule for all of them.
+
+    Parameters
+    ----------
+    name : str
+        What is off: the figure that the paper computes from the form.
+    relative : callable
+        Its error at the operating point, and at most over the domain (for information).
+    limit, closer
+        In which limit the error vanishes, and what is left of it a hundred times closer to that limit.
+    """
     there, most = relative()
-    detail = f"{name} is off by {100 * there:+.3g} % at the operating point, {100 * most:.3g} % at most over the domain"
-    return Evidence("error_size", abs(there) <= limit and abs(most) <= limit, f"{detail}; allowed {100 * limit:g} %")
+    left = closer()
+    ok = abs(there) <= APPROXIMATION_LIMIT and abs(left) <= abs(there) / 10
+    detail = (
+        f"{name} is off by {100 * there:+.3g} % at the operating point, {100 * most:.3g} % at most over the domain; it "
+        f"vanishes for {limit}: {100 * left:+.2g} % a hundred times closer; allowed {100 * APPROXIMATION_LIMIT:g} % at "
+        "the point"
+    )
+    return Evidence("error_size", ok, detail, float(there))

@@ -22,8 +22,8 @@ from derivations.ledger.figures import Figure, recorded
 from trum_sym.inputs.units import Dimension, parse_unit
 
 __all__ = [
-    "Derivation", "Entry", "Evidence", "Forms", "Kind", "Picture", "Result", "Step", "Verdict", "confirm", "evidence",
-    "step",
+    "APPROXIMATION_LIMIT", "Derivation", "Entry", "Evidence", "Forms", "Kind", "Picture", "Result", "Step", "Verdict",
+    "confirm", "evidence", "step",
 ]  # fmt: skip
 
 Verdict = Literal["verified", "approximation", "erratum", "definition", "reconstructed", "empirical"]
@@ -41,6 +41,17 @@ class Evidence:
     kind: Kind
     ok: bool
     detail: str
+    size: float | None = None  # of kind error_size: the relative error at Table 3's point
+
+
+APPROXIMATION_LIMIT = 0.2
+"""What an approximation may be off by at Table 3's point, and an erratum may not.
+
+One rule parts the two.  A printed form that is not exact is an approximation if it is free of other faults (its
+dimensions agree, every case is covered), its error vanishes in a stated limit of the parameters, and at Table 3's
+point the figure that the paper computes from it is off by a fifth at most.  Else it is an erratum.  A fifth, because
+no figure from Table 1 is known better: its E, G and mu contradict each other by that much (entry table-1-isotropy).
+"""
 
 
 @dataclass(frozen=True)
@@ -99,6 +110,9 @@ class Entry:
         The kinds of evidence that fail on the printed forms: exactly these.
     known : mapping
         Dimensions of symbols and functions that are not in the nomenclature.
+    size : callable, optional
+        What is off at Table 3's point and by how much, relative, where the values of the forms there do not say it
+        (:mod:`derivations.ledger.severity`).
     """
 
     id: str
@@ -116,6 +130,7 @@ class Entry:
     found_by: tuple[Kind, ...] = ()
     known: Mapping[sp.Basic, Dimension] = field(default_factory=dict)
     picture: Callable[[], Picture] | None = None
+    size: Callable[[], tuple[str, float]] | None = None
 
     def evidence(self, forms: Forms) -> Iterator[Evidence]:
         """Evidence on any forms: dimensions, then the judge's; forms it cannot evaluate speak against themselves."""
@@ -236,6 +251,15 @@ def _passing(found: tuple[Evidence, ...], required: set[str]) -> list[str]:
 _REQUIRED: dict[str, set[str]] = {"approximation": {"error_size"}, "empirical": {"data"}}
 
 
+def _too_coarse(found: tuple[Evidence, ...]) -> list[str]:
+    """What the rule of :data:`APPROXIMATION_LIMIT` says against an approximation; the limit is in its evidence."""
+    sizes = [e.size for e in found if e.kind == "error_size" and e.size is not None]
+    if not sizes:
+        return ["an approximation states the size of its error at Table 3's point"]
+    off = max(abs(size) for size in sizes)
+    return [f"off by {100 * off:.3g} % at Table 3's point: an erratum"] if off > APPROXIMATION_LIMIT else []
+
+
 def confirm(entry: Entry) -> Result:
     """Hold an entry's stated verdict against its evidence, at 45 digits; see :func:`_confirm` for the rules."""
     with mp.workdps(WORKING_DIGITS):
@@ -246,7 +270,7 @@ def _confirm(entry: Entry) -> Result:
     """Run derivation, judge and rules of an entry.
 
     verified, definition : every evidence on the printed forms speaks for them, of two kinds at least
-    approximation        : the same, and the size of the error is among it
+    approximation        : the same, and the size of the error is among it, small enough and vanishing in a limit
     empirical            : the same, and data are among it
     erratum              : the printed forms fail by exactly the kinds stated, the derived ones and the
                            repaired print pass, by two kinds at least
@@ -265,6 +289,7 @@ def _confirm(entry: Entry) -> Result:
         problems += _passing(corrected, set())
     else:
         problems += _passing(printed, _REQUIRED.get(entry.verdict, set()))
+        problems += _too_coarse(printed) if entry.verdict == "approximation" else []
     if not derivation.steps:
         problems.append("has no derivation")
     with recorded() as figures:

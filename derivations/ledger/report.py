@@ -10,6 +10,7 @@ import sympy as sp
 from derivations.ledger.assumptions import assumptions_of
 from derivations.ledger.conditions import effect_at
 from derivations.ledger.model import Evidence, Forms, Result
+from derivations.ledger.referee import Review
 from derivations.nomenclature import NOMENCLATURE, latex
 
 __all__ = ["forms_latex", "record"]
@@ -33,9 +34,9 @@ def _evidence(found: Iterable[Evidence], about: str) -> list[dict[str, Any]]:
     return [{"about": about, "kind": e.kind, "ok": e.ok, "detail": e.detail} for e in found]
 
 
-def record(result: Result) -> dict[str, Any]:
+def record(result: Result, review: Review) -> dict[str, Any]:
     """What ``verify --json`` and ledger.json say of an entry."""
-    entry = result.entry
+    entry, weight, problems = result.entry, review.severity, [*result.problems, *review.problems]
     about = "reconstructed" if entry.verdict == "reconstructed" else "corrected"
     return {
         "id": entry.id,
@@ -52,8 +53,16 @@ def record(result: Result) -> dict[str, Any]:
         "assumptions": assumptions_of(entry.id),
         "place": entry.place,
         "found_by": list(entry.found_by),
-        "confirmed": result.confirmed,
-        "problems": list(result.problems),
+        "confirmed": not problems,
+        "problems": problems,
+        "severity": weight.word if weight else None,
+        "severity_detail": weight.why if weight else None,
+        "size": float(f"{weight.size:.3g}") if weight and weight.size is not None else None,
+        "conditional": review.conditional,
+        "copy": review.copy.word,
+        "copy_doubt": review.copy.doubt or None,
+        "copy_lines": list(review.copy.lines),
+        "other_readings": [{"what": r.what, "verdict": r.verdict, "detail": r.detail} for r in review.readings],
         "evidence": _evidence(result.printed, "printed") + _evidence(result.corrected, about),
         "steps": [
             {"text": s.text, "latex": [latex(shown) for shown in s.shows], "holds": s.holds}

@@ -147,6 +147,14 @@ def _effect_7() -> str:
     )
 
 
+def _size_7() -> tuple[str, float]:
+    """Off the derived amplitude with Table 1's R, 60 mm, as the paper puts it in."""
+    q = dict(operating_point())
+    q["A_p"] = q["b_p"] * q["h_p"]
+    printed, right = at_point(resolved(_EQ7)["W_max"].subs(R, 2 * R), q), at_point(amplitude.forced(), q)
+    return "W_max", float(abs(printed) / abs(right) - 1)
+
+
 # --- (8) ----------------------------------------------------------------------------------------------------
 TABLE_2 = {100: 8.3, 120: 7.3, 140: 6.6, 160: 6.0, 180: 5.5, 200: 5.2, 220: 4.8}  # prepressure N: amplitude um
 _EQ8: Forms = {"W_maxf": C_f * (F_c / N_1) ** (-varsigma) * W_max}
@@ -231,7 +239,8 @@ ENTRIES = (
         reason="The dimensions agree, but the modal mass is the ceramic's alone (A_p rho_p), the lever arm D/2 is not "
                "the ceramic's, the section's rotation is taken as the slope, d31's sign is kept in an amplitude, and "
                "lambda = pi R/9 needs the diameter where k_c = n_j/R needs the radius.",
-        judge=_judge_7, derive=_derive_7, effect=_effect_7, repair=_repair_7, found_by=("numeric", "identity"),
+        judge=_judge_7, derive=_derive_7, effect=_effect_7, repair=_repair_7, size=_size_7,
+        found_by=("numeric", "identity"),
     ),
     Entry(
         id="8", section="2.3", title="Amplitude under prepressure", place="Sect. 2.3, constants in Sect. 7.1",

@@ -252,6 +252,12 @@ def _effect_5() -> str:
     )
 
 
+def _size_5() -> tuple[str, float]:
+    q = dict(operating_point())
+    full = at_point(beam.resonance()["quartic"], q)
+    return "the resonance", float(at_point(beam.resonance()["quartic"], dict(q, k_f=q["k_dx"])) / full - 1)
+
+
 # --- k_dx below (5) -----------------------------------------------------------------------------------------
 _KDX: Forms = {"k_dx": 2 * n_j * x_m * E_m * b_m / h_m}
 
@@ -408,7 +414,7 @@ ENTRIES = (
         reason="k_ds (below it k_dx) is a stiffness in N/m where one per length, N/m^2, is needed, and eliminating "
                "theta with a foundation leaves two more terms, in w_tt and w_xx. The coefficients a_1 to a_4 are "
                "right.",
-        judge=_judge_5, derive=_derive_5, effect=_effect_5, repair=_repair_5,
+        judge=_judge_5, derive=_derive_5, effect=_effect_5, repair=_repair_5, size=_size_5,
         found_by=("dimension", "numeric", "identity"),
     ),
     Entry(

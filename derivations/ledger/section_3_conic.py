@@ -9,14 +9,18 @@ import sympy as sp
 
 from derivations import ellipse
 from derivations.ledger.exact import at_table_3, crest_states
-from derivations.ledger.judge import evaluate, figure, largest, vanishes
+from derivations.ledger.judge import agrees, evaluate, figure, largest, vanishes
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
 from derivations.ledger.operating import operating_point
+from derivations.ledger.regions import rows
+from derivations.ledger.section_3_phases import EQ9, corrected_10
 from derivations.nomenclature import sym
 
 __all__ = ["ENTRIES"]
 
 x, k_c, D, W_maxf, zeta_z, zeta_x = sym("x k_c D W_maxf zeta_z zeta_x")
+t, t_1, t_2, xi, omega_n, omega_q = sym("t t_1 t_2 xi omega_n omega_q")
+w_A, w_B, varphi_Aredu = sym("w_A w_B varphi_Aredu")
 
 # --- (23) ---------------------------------------------------------------------------------------------------
 P_A, P_B, p_A, p_B, A_ell, B_ell, C_ell, F_ell = sym("P_A P_B p_A p_B A_ell B_ell C_ell F_ell")
@@ -29,9 +33,16 @@ _EQ23: Forms = {
     "C_ell": P_B**2,
     "F_ell_redu": ((p_A**2 + p_B**2) * sp.cos(k_c * x)) ** 2,
     "F_ell": ((P_A**2 + P_B**2) * sp.cos(k_c * x)) ** 2,
-}
+    "p_A": sp.exp(-xi * omega_n * (t - t_1)) * sp.sin(omega_n * (t - t_1) + sp.pi / 2, evaluate=False),
+    "p_B": sp.cos(omega_q * (t - t_1) + sp.pi / 2, evaluate=False),
+    "P_A": w_A,
+    "P_B_addredu": W_maxf * sp.exp(-xi * omega_n * (t - t_2))
+    * sp.cos(omega_n * (t - t_2) + sp.pi / 2, evaluate=False),
+    "P_B_add": w_B,
+}  # fmt: skip
 _PER_SQUARE = {"A_ell_redu": "1/m^2", "B_ell_redu": "1/m^2", "C_ell_redu": "1/m^2", "F_ell_redu": "1"}
-_UNITS_23 = {"A_ell": "m^2", "B_ell": "m^2", "C_ell": "m^2", "F_ell": "m^4", **_PER_SQUARE}
+_UNITS_23 = {"A_ell": "m^2", "B_ell": "m^2", "C_ell": "m^2", "F_ell": "m^4", **_PER_SQUARE,
+             "p_A": "1", "p_B": "1", "P_A": "m", "P_B_addredu": "m", "P_B_add": "m"}  # fmt: skip
 
 
 def _corrected_23() -> Forms:
@@ -42,7 +53,15 @@ def _corrected_23() -> Forms:
     free_of_W = {P_A: p_A * W_maxf, P_B: p_B * W_maxf}
     redu = {f"{name}_redu": sp.factor(form.subs(free_of_W) / W_maxf**4) for name, form in whole.items()}
     conic = sp.Eq(A_ell * zeta_x**2 + C_ell * zeta_z**2 + B_ell * zeta_x * zeta_z, F_ell)
-    return {"conic": conic, **dict(sorted({**whole, **redu}.items(), key=lambda item: (item[0][0], -len(item[0]))))}
+    responses = {**_responses(), "P_A": w_A, "P_B_add": w_B}
+    coefficients = dict(sorted({**whole, **redu}.items(), key=lambda item: (item[0][0], -len(item[0]))))
+    return {"conic": conic, **coefficients, **responses}
+
+
+def _responses() -> Forms:
+    """The two phases' responses by (9) and (10) put right, the first ones over W_maxf."""
+    of_A, (on, off, _) = rows(EQ9["w_A"])[0].subs(varphi_Aredu, sp.pi / 2), rows(corrected_10()["w_B"])
+    return {"p_A": of_A / W_maxf, "p_B": on / W_maxf, "P_B_addredu": off}
 
 
 def _derive_23() -> Derivation:
@@ -101,7 +120,14 @@ def _off_the_conic(forms: Forms, state: dict[str, mp.mpf], redu: bool) -> mp.mpf
     return abs(off) / (a**2 + b**2) ** 2 * (W**4 if redu else 1)
 
 
+_WIDE = {"t": (3e-4, 6e-4), "t_1": (0.0, 1e-6), "t_2": (1e-4, 2e-4), "W_maxf": (4e-6, 7e-6)}
+
+
 def _judge_23(forms: Forms) -> Iterator[Evidence]:
+    derived = _responses()
+    yield agrees({name: forms[name] for name in derived}, derived, ranges=_WIDE, tolerance=1e-20,
+                 against="(9) and (10) put right")  # fmt: skip
+    yield evidence("identity", forms["P_A"] == w_A and forms["P_B_add"] == w_B, "elsewhere they are the responses")
     off = largest(_off_the_conic(forms, s, redu) for s in crest_states(8, "eq23") for redu in (False, True))
     yield evidence("numeric", off < mp.mpf(10) ** -20,
                    f"the particle is off the conic by {mp.nstr(off, 3)} of the fourth power of its amplitude at "
@@ -111,10 +137,11 @@ def _judge_23(forms: Forms) -> Iterator[Evidence]:
 
 
 def _repair_23(forms: Forms) -> Forms:
-    """zeta_z^2 for the second zeta_x^2, and W_maxf once more in B_ell's first row."""
+    """zeta_z^2 for the second zeta_x^2, W_maxf once more in B_ell's first row, B's amplitude from (10) put right."""
     conic = forms["conic"]
     left = conic.lhs - C_ell * zeta_x**2 + C_ell * zeta_z**2
-    return {**forms, "conic": sp.Eq(left, conic.rhs), "B_ell_redu": forms["B_ell_redu"] / W_maxf}
+    return {**forms, "conic": sp.Eq(left, conic.rhs), "B_ell_redu": forms["B_ell_redu"] / W_maxf,
+            "P_B_addredu": forms["P_B_addredu"] * omega_q / omega_n}  # fmt: skip
 
 
 def _effect_23() -> str:
@@ -136,7 +163,8 @@ ENTRIES = (
         id="23", section="3.5", title="Conic of the particle's path", place="Sect. 3.5",
         printed=_EQ23, units=_UNITS_23, verdict="erratum",
         reason="zeta_x^2 stands twice, zeta_z^2 is missing; in T_redu, whose P are free of W_maxf, B_ell needs its "
-               "square. Put right it holds at every instant, but as the square of a straight line, not as an ellipse. "
+               "square; P_B in T_addredu has (10)'s amplitude, and is called P_Bredu there. Put right it holds at "
+               "every instant, but as the square of a straight line, not as an ellipse. "
                "The text at hand has no row of A_ell for T_redu; the other rows ask for (P_Aredu/(W_maxf D k_c))^2.",
         judge=_judge_23, derive=_derive_23, effect=_effect_23, repair=_repair_23, found_by=("dimension", "numeric"),
     ),

@@ -36,6 +36,7 @@ _EQ20: Forms = {
     "x_max": sp.Piecewise(
         (sp.atan(w_A / w_B) / k_c, sp.Ge(sp.cos(k_c * x), 0)),
         ((sp.atan(w_A / w_B) + sp.pi) / k_c, sp.Lt(sp.cos(k_c * x), 0)),
+        evaluate=False,
     )
 }
 

@@ -10,7 +10,7 @@ import sympy as sp
 from derivations import phases, supplement
 from derivations.ledger.course import Quantity
 from derivations.ledger.exact import REGIONS, Cycle, at_table_3
-from derivations.ledger.judge import figure, largest, worse
+from derivations.ledger.judge import error_size, figure, largest, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, Picture, evidence, step
 from derivations.ledger.regions import (
     anywhere,
@@ -127,6 +127,16 @@ def _judge_response(name: str, phase: str) -> Callable[[Forms], Iterator[Evidenc
         yield evidence("error_size", largest(found.values()) < LIMIT,
                        f"off the response chained as complex exponentials, in W, by {shares(found)}; allowed 1 "
                        "%")  # fmt: skip
+        if phase == "A":  # (9) takes omega_n for omega_d; (10) does too, but has worse faults
+
+            def off(cycle: Cycle) -> float:
+                error = _response_error(form, phase)
+                return float(largest(error(cycle, region, u) for region in REGIONS for u in cycle.times(region, 4)))
+
+            damped = at_table_3()
+            undamped = Cycle({**damped.values, "xi": damped["xi"] / 100})
+            most = float(largest(found.values()))
+            yield error_size("w_A, in W,", lambda: (off(damped), most), "small damping, xi -> 0", lambda: off(undamped))
         jump = _jumps(form, phase)
         yield evidence("continuity", jump < LIMIT,
                        f"displacement and velocity jump by {mp.nstr(100 * jump, 3)} % at most at t_1, t_2, "

@@ -14,8 +14,8 @@ from derivations.ledger.exact import REGIONS, Cycle, vertical_displacement
 from derivations.ledger.history import Array, History, values
 from derivations.ledger.judge import agrees, error_size, evaluate, figure, largest, points, vanishes
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
-from derivations.ledger.operating import DRIVE, operating_point, stator
-from derivations.ledger.regions import by_region, context, largest_in, over_time, row_value, rows, worst
+from derivations.ledger.operating import DRIVE, at_point, operating_point, stator
+from derivations.ledger.regions import anywhere, by_region, context, largest_in, over_time, row_value, rows, worst
 from derivations.ledger.section_3_phases import EQ9, corrected_10
 from derivations.nomenclature import sym
 
@@ -23,7 +23,7 @@ __all__ = ["ENTRIES", "EQ11"]
 
 x, t, D, k_c, beta, W, omega_n, omega_q, xi = sym("x t D k_c beta W omega_n omega_q xi")
 w_A, w_B, zeta_z, W_maxf = sym("w_A w_B zeta_z W_maxf")
-v_x, A_v, Psi_v, M_a, M_b = sym("v_x A_v Psi_v M_a M_b")
+v_x, A_v, Psi_v, M_a, M_b, N_a, N_b = sym("v_x A_v Psi_v M_a M_b N_a N_b")
 t_1, t_2, t_3, varphi_Aredu = sym("t_1 t_2 t_3 varphi_Aredu")
 A_AB, Theta_A, Psi_A, varphi_A = sym("A_ABaddredu Theta_Baddredu Psi_Aaddredu varphi_Baddredu")
 A_Badd, Theta_B, Psi_B, varphi_B = sym("A_Badd Theta_Badd Psi_Badd varphi_Badd")
@@ -79,7 +79,14 @@ def _judge_11(forms: Forms) -> Iterator[Evidence]:
         around = points(sorted(ratio.free_symbols, key=lambda s: s.name), 8, "eq11")
         return float(there), float(largest(abs(evaluate(ratio, p) - 1) for p in around))
 
-    yield error_size("zeta_x, by taking the slope for the rotation,", sizes, 0.6)
+    def slender() -> float:
+        q = dict(operating_point())
+        q |= {"k_c": q["k_c"] / 100, "k_f": mp.mpf(0)}  # a free beam, at its own frequency
+        q["omega_n"] = at_point(beam.resonance()["quartic"], q)
+        return float(q["k_c"] / at_point(beam.rotation_ratio(), q) - 1)
+
+    yield error_size("zeta_x, by taking the slope for the rotation,", sizes, "waves far longer than the beam is high",
+                     slender)  # fmt: skip
 
 
 def _effect_11() -> str:
@@ -102,10 +109,20 @@ def _effect_11() -> str:
 _EQ16: Forms = {"v_x": A_v * sp.sin(k_c * x + Psi_v)}
 _ARCTAN = sp.atan(M_b / M_a)
 _EQ17: Forms = {
-    "A_v": D * k_c * sp.sqrt(M_a**2 + M_b**2),
-    "Psi_v": sp.Piecewise((_ARCTAN, sp.Ge(M_a, 0)), (_ARCTAN + sp.pi, sp.Lt(M_a, 0))),
+    "A_v": by_region(  # from t_1 to t_2 (18) and (19) print M_a and M_b over W_maxf: N_a and N_b
+        (W_maxf * D * k_c * sp.sqrt(N_a**2 + N_b**2), 1, 2), (D * k_c * sp.sqrt(M_a**2 + M_b**2), 2, 4)
+    ),
+    "Psi_v": sp.Piecewise((_ARCTAN, sp.Ge(M_a, 0)), (_ARCTAN + sp.pi, sp.Lt(M_a, 0)), evaluate=False),
 }
-_RANGES_17 = {"M_a": (-1.5, 1.5), "M_b": (-1.5, 1.5), "A_v": (0.1, 2.0), "Psi_v": (-3.0, 3.0)}
+_RANGES_17 = {
+    "M_a": (-1.5, 1.5),
+    "M_b": (-1.5, 1.5),
+    "N_a": (-2e5, 2e5),
+    "N_b": (-2e5, 2e5),
+    "W_maxf": (4e-6, 7e-6),
+    "A_v": (0.1, 2.0),
+    "Psi_v": (-3.0, 3.0),
+}
 _PAIR = {A_v: D * k_c * sp.sqrt(M_a**2 + M_b**2), Psi_v: sp.atan2(M_b, M_a)}
 
 
@@ -125,6 +142,21 @@ def _derive_16() -> Derivation:
     )  # fmt: skip
 
 
+def _derive_17() -> Derivation:
+    whole = _derive_16()
+    size = {"redu": W_maxf * D * k_c * sp.sqrt(N_a**2 + N_b**2), "later": _PAIR[A_v]}
+    per_W = {M_a: W_maxf * N_a, M_b: W_maxf * N_b}
+    return Derivation(
+        (
+            *whole.steps,
+            step("From t_1 to t_2 the paper prints M_a and M_b without their common factor W_maxf, which leaves the "
+                 "phase alone and stands before the root:", size["redu"],
+                 zero=sp.simplify(_PAIR[A_v].subs(per_W) - size["redu"])),
+        ),
+        {"A_v": by_region((size["redu"], 1, 2), (size["later"], 2, 4)), "Psi_v": _PAIR[Psi_v]},
+    )  # fmt: skip
+
+
 def _judge_16(forms: Forms) -> Iterator[Evidence]:
     whole = {"v_x": forms["v_x"].subs(_PAIR)}
     parts = {"v_x": D * k_c * (M_a * sp.sin(k_c * x) + M_b * sp.cos(k_c * x))}
@@ -136,15 +168,26 @@ def _judge_16(forms: Forms) -> Iterator[Evidence]:
 
 
 def _judge_17(forms: Forms) -> Iterator[Evidence]:
-    wave = {"v_x": (A_v * sp.sin(k_c * x + Psi_v)).subs({A_v: forms["A_v"], Psi_v: forms["Psi_v"]})}
-    parts = {"v_x": D * k_c * (M_a * sp.sin(k_c * x) + M_b * sp.cos(k_c * x))}
+    redu, later = rows(forms["A_v"])
+    per_W = {M_a: N_a, M_b: N_b}
+    sizes = {"v_x in T_redu": (redu, forms["Psi_v"].subs(per_W)), "v_x later": (later, forms["Psi_v"])}
+    wave = {name: (A_v * sp.sin(k_c * x + Psi_v)).subs({A_v: a, Psi_v: b}) for name, (a, b) in sizes.items()}
+    part = D * k_c * (M_a * sp.sin(k_c * x) + M_b * sp.cos(k_c * x))
+    parts = {"v_x in T_redu": W_maxf * part.subs(per_W), "v_x later": part}
     yield agrees(wave, parts, ranges=_RANGES_17, count=12, against="M_a sin(k_c x) + M_b cos(k_c x), times D k_c")
+    sizes_there = {"W_maxf": mp.mpf("5e-6"), "M_a": mp.mpf("0.7"), "M_b": mp.mpf("0.4"), "N_a": mp.mpf(2e5),
+                   "N_b": mp.mpf(1e5)}  # fmt: skip
+    held = [(region, row_value(forms["A_v"], {**anywhere(region, 1, "eq17")[0], **sizes_there})) for region in REGIONS]
+    at = {**anywhere("redu", 1, "eq17")[0], **sizes_there}
+    wanted = {region: row_value(redu if region == "redu" else later, at) for region in REGIONS}
+    yield evidence("domain", dict(held) == wanted, "the row with W_maxf holds in T_redu, the other later")
     angle = forms["Psi_v"].subs(M_b, 1)
     ends = sp.limit(angle.args[0][0], M_a, 0, "+"), sp.limit(angle.args[1][0], M_a, 0, "-")
     yield evidence(
         "continuity", ends == (sp.pi / 2, sp.pi / 2), "both branches meet at M_a = 0, where the first divides by zero"
     )
-    yield evidence("limit", forms["A_v"].subs(M_b, 0) == D * k_c * sp.Abs(M_a), "one part alone is its own amplitude")
+    alone = later.subs(M_b, 0) == D * k_c * sp.Abs(M_a) and redu.subs(N_b, 0) == D * k_c * W_maxf * sp.Abs(N_a)
+    yield evidence("limit", alone, "one part alone is its own amplitude")
 
 
 def _effect_16() -> str:
@@ -311,7 +354,7 @@ ENTRIES = (
         printed=_EQ17, units={"A_v": "m/s", "Psi_v": "rad"}, verdict="verified",
         reason="Polar form of M_a and M_b, both branches right; from t_1 to t_2 W_maxf stands before the root because "
                "M_a and M_b are printed without it there.",
-        judge=_judge_17, derive=_derive_16, effect=_effect_17,
+        judge=_judge_17, derive=_derive_17, effect=_effect_17,
     ),
     Entry(
         id="18", section="3.3", title="Sine's part M_a of the tangential velocity", place="Sect. 3.3",

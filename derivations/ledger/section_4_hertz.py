@@ -174,7 +174,8 @@ def _judge_26(forms: Forms) -> Iterator[Evidence]:
     yield evidence("identity", constant, "depends on every quantity as the derivation does; only the factor differs")
     if constant:
         off = float(ratio) - 1
-        yield error_size("2x_m", lambda: (off, abs(off)), 0.005)
+        digits = round(1 / float(ratio) * 1.6, 3) / 1.6 * float(ratio) - 1  # 1.596 for 1.6
+        yield error_size("2x_m", lambda: (off, abs(off)), "sqrt(8/pi) with two more digits", lambda: digits)
 
 
 def _hertz_half_length() -> mp.mpf:

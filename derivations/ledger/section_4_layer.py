@@ -268,10 +268,15 @@ def _repair_31(forms: Forms) -> Forms:
     return {"F_c": n_j * forms["F_c"].subs(x_max, 2 * x_max - x_xm)}
 
 
-def _effect_31() -> str:
+def _half_angle_31() -> mp.mpf:
+    """The contact half-angle if one half of one contact carries the prepressure."""
     q = operating_point()
     share = q["F_c"] * q["k_c"] / (q["k_N"] * q["W"])
-    printed = mp.findroot(lambda a: mp.sin(a) - a * mp.cos(a) - share, (mp.mpf("0.1"), mp.mpf(2)), solver="anderson")
+    return mp.findroot(lambda a: mp.sin(a) - a * mp.cos(a) - share, (mp.mpf("0.1"), mp.mpf(2)), solver="anderson")
+
+
+def _effect_31() -> str:
+    q, printed = operating_point(), _half_angle_31()
     factor = 2 * q["n_j"]
     return (
         f"One half of one of {figure(q['n_j'], 2)} contacts carries all: the half-angle becomes {figure(printed, 4)} "
@@ -375,6 +380,7 @@ ENTRIES = (
     Entry(
         id="31", section="4.1", title="Balance with the prepressure", place=_PLACE, printed=_EQ31,
         units={"F_c": "N"}, verdict="erratum", judge=_judge_31, derive=_derive_31, effect=_effect_31,
+        size=lambda: ("the contact half-angle", float(_half_angle_31() / operating_point()["theta"] - 1)),
         repair=_repair_31, found_by=("numeric", "identity"),
         reason="Sums over one half of one contact; the prepressure rests on both halves of all crests. Eq. 36, which "
                "has the factor 2 m, contradicts it.",

@@ -21,7 +21,7 @@ from derivations.nomenclature import sym
 
 __all__ = ["ENTRIES", "EQ35"]
 
-D, k_c, W, F_c, n_j, mu, theta, x, p = sym("D k_c W F_c n_j mu theta x p")
+D, k_c, W, F_c, n_j, mu, theta, x, p, lam = sym("D k_c W F_c n_j mu theta x p lambda")
 M_a, M_b, N_a, N_b, Psi_v, v_xp, v_xx = sym("M_a M_b N_a N_b Psi_v v_xp v_xx")
 phi_vm1, phi_vm2, x_px, x_max, x_xm, v_xm, v_xmax = sym("phi_vm1 phi_vm2 x_px x_max x_xm v_xm v_xmax")
 phi, c, u, R_v = transfer.phi, transfer.c, transfer.u, transfer.R_v
@@ -101,6 +101,7 @@ def _rows_34(ratio: sp.Expr, a: sp.Symbol, b: sp.Symbol, covers_zero: bool) -> s
 _EQ34: Forms = {
     "x_px_redu": _rows_34(v_xp / (D * k_c * sp.sqrt(N_a**2 + N_b**2)), N_a, N_b, False),
     "x_px": _rows_34(v_xp / (D * k_c * sp.sqrt(M_a**2 + M_b**2)), M_a, M_b, False),
+    "lambda": 2 * sp.pi / k_c,
 }
 
 
@@ -118,14 +119,16 @@ def _derive_34() -> Derivation:
             step("In all there are two nonsliding points a wave, symmetric about the peak of v_x (closed form, u from "
                  "the crest):", *transfer.nonsliding_points()),
         ),
-        {"x_px_redu": _rows_34(v_xp / redu, N_a, N_b, True), "x_px": _rows_34(v_xp / other, M_a, M_b, True)},
+        {"x_px_redu": _rows_34(v_xp / redu, N_a, N_b, True), "x_px": _rows_34(v_xp / other, M_a, M_b, True),
+         "lambda": 2 * sp.pi / k_c},
     )  # fmt: skip
 
 
 def _judge_34(forms: Forms) -> Iterator[Evidence]:
-    worst, turned = {key: mp.mpf(0) for key in forms}, []
+    points = {key: form for key, form in forms.items() if key != "lambda"}
+    worst, turned = {key: mp.mpf(0) for key in points}, []
     stiff, height = mp.mpf("2.8e-3"), mp.mpf("5.6e-6")
-    for key, form in forms.items():
+    for key, form in points.items():
         redu = key == "x_px_redu"
         a, b = (N_a, N_b) if redu else (M_a, M_b)
         for ratio, angle in ((0.3, 0.4), (-0.7, 1.9), (0.6, -0.8), (0.2, 4.0), (-0.5, 3.3), (0.9, -1.2)):
@@ -141,7 +144,9 @@ def _judge_34(forms: Forms) -> Iterator[Evidence]:
     yield evidence("numeric", all(value < 1e-12 for value in worst.values()), f"v_x there is the rotor's: {detail}")
     one_wave = all(-3 * math.pi / 2 <= angle <= math.pi / 2 for angle in turned)
     yield evidence("limit", one_wave, "all rows give k_c x_px in one wave, from -3 pi/2 to pi/2")
-    gaps = [key for key, form in forms.items() if _row_at(form, 0, -1) is sp.nan]
+    turn = mp.expj(K * evaluate(forms["lambda"], {k_c: mp.mpf(K)}) / 4)  # a quarter of the wave: no multiple passes
+    yield evidence("identity", abs(turn - 1j) < 1e-25, "a quarter of lambda turns the wave by a quarter")
+    gaps = [key for key, form in points.items() if _row_at(form, 0, -1) is sp.nan]
     yield evidence(
         "domain", not gaps, "a row for every M_a, M_b" + (f", but for M_a = 0 > M_b in {gaps}" if gaps else "")
     )
@@ -157,6 +162,7 @@ def _repair_34(forms: Forms) -> Forms:
     return {
         "x_px_redu": forms["x_px_redu"].subs(closed).subs(root, W * root),
         "x_px": forms["x_px"].subs(closed),
+        "lambda": forms["lambda"],
     }
 
 
@@ -212,8 +218,8 @@ def _rows_35() -> sp.Expr:
         (x_px, x_xm <= phi_vm1), (x_px, sp.And(both, rising)), (x_px, sp.And(both, falling)),
         (mirrored, sp.And(first, slowing)), (mirrored, sp.And(first, hastening)),
         (mirrored, sp.And(second, rising)), (mirrored, sp.And(second, falling)),
-        (shifted, sp.And(second, v_xmax > 0)), (shifted, sp.And(second, slowing)), (shifted, sp.And(second, falling)),
-        (shifted, sp.And(beyond, falling)), (shifted, sp.And(beyond, v_xmax < 0)),
+        (shifted, sp.And(second, v_xmax > 0)), (shifted, sp.And(second, slowing)), (shifted, sp.And(second, hastening)),
+        (shifted, sp.And(beyond, hastening)), (shifted, sp.And(beyond, v_xmax < 0)),
         evaluate=False,
     )  # fmt: skip
 
@@ -380,7 +386,7 @@ ENTRIES = (
     ),
     Entry(
         id="34", section="4.2.2", title="Position of a nonsliding point", place=_PLACE, printed=_EQ34,
-        units={"x_px_redu": "m", "x_px": "m"}, verdict="erratum", judge=_judge_34, derive=_derive_34,
+        units={"x_px_redu": "m", "x_px": "m", "lambda": "m"}, verdict="erratum", judge=_judge_34, derive=_derive_34,
         effect=_effect_34, known=transfer.DIMENSIONS, repair=_repair_34, found_by=("dimension", "numeric", "domain"),
         reason="Lacks W_maxf in T_redu, where eq. 17 takes it out of M_a and M_b, and a row for M_a = 0 > M_b; gives "
                "one of two solutions.",

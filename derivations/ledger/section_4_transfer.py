@@ -165,6 +165,15 @@ def _effect_36() -> str:
     )
 
 
+def _size_36() -> tuple[str, float]:
+    """The doubled half off the whole over the periodic cycle, root mean square of both."""
+    lap, speed = Lap(), table_4_speed()
+    kinks = [*friction_kinks(speed), *friction_kinks(speed, half=True)]
+    whole, half = friction(speed), friction(speed, transfer.half_zone_fraction())
+    off = root_mean_square(lambda h: half(h) - whole(h), lap, kinks)
+    return "the friction over the cycle (rms)", float(off / root_mean_square(whole, lap, kinks))
+
+
 def _picture_36() -> Picture:
     """Friction of the doubled half and of the whole zone over a periodic cycle, with Table 4's rotor."""
     v, speed = values(), table_4_speed()
@@ -397,7 +406,7 @@ def _effect_reverse() -> str:
 ENTRIES = (
     Entry(
         id="36", section="4.2.3", title="Friction on the rotor", place="Sect. 4.2.3", printed=_EQ36, units={"f_n": "N"},
-        verdict="erratum", judge=_judge_36, derive=_derive_36, effect=_effect_36, picture=_picture_36,
+        verdict="erratum", judge=_judge_36, derive=_derive_36, effect=_effect_36, picture=_picture_36, size=_size_36,
         known=transfer.DIMENSIONS,
         repair=lambda forms: {key: _whole_zone(form) for key, form in forms.items()},
         found_by=("numeric", "derivation"),

@@ -60,8 +60,7 @@ def _judge_45(forms: Forms) -> Iterator[Evidence]:
     yield evidence(
         "limit", abs(period - seen) < 1e-4, f"the spacing of the nodes of two added vibrations, {seen:.5f} ms"
     )
-    printed = str(forms["T_redu/ms"].round(3)) if forms["T_redu/ms"].is_Float else str(forms["T_redu/ms"])
-    text = f"{float(printed):.3f}"
+    text = f"{float(forms['T_redu/ms']):.3f}"
     yield evidence("numeric", rounds_to(seen, text), f"the value {text} ms is {seen:.5f} ms rounded to its last digit")
     yield evidence(
         "data", rounds_to(period, _MEASURED_MS), f"agrees with the measured {_MEASURED_MS} ms in its last digit"

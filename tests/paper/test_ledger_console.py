@@ -28,7 +28,7 @@ def test_json_is_the_shipped_ledger(capsys):
 def test_the_table_has_a_line_per_entry(capsys):
     code, out, _ = run(capsys)
     assert code == 0
-    assert len(out.splitlines()) == len(SHIPPED) + 2
+    assert len(out.splitlines()) == len(SHIPPED) + 2 + 3  # a blank line and the counts
 
 
 @pytest.mark.parametrize("name", ["6", "(6)", "a13", "A13", "supplement-add"])
@@ -37,6 +37,38 @@ def test_one_equation_is_written_out(capsys, name):
     assert code == 0
     assert "printed" in out
     assert "effect:" in out
+
+
+def test_the_table_ends_in_counts_by_severity_and_sureness(capsys):
+    _, out, _ = run(capsys)
+    errata = sum(r["verdict"] == "erratum" for r in SHIPPED)
+    structural = sum(r["severity"] == "structural" for r in SHIPPED)
+    doubtful = sum(r["copy"] == "doubtful" for r in SHIPPED)
+    *_, severities, copies = out.splitlines()
+    assert severities.startswith(f"{errata} errata: ")
+    assert severities.endswith(f" {structural} structural")
+    assert f" {doubtful} doubtful" in copies
+
+
+@pytest.mark.parametrize(("option", "value"), [("severity", "conditional"), ("verdict", "empirical")])
+def test_filters(capsys, option, value):
+    code, out, _ = run(capsys, f"--{option}", value, "--json")
+    assert code == 0
+    wanted = [r["id"] for r in SHIPPED if r[option] == value]
+    assert wanted
+    assert [r["id"] for r in json.loads(out)] == wanted
+
+
+@pytest.mark.parametrize("option", ["severity", "verdict"])
+def test_an_unknown_filter_is_refused(console_refuses, option):
+    console_refuses("equations", f"--{option}", "bad", naming=(option, "bad"))
+
+
+def test_one_equation_says_how_bad_and_how_sure(capsys):
+    _, out, _ = run(capsys, "--equation", "22")
+    assert "severity: quantitative" in out
+    assert "copy of the paper's text: doubtful" in out
+    assert "with zeta_x for zeta_z: verified" in out
 
 
 def test_one_equation_as_json_is_a_list_of_one(capsys):

@@ -9,13 +9,17 @@ __all__ = ["equations"]
 
 @click.command()
 @click.option("--equation", metavar="ID", help="The paper's number, such as 6 or A13: its derivation written out.")
+@click.option("--verdict", metavar="NAME", help="Only entries of this verdict, such as erratum or verified.")
+@click.option(
+    "--severity", metavar="NAME", help="Only errata that are typographical, conditional, quantitative or structural."
+)
 @click.option("--json", "as_json", is_flag=True, help="The records instead of a table.")
-def equations(equation: str | None, as_json: bool) -> None:
+def equations(equation: str | None, verdict: str | None, severity: str | None, as_json: bool) -> None:
     """The ledger: what the paper printed, what follows from first principles, the verdict and its effect."""
-    from trum_sym.paper.ledger import load_ledger, select, table, written_out
+    from trum_sym.paper.ledger import counted, filtered, load_ledger, select, table, written_out
 
     records = load_ledger()
-    chosen = records if equation is None else [select(records, equation)]
+    chosen = filtered(records, verdict=verdict, severity=severity) if equation is None else [select(records, equation)]
     if as_json:
         import json
 
@@ -24,3 +28,4 @@ def equations(equation: str | None, as_json: bool) -> None:
         click.echo(written_out(chosen[0]))
     else:
         click.echo(table(chosen))
+        click.echo(f"\n{counted(chosen)}")

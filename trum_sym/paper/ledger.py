@@ -8,9 +8,14 @@ from typing import Any
 
 from trum_sym.errors import ParameterError
 
-__all__ = ["ledger_page", "load_ledger", "select", "table", "written_out"]
+__all__ = [
+    "SEVERITIES", "VERDICTS", "counted", "filtered", "ledger_page", "load_ledger", "select", "table", "written_out",
+]  # fmt: skip
 
 Record = dict[str, Any]
+VERDICTS = ("verified", "approximation", "erratum", "definition", "reconstructed", "empirical")
+SEVERITIES = ("typographical", "conditional", "quantitative", "structural")
+"""Of an erratum: no figure changes; judged against a reconstruction; a figure changes; no repair by a symbol."""
 _PLACES = (
     Path(__file__).parents[1] / "data",  # in an installed package
     Path(__file__).parents[2] / "generated",  # in a source tree
@@ -45,16 +50,50 @@ def select(records: list[Record], equation: str) -> Record:
     raise ParameterError("equation", equation, f"1 to 45, A1 to A17, or one of {others}")
 
 
+def filtered(records: list[Record], *, verdict: str | None = None, severity: str | None = None) -> list[Record]:
+    """The records of a verdict, of errata of a severity, or of both; all of them without either.
+
+    Raises
+    ------
+    ParameterError
+        For a verdict or severity that there is not.
+
+    Examples
+    --------
+    >>> {r["verdict"] for r in filtered(load_ledger(), severity="structural")}
+    {'erratum'}
+    """
+    for name, value, allowed in (("verdict", verdict, VERDICTS), ("severity", severity, SEVERITIES)):
+        if value is not None and value not in allowed:
+            raise ParameterError(name, value, f"one of {', '.join(allowed)}")
+    return [
+        r for r in records if (verdict is None or r["verdict"] == verdict)
+        and (severity is None or r["severity"] == severity)
+    ]  # fmt: skip
+
+
+def counted(records: list[Record]) -> str:
+    """How many errata there are of each severity, and how sure the copies of the paper's text are, in a line each."""
+    by_severity = [(word, sum(r["severity"] == word for r in records)) for word in SEVERITIES]
+    by_copy = [(word, sum(r["copy"] == word for r in records)) for word in ("clear", "doubtful", "missing")]
+    errata = sum(count for _, count in by_severity)
+    return "\n".join((
+        f"{errata} errata: {', '.join(f'{count} {word}' for word, count in by_severity)}",
+        f"copy of the paper's text: {', '.join(f'{count} {word}' for word, count in by_copy)}",
+    ))  # fmt: skip
+
+
 def table(records: list[Record]) -> str:
-    """One line per entry: id, title, verdict, whether it is confirmed, and by which kinds of evidence."""
+    """One line per entry: id, title, verdict, how bad, how sure, whether confirmed, and by which kinds of evidence."""
     from tabulate import tabulate
 
     rows = []
     for r in records:
         kinds = dict.fromkeys(e["kind"] for e in r["evidence"])
         state = "confirmed" if r["confirmed"] else "NOT CONFIRMED"
-        rows.append((r["id"], r["title"], r["verdict"], state, ", ".join(kinds)))
-    return str(tabulate(rows, headers=("id", "title", "verdict", "", "evidence"), disable_numparse=True))
+        rows.append((r["id"], r["title"], r["verdict"], r["severity"] or "", r["copy"], state, ", ".join(kinds)))
+    headers = ("id", "title", "verdict", "severity", "copy", "", "evidence")
+    return str(tabulate(rows, headers=headers, disable_numparse=True))
 
 
 _MARKS = {None: "premise", True: "checked", False: "DOES NOT HOLD"}
@@ -65,6 +104,12 @@ def written_out(record: Record) -> str:
     r = record
     lines = [f"({r['id']}) {r['title']}  [{r['place']}]", f"verdict: {r['verdict']}. {r['reason']}", "", "printed"]
     lines += [f"    {formula}" for formula in r["printed_latex"] or ["nothing: missing from the paper"]]
+    lines += ["", f"copy of the paper's text: {r['copy']}{': ' + r['copy_doubt'] if r['copy_doubt'] else ''}"]
+    lines += [f"    {o['what']}: {o['verdict']}; {o['detail']}" for o in r["other_readings"]]
+    if r["severity"]:
+        lines.append(f"severity: {r['severity']}; {r['severity_detail']}")
+    elif r["conditional"]:
+        lines.append("conditional: judged against the reconstruction of the supplement that the paper lacks")
     lines += ["", "derivation"]
     for number, s in enumerate(r["steps"], 1):
         lines.append(f"{number:3}. {s['text']} [{_MARKS[s['holds']]}]")
