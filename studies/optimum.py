@@ -20,7 +20,7 @@ import warnings
 from pathlib import Path
 
 import numpy as np
-from scipy.optimize import minimize
+import scipy
 
 import trum_sym as ts
 
@@ -120,7 +120,7 @@ class Map:
             return (values[1:] - values[0]) / (1e-5 * np.where(x > 0.5, -1.0, 1.0))
 
         scale = look(start)[0][0] or 1.0
-        found = minimize(
+        found = scipy.optimize.minimize(
             lambda x: look(x)[0][0] / scale,
             start,
             jac=lambda x: slopes(look(x)[0], x) / scale,

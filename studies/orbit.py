@@ -9,11 +9,14 @@ import sys
 import time
 import warnings
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 import trum_sym as ts
-from tests.orbit_reference import Reference
+
+if TYPE_CHECKING:
+    from tests.orbit_reference import Reference
 
 SEED = 20211110
 FIGURES = ("mean", "low", "high", "deviation")
@@ -83,6 +86,8 @@ def evaluate(points: list[Sample], tolerance: float) -> list[ts.OperatingPoint]:
 
 def reference(point: Sample, answer: ts.OperatingPoint, **accuracy: float) -> Reference:
     """The reference of a point, on the stator that the product found."""
+    from tests.orbit_reference import Reference  # loads numba
+
     return Reference(ts.load_motor("trum60").with_values(point.motor), ts.Drive(**point.drive), answer, **accuracy)
 
 

@@ -1,9 +1,23 @@
 from __future__ import annotations
 
+import sys
+
 import pytest
 from refusals import assert_one_clear_line
 
 from trum_sym import console
+
+LOADED = pytest.StashKey[set[str]]()
+
+
+def pytest_collection_finish(session):
+    session.config.stash[LOADED] = set(sys.modules)
+
+
+@pytest.fixture
+def loaded_by_collecting(pytestconfig):
+    """Names of the modules that were imported when the tests had been collected, before any of them ran."""
+    return pytestconfig.stash[LOADED]
 
 
 @pytest.fixture(scope="session")

@@ -76,7 +76,7 @@ def _half_angle(y):
 
 
 @njit(cache=True)
-def _modal(p, y, gates, tau):
+def modal(p, y, gates, tau):
     """w_A, w_B, w_A', w_B' at a time after the region's start; y holds the states there."""
     omega, xi, omega_q, psi, s, W = p[0], p[1], p[2], p[3], p[4], p[5]
     omega_d = omega * math.sqrt(1 - xi * xi)
@@ -162,7 +162,7 @@ def surface(p, w, v):
 @njit(cache=True)
 def rate(p, y, gates, tau, v0, x, out):
     """d/dt of the state x = (v - v0, its integral, its square's, work, heat); p[10] push, p[11] drag."""
-    w = _modal(p, y, gates, tau)
+    w = modal(p, y, gates, tau)
     net, work, heat = surface(p, w, v0 + x[0])
     out[0] = p[10] * net - p[11]
     out[1] = x[0]
@@ -221,7 +221,7 @@ def _event(p, y, gates, tau, v, kind):
     where it is not.  1: growth of the wave; where it begins to grow anew the crest may sweep past in no time.  A plain
     travelling wave does not grow, up to rounding: hence the threshold.
     """
-    w = _modal(p, y, gates, tau)
+    w = modal(p, y, gates, tau)
     if kind == 1:
         return w[0] * w[2] + w[1] * w[3] - 1e-6 * p[5] ** 2 * p[0]
     fastest = p[6] * math.hypot(w[2], w[3])
@@ -447,3 +447,23 @@ class Reference:
             laps=laps,
             steps=steps,
         )
+
+
+def encoder_readings(other: Reference, period: float, count: int = 100) -> np.ndarray:
+    """What an encoder reads that averages over ``period``, from the orbit's path, whole cycles and a rest, rad/s."""
+    orbit = other.orbit()
+    grid = np.linspace(0, 1, count + 1)
+    whole, path = other.durations.copy(), [0.0]
+    edges = np.concatenate([[0], np.cumsum(whole)])
+    for share in grid[1:]:
+        region = min(int(np.searchsorted(edges[1:], share * edges[-1] * (1 - 1e-12))), 2)
+        other.durations = np.where(np.arange(3) < region, whole, 0.0)
+        other.durations[region] = share * edges[-1] - edges[region]
+        path.append(orbit.start * share * edges[-1] + other.lap(orbit.start * other.radius, 1e-9)[0][1] / other.radius)
+    other.durations = whole
+    path = np.array(path)
+
+    def angle(at):
+        return np.interp(at % 1.0, grid, path) + np.floor(at) * path[-1]
+
+    return (angle(grid[:-1] + period / other.cycle_time) - angle(grid[:-1])) / period

@@ -10,7 +10,7 @@ from itertools import pairwise
 
 import mpmath as mp
 import numpy as np
-from scipy.integrate import solve_ivp
+import scipy
 
 GATES = ((0, 1), (1, 0), (1, 1))  # (A, B) in the regions redu, addredu, add
 
@@ -47,7 +47,7 @@ def integrate_regions(y, f_n, df, xi, psi, s, m, n, fractions, rtol=1e-12):
             force = (ratio**2 - 1) * np.cos(angle) - 2 * xi * ratio * np.sin(angle)
             return (turns * np.stack([v, gates * force - 2 * xi * ratio * v - ratio**2 * w])).ravel()
 
-        solution = solve_ivp(
+        solution = scipy.integrate.solve_ivp(
             rate, (0, 1), (y / scale).ravel(), method="DOP853", rtol=rtol, atol=1e-13, t_eval=[*fractions, 1.0]
         )
         states = solution.y.T.reshape(len(fractions) + 1, 4, -1) * scale

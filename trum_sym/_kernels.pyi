@@ -1,5 +1,8 @@
 import numpy as np
 
 signatures: dict[str, tuple[str, str]]
+slope_figures: str
+slope_parameters: str
+orbit_flags: str
 
 def __getattr__(name: str) -> np.ufunc: ...

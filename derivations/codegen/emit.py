@@ -16,6 +16,7 @@ import mpmath as mp
 import sympy as sp
 
 from derivations import collocation
+from derivations.codegen import driver
 from derivations.codegen.kernels import Kernel, kernels
 from derivations.codegen.library import headers
 from derivations.codegen.to_casadi import to_casadi
@@ -287,12 +288,15 @@ def render() -> dict[str, str]:
         )
     files["trum_kernels.h"] = _header()
     files.update(headers(kernels(), _NOTE))
+    files.update(driver.headers(kernels(), _NOTE))
     files["trum_lanes.h"] = _lanes(files)
     files["trum_quadrature.h"] = _quadrature()
     files["trum_elementary.h"] = _elementary()
     files["trum_collocation.h"] = _collocation()
     versions = {"casadi": ca.CasadiMeta.version(), "sympy": sp.__version__}
-    files["manifest.json"] = json.dumps({"generator": versions, "kernels": manifest}, indent=1) + "\n"
+    files["manifest.json"] = (
+        json.dumps({"generator": versions, "kernels": manifest, "orbit": driver.orbit_fields()}, indent=1) + "\n"
+    )
     return dict(sorted(files.items()))
 
 

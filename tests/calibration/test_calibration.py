@@ -8,8 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy import stats
-from scipy.optimize import curve_fit
+import scipy
 
 import trum_sym as ts
 from trum_sym import console
@@ -33,8 +32,8 @@ def noise(seed):
 
 def test_relative_errors_give_the_straight_line_of_logarithms():
     found = ts.calibrate(TABLE_2, errors="relative")
-    line = stats.linregress(np.log(FORCE), np.log(AMPLITUDE / FREE))
-    t = stats.t.ppf(0.975, 5)
+    line = scipy.stats.linregress(np.log(FORCE), np.log(AMPLITUDE / FREE))
+    t = scipy.stats.t.ppf(0.975, 5)
     exponent, factor = found["amplitude_exponent"], found["amplitude_factor"]
     assert exponent.value == pytest.approx(-line.slope, rel=1e-9)
     assert exponent.high - exponent.value == pytest.approx(t * line.stderr, rel=1e-6)
@@ -47,7 +46,7 @@ def test_relative_errors_give_the_straight_line_of_logarithms():
 
 def test_absolute_errors_give_what_curve_fit_gives():
     found = ts.calibrate(TABLE_2)
-    best, covariance = curve_fit(
+    best, covariance = scipy.optimize.curve_fit(
         lambda f, c, e: FREE * c * f**-e, FORCE, AMPLITUDE, [10, 0.5], method="lm", xtol=1e-14, ftol=1e-14
     )
     assert [e.value for e in found.estimates] == pytest.approx(best, rel=1e-7)
@@ -64,7 +63,9 @@ def test_the_papers_constants_lie_within_table_2s_intervals():
 def test_an_uncertainty_weighs_its_row():
     sigma = 1e-7 * np.array([1.0, 1, 1, 1, 1, 1, 50])
     found = ts.calibrate({**TABLE_2, "amplitude_uncertainty": sigma})
-    best, covariance = curve_fit(lambda f, c, e: FREE * c * f**-e, FORCE, AMPLITUDE, [10, 0.5], sigma=sigma)
+    best, covariance = scipy.optimize.curve_fit(
+        lambda f, c, e: FREE * c * f**-e, FORCE, AMPLITUDE, [10, 0.5], sigma=sigma
+    )
     assert [e.value for e in found.estimates] == pytest.approx(best, rel=1e-5)
     assert found.covariance == pytest.approx(covariance, rel=1e-3)
 
@@ -95,7 +96,7 @@ def test_a_signal_gives_what_curve_fit_gives():
     time = np.arange(300) / 250e3
     signal = decay(time, 0.006, 39000.0) + noise(1).normal(0, 5e-8, time.size)
     found = ts.calibrate({"time": time, "velocity": signal})
-    best, covariance = curve_fit(
+    best, covariance = scipy.optimize.curve_fit(
         decay, time, signal, [0.005, 39000.0, 2e-6, 0.3], x_scale=[1e-3, 10, 1e-6, 1], method="trf"
     )
     assert found["damping_ratio"].value == pytest.approx(best[0], rel=0.02)  # it has no offset
@@ -110,11 +111,11 @@ def test_an_envelope_gives_the_logarithmic_decrement():
     envelope = 3e-6 * np.exp(-decrement * np.arange(12)) * np.exp(noise(2).normal(0, 0.02, 12))
     motor = ts.load_motor("trum60").with_values({"resonance_frequency": frequency})
     found = ts.calibrate({"time": peaks, "envelope": envelope}, motor, errors="relative")
-    line = stats.linregress(np.arange(12), np.log(envelope))
+    line = scipy.stats.linregress(np.arange(12), np.log(envelope))
     measured = -line.slope / np.sqrt(4 * np.pi**2 + line.slope**2)
     assert found["damping_ratio"].value == pytest.approx(measured, rel=1e-5)
     width = found["damping_ratio"].high - found["damping_ratio"].value
-    assert width == pytest.approx(stats.t.ppf(0.975, 10) * line.stderr * measured / -line.slope, rel=1e-3)
+    assert width == pytest.approx(scipy.stats.t.ppf(0.975, 10) * line.stderr * measured / -line.slope, rel=1e-3)
 
 
 # --- Operating points -----------------------------------------------------------------------------

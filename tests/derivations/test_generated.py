@@ -12,31 +12,42 @@ from pathlib import Path
 import mpmath as mp
 import numpy as np
 import pytest
-import sympy as sp
+from lazily import lazily
 
 import trum_sym as ts
-from derivations.codegen.emit import GENERATED, render, stale, write
-from derivations.codegen.kernels import kernels
-from derivations.nomenclature import CONSTANTS
-from trum_sym.model.kernels import call
+from trum_sym.model.kernels import SLOPE_FIGURES, SLOPE_PARAMETERS, call, expect, signature
+
+sp = lazily("sympy")
+driver = lazily("derivations.codegen.driver")
+emit = lazily("derivations.codegen.emit")
+nomenclature = lazily("derivations.nomenclature")
 
 ROOT = Path(__file__).parents[2]
+GENERATED = ROOT / "generated"
+NAMES = [entry["name"] for entry in json.loads((GENERATED / "manifest.json").read_text("utf-8"))["kernels"]]
+DERIVATIVES = ["trum_start_periodic_slopes", "trum_start_rest_slopes", "trum_regions_slopes", "trum_wave_slopes"]
+
+
+def kernels():
+    from derivations.codegen.kernels import kernels
+
+    return {kernel.name: kernel for kernel in kernels()}
 
 
 @pytest.fixture(scope="module")
 def files():
-    return render()
+    return emit.render()
 
 
 def test_generated_files_are_what_the_derivations_give(files):
-    difference = stale(files)
+    difference = emit.stale(files)
     assert not difference, f"run `python -m derivations generate`\n{difference}"
 
 
 def test_one_kernel_is_one_file_of_its_name(files):
-    names = {kernel.name for kernel in kernels()}
+    names = list(kernels())
     assert {name for name in files if name.endswith(".c")} == {f"{name}.c" for name in names}
-    assert [entry["name"] for entry in json.loads(files["manifest.json"])["kernels"]] == [k.name for k in kernels()]
+    assert [entry["name"] for entry in json.loads(files["manifest.json"])["kernels"]] == names
 
 
 def test_every_file_states_its_operations_and_arguments(files):
@@ -115,17 +126,14 @@ def test_a_broken_proof_or_dimension_stops_the_generation(tree, module, right, w
 
 
 def test_missing_and_extra_files_are_stale(files, tmp_path):
-    write(files, tmp_path)
-    assert stale(files, tmp_path) == ""
+    emit.write(files, tmp_path)
+    assert emit.stale(files, tmp_path) == ""
     (tmp_path / "trum_regions.c").unlink()
     (tmp_path / "trum_old.c").write_text("int old;\n")
-    assert "trum_regions.c" in stale(files, tmp_path)
-    assert "trum_old.c" in stale(files, tmp_path)
-    assert write(files, tmp_path) == ["trum_regions.c", "trum_old.c"]
-    assert stale(files, tmp_path) == ""
-
-
-expm1 = sp.Function("expm1")
+    assert "trum_regions.c" in emit.stale(files, tmp_path)
+    assert "trum_old.c" in emit.stale(files, tmp_path)
+    assert emit.write(files, tmp_path) == ["trum_regions.c", "trum_old.c"]
+    assert emit.stale(files, tmp_path) == ""
 
 
 def expm1_exact(z):
@@ -161,20 +169,22 @@ def random_arguments(kernel, rng):
 
 def exact_outputs(kernel):
     """The outputs' expressions as functions of 50-digit numbers."""
-    constants = {symbol: sp.Float(value, 60) for symbol, value in CONSTANTS.items()}
+    constants = {symbol: sp.Float(value, 60) for symbol, value in nomenclature.CONSTANTS.items()}
     return {
         output: sp.lambdify(
             list(kernel.inputs),
-            sp.sympify(expr).subs(constants).replace(expm1, expm1_exact),
+            sp.sympify(expr).subs(constants).replace(sp.Function("expm1"), expm1_exact),
             [{"less": lambda x, y: mp.mpf(x < y)}, "mpmath"],
         )
         for output, expr in kernel.outputs.items()
     }
 
 
-@pytest.mark.parametrize("kernel", [k for k in kernels() if k.along], ids=lambda kernel: kernel.name)
-def test_compiled_slopes_are_derivatives_at_50_digits(kernel):
+@pytest.mark.parametrize("name", DERIVATIVES)
+def test_compiled_slopes_are_derivatives_at_50_digits(name):
     """CasADi's derivative in double precision beside a difference quotient of the SymPy expression."""
+    kernel = kernels()[name]
+    assert kernel.along
     rng, names = np.random.default_rng(17), list(kernel.inputs)
     exact, step = exact_outputs(kernel), mp.mpf(10) ** -20
     for _ in range(3):
@@ -194,8 +204,10 @@ def test_compiled_slopes_are_derivatives_at_50_digits(kernel):
                     assert abs(ours[f"{name}_{direction}"] - value) <= 1e-11 * size, (name, direction)
 
 
-@pytest.mark.parametrize("kernel", [k for k in kernels() if not k.along], ids=lambda kernel: kernel.name)
-def test_compiled_kernel_agrees_with_its_expression_at_50_digits(kernel):
+@pytest.mark.parametrize("name", [name for name in NAMES if name not in DERIVATIVES])
+def test_compiled_kernel_agrees_with_its_expression_at_50_digits(name):
+    kernel = kernels()[name]
+    assert not kernel.along
     rng = np.random.default_rng(17)
     names = list(kernel.inputs)
     exact = exact_outputs(kernel)
@@ -208,3 +220,35 @@ def test_compiled_kernel_agrees_with_its_expression_at_50_digits(kernel):
             for name, value in values.items():
                 size = max(abs(v) for other, v in values.items() if kernel.units[other] == kernel.units[name])
                 assert abs(ours[name] - value) <= 1e-12 * size, name
+
+
+def test_a_call_whose_structs_lack_an_argument_or_have_it_twice_is_not_generated():
+    kernel = next(kernel for kernel in kernels() if kernel.name == "trum_filling")
+    layer = driver.Struct("layer", "layer", ("W_c", "engagement", "fullness"), "a layer")
+    height = driver.Struct("height", "height", ("engagement_per_height", "W_c"), "twice")
+    for structs, name in (((layer,), "engagement_per_height is in 0"), ((layer, height), "W_c is in 2")):
+        call = driver.Call("trum_filling", tuple(struct.name for struct in structs))
+        with pytest.raises(ValueError, match=name):
+            driver.called(call, kernel, structs, "", "double", "{}")
+
+
+def test_the_manifest_lists_the_drivers_fields_in_its_order(files):
+    orbit = json.loads(files["manifest.json"])["orbit"]
+    for kernel, (inputs, outputs) in {
+        "rotor_orbit": (["orbit_in"], ["orbit_out"]),
+        "rotor_slopes": (["orbit_in", "slopes_in"], ["orbit_out"]),
+        "rotor_history": (["orbit_in", "history_in"], []),
+        "cycle_sums": (["cycle_sums_in"], ["cycle_sums_out"]),
+        "cycle_response": (["cycle_response_in"], ["cycle_response_out"]),
+        "contact_half_angle": (["half_angle_in"], []),
+    }.items():
+        for names, lists in zip(signature(kernel), (inputs, outputs), strict=True):
+            listed = [field["name"] for name in lists for field in orbit[name]]
+            assert names[: len(listed)] == listed, kernel
+    assert [field["name"] for field in orbit["slope_figures"]] == list(SLOPE_FIGURES)
+    assert [field["name"] for field in orbit["slope_parameters"]] == list(SLOPE_PARAMETERS)
+
+
+def test_compiled_kernels_of_another_version_are_refused_by_name():
+    with pytest.raises(ImportError, match=r"an orbit's inputs differ by drag, load; install"):
+        expect("an orbit's inputs", ("push", "load"), ("push", "drag"))

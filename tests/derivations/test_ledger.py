@@ -12,13 +12,15 @@ from pathlib import Path
 
 import mpmath as mp
 import pytest
-import sympy as sp
+from lazily import lazily
 
-from derivations.ledger import ENTRIES, entry, judge
-from derivations.ledger.command import as_json, prove, verify
-from derivations.ledger.model import Derivation, Entry, Evidence, Step, confirm
-from derivations.ledger.mutate import equivalent, mutants, try_misreadings, try_mutants
-from derivations.nomenclature import CLASHES, NOMENCLATURE, sym
+sp = lazily("sympy")
+command = lazily("derivations.ledger.command")
+judge = lazily("derivations.ledger.judge")
+ledger = lazily("derivations.ledger")
+model = lazily("derivations.ledger.model")
+mutate = lazily("derivations.ledger.mutate")
+nomenclature = lazily("derivations.nomenclature")
 
 ROOT = Path(__file__).parents[2]
 NUMBERED = [str(n) for n in range(1, 46)] + [f"A{n}" for n in range(1, 18)]
@@ -27,12 +29,12 @@ KEYS = {"id", "section", "title", "verdict", "reason", "printed_latex", "derived
 
 @pytest.fixture(scope="module")
 def records():
-    return prove(ENTRIES)
+    return command.prove(ledger.ENTRIES)
 
 
 def test_all_62_numbered_equations_are_there_once_and_in_order():
-    assert [e.id for e in ENTRIES if e.id.removeprefix("A").isdigit()] == NUMBERED
-    assert len({e.id for e in ENTRIES}) == len(ENTRIES)
+    assert [e.id for e in ledger.ENTRIES if e.id.removeprefix("A").isdigit()] == NUMBERED
+    assert len({e.id for e in ledger.ENTRIES}) == len(ledger.ENTRIES)
 
 
 def test_every_verdict_is_confirmed(records):
@@ -66,23 +68,23 @@ def test_records_have_the_fixed_keys(records):
 
 
 def test_the_shipped_ledger_is_what_is_proved_now(records):
-    assert (ROOT / "generated" / "ledger.json").read_text("utf-8") == as_json(records)
+    assert (ROOT / "generated" / "ledger.json").read_text("utf-8") == command.as_json(records)
 
 
 # --- the machinery refuses what is not so -------------------------------------------------------------------
-def toy(**changes) -> Entry:
-    x, _ = sym("x t")
+def toy(**changes):
+    x, _ = nomenclature.sym("x t")
     base = {
         "id": "0", "section": "", "title": "", "place": "", "printed": {"x": x}, "units": {"x": "m"},
         "verdict": "verified", "reason": "",
-        "judge": lambda forms: [Evidence("numeric", forms["x"] == x, "")],
-        "derive": lambda: Derivation((Step("premise"),), {"x": x}), "effect": lambda: "",
+        "judge": lambda forms: [model.Evidence("numeric", forms["x"] == x, "")],
+        "derive": lambda: model.Derivation((model.Step("premise"),), {"x": x}), "effect": lambda: "",
     }  # fmt: skip
-    return Entry(**{**base, **changes})
+    return model.Entry(**{**base, **changes})
 
 
 def test_a_toy_entry_is_confirmed():
-    assert confirm(toy()).confirmed
+    assert model.confirm(toy()).confirmed
 
 
 @pytest.mark.parametrize(
@@ -90,27 +92,27 @@ def test_a_toy_entry_is_confirmed():
     [
         ({"judge": lambda _: []}, "two independent kinds"),
         ({"units": {"x": "s"}}, "dimension"),
-        ({"judge": lambda _: [Evidence("numeric", False, "off")]}, "numeric: off"),
+        ({"judge": lambda _: [model.Evidence("numeric", False, "off")]}, "numeric: off"),
         ({"judge": lambda _: 1 / 0}, "cannot be evaluated"),
         ({"verdict": "approximation"}, "error_size"),
         ({"verdict": "empirical"}, "data"),
         ({"verdict": "erratum"}, "nothing speaks against"),
         ({"verdict": "reconstructed"}, "but it is printed"),
-        ({"derive": lambda: Derivation((Step("a step", (), False),), {})}, "a step"),
-        ({"derive": lambda: Derivation((), {})}, "no derivation"),
+        ({"derive": lambda: model.Derivation((model.Step("a step", (), False),), {})}, "a step"),
+        ({"derive": lambda: model.Derivation((), {})}, "no derivation"),
     ],
 )
 def test_a_verdict_that_the_evidence_does_not_bear_is_not_confirmed(changes, problem):
-    assert any(problem in p for p in confirm(toy(**changes)).problems)
+    assert any(problem in p for p in model.confirm(toy(**changes)).problems)
 
 
 def test_an_erratum_needs_a_repair_that_passes_and_the_stated_kinds():
-    x, _ = sym("x t")
+    x, _ = nomenclature.sym("x t")
     wrong = {"printed": {"x": 2 * x}, "verdict": "erratum", "found_by": ("numeric",)}
-    assert confirm(toy(**wrong, repair=lambda f: {"x": f["x"] / 2})).confirmed
-    assert not confirm(toy(**wrong)).confirmed
-    assert not confirm(toy(**wrong, repair=lambda f: f)).confirmed
-    assert not confirm(toy(**{**wrong, "found_by": ("identity",)}, repair=lambda f: {"x": f["x"] / 2})).confirmed
+    assert model.confirm(toy(**wrong, repair=lambda f: {"x": f["x"] / 2})).confirmed
+    assert not model.confirm(toy(**wrong)).confirmed
+    assert not model.confirm(toy(**wrong, repair=lambda f: f)).confirmed
+    assert not model.confirm(toy(**{**wrong, "found_by": ("identity",)}, repair=lambda f: {"x": f["x"] / 2})).confirmed
 
 
 def rows_of(head):
@@ -133,55 +135,58 @@ def test_the_docs_list_the_planted_slips():
 
 
 # --- errors planted in the transcription --------------------------------------------------------------------
+def symbols():
+    return {name: symbol.symbol for name, symbol in nomenclature.NOMENCLATURE.items()}
+
+
 def put(old, new):
-    return lambda form: form.xreplace({sp.sympify(old): sp.sympify(new)})
+    """Replace an expression of the nomenclature's symbols by another, both as text."""
+    return lambda form: form.xreplace({sp.sympify(old, locals=symbols()): sp.sympify(new, locals=symbols())})
 
-
-h_p, h_e, k_c, omega_q, omega_n, W_a, D, rho, xi = sym("h_p h_e k_c omega_q omega_n W_a D rho xi")
-omega_a, omega_b, U_s, A_A, kappa, w_A, w_B = sym("omega_a omega_b U_s A_A kappa w_A w_B")
-Psi_Badd, t, t_1 = sym("Psi_Badd t t_1")
 
 PLANTED = [
-    ("1", "D", put(h_p**2, h_p * h_e), "numeric"),
-    ("2", "I_e", put(D**3, D**2), "dimension"),
-    ("3", "force", put(kappa, -kappa), "numeric"),
+    ("1", "D", put("h_p**2", "h_p * h_e"), "numeric"),
+    ("2", "I_e", put("D**3", "D**2"), "dimension"),
+    ("3", "force", put("kappa", "-kappa"), "numeric"),
     ("5", "a_4", lambda f: -f, "numeric"),
-    ("6", "omega_n", put(k_c**4, k_c**3), "numeric"),
-    ("7", "A_zm", put(U_s, U_s / 2), "numeric"),
-    ("10", "w_B", put(omega_n, omega_q), "error_size"),
-    ("12", "A_Q", put(A_A**2, -(A_A**2)), "numeric"),
-    ("13", "A_A", put(xi, 2 * xi), "numeric"),
+    ("6", "omega_n", put("k_c**4", "k_c**3"), "numeric"),
+    ("7", "A_zm", put("U_s", "U_s / 2"), "numeric"),
+    ("10", "w_B", put("omega_n", "omega_q"), "error_size"),
+    ("12", "A_Q", put("A_A**2", "-(A_A**2)"), "numeric"),
+    ("13", "A_A", put("xi", "2 * xi"), "numeric"),
     ("16", "v_x", lambda f: f.replace(sp.sin, sp.cos), "numeric"),
     ("19", "addredu", lambda f: f.replace(sp.cos, sp.sin), "numeric"),
-    ("20", "x_max", put(w_A / w_B, w_B / w_A), "identity"),
-    ("22", "v_xmax", put(w_A, -w_A), "numeric"),
+    ("20", "x_max", put("w_A / w_B", "w_B / w_A"), "identity"),
+    ("22", "v_xmax", put("w_A", "-w_A"), "numeric"),
     ("23", "B_ell", lambda f: f / 2, "numeric"),
-    ("24", "Q_q", put(omega_q / 2 - omega_n / 2, omega_n / 2 - omega_q / 2), "numeric"),
-    ("24", "Q_q", put(Psi_Badd, -Psi_Badd), "identity"),
+    ("24", "Q_q", put("omega_q / 2 - omega_n / 2", "omega_n / 2 - omega_q / 2"), "numeric"),
+    ("24", "Q_q", put("Psi_Badd", "-Psi_Badd"), "identity"),
     ("A4", "reduced", lambda f: -f, "numeric"),
-    ("A6", "Q_q", put(omega_b - omega_a, omega_a - omega_b), "numeric"),
+    ("A6", "Q_q", put("omega_b - omega_a", "omega_a - omega_b"), "numeric"),
     ("A9", "T_q", lambda f: f / 2, "numeric"),
 ]
 
 
 @pytest.mark.parametrize(("name", "form", "slip", "by"), PLANTED, ids=[f"{p[0]}-{p[3]}" for p in PLANTED])
 def test_a_slip_planted_in_the_transcription_is_noticed(name, form, slip, by):
-    honest = entry(name)
+    honest = ledger.entry(name)
     changed = slip(honest.printed[form])
     assert changed != honest.printed[form]
-    result = confirm(replace(honest, printed={**honest.printed, form: changed}))
+    result = model.confirm(replace(honest, printed={**honest.printed, form: changed}))
     assert any(by in problem for problem in result.problems), result.problems
 
 
 def test_the_beat_of_eq_24s_first_row_may_be_written_either_way_round():
     """sin((omega_q - omega_n)(t - t_1) + pi/2) is a cosine: this slip changes nothing, so nothing may notice it."""
-    honest = entry("24")
+    honest = ledger.entry("24")
     row = honest.printed["Q_q"].args[0][0]
-    slipped = put(omega_q - omega_n, omega_n - omega_q)(row)
+    omega_q, omega_n, t, t_1 = nomenclature.sym("omega_q omega_n t t_1")
+    slip = put("omega_q - omega_n", "omega_n - omega_q")
+    slipped = slip(row)
     assert row.has((omega_q - omega_n) * (t - t_1))
     assert slipped != row
     assert sp.simplify(slipped - row.doit()) == 0
-    assert equivalent(put(omega_q - omega_n, omega_n - omega_q)(honest.printed["Q_q"]), honest.printed["Q_q"])
+    assert mutate.equivalent(slip(honest.printed["Q_q"]), honest.printed["Q_q"])
 
 
 WITH_A_LOOP = [str(n) for n in range(1, 25)] + [f"A{n}" for n in range(1, 10)]
@@ -190,7 +195,7 @@ WITH_A_LOOP = [str(n) for n in range(1, 25)] + [f"A{n}" for n in range(1, 10)]
 @pytest.mark.parametrize("name", WITH_A_LOOP)
 def test_one_value_that_is_not_a_number_is_noticed(monkeypatch, name):
     """Every second evaluation of an expression gives NaN, which max(0, nan) would drop."""
-    judged = entry(name)
+    judged = ledger.entry(name)
     forms = judged.subject()
     assert judged.rejects(forms) is None  # and what is cached is computed
     calls = Counter()
@@ -200,7 +205,7 @@ def test_one_value_that_is_not_a_number_is_noticed(monkeypatch, name):
         calls[expr] += 1
         return (lambda *_: mp.nan) if calls[expr] == 2 else sound(symbols, expr)
 
-    monkeypatch.setattr(judge, "compiled", failing)
+    monkeypatch.setattr("derivations.ledger.judge.compiled", failing)
     found = judged.rejects(forms)
     assert found is not None or max(calls.values(), default=0) < 2
     assert (max(calls.values(), default=0) >= 2) == (name not in ONE_EVALUATION)
@@ -211,8 +216,8 @@ ONE_EVALUATION = {"15"}  # its judge turns vectors of its own
 
 # --- mutants ------------------------------------------------------------------------------------------------
 def test_mutants_are_the_slips_that_happen_in_print():
-    a, b = sym("w_A w_B")
-    slips = {m.slip for m in mutants({"x": a**2 + 2 * sp.sin(b)})}
+    a, b = nomenclature.sym("w_A w_B")
+    slips = {m.slip for m in mutate.mutants({"x": a**2 + 2 * sp.sin(b)})}
     assert any("dropped" in s for s in slips)
     assert any("sign" in s for s in slips)
     assert any("cos for sin" in s for s in slips)
@@ -222,43 +227,43 @@ def test_mutants_are_the_slips_that_happen_in_print():
 
 @pytest.mark.parametrize("name", ["1", "3", "4", "6", "12", "16", "A6", "A9"])
 def test_no_mutant_survives(name):
-    outcomes = try_mutants(entry(name))
+    outcomes = mutate.try_mutants(ledger.entry(name))
     assert outcomes
     assert [f"{o.mutant.name}: {o.mutant.slip}" for o in outcomes if o.survives] == []
 
 
 @pytest.mark.parametrize("name", ["5", "10", "15", "20", "31", "A13", "table-1-isotropy"])
 def test_no_misreading_of_a_misprint_survives(name):
-    outcomes = try_misreadings(entry(name))
+    outcomes = mutate.try_misreadings(ledger.entry(name))
     assert [f"{o.mutant.name}: {o.mutant.slip}" for o in outcomes if o.survives] == []
 
 
 def test_a_repair_that_ignores_the_print_discards_its_misreadings():
-    honest = entry("20")
+    honest = ledger.entry("20")
     deaf = replace(honest, repair=lambda _: honest.subject())
-    assert any(o.discarded for o in try_misreadings(deaf))
-    assert not any(o.discarded for o in try_misreadings(honest))
+    assert any(o.discarded for o in mutate.try_misreadings(deaf))
+    assert not any(o.discarded for o in mutate.try_misreadings(honest))
 
 
 def test_an_idle_judge_lets_mutants_survive():
-    idle = replace(entry("12"), judge=lambda _: [])
-    assert any(o.survives for o in try_mutants(idle))
+    idle = replace(ledger.entry("12"), judge=lambda _: [])
+    assert any(o.survives for o in mutate.try_mutants(idle))
 
 
 def test_a_surviving_mutant_is_1_and_is_named(capsys, monkeypatch):
-    idle = replace(entry("12"), judge=lambda _: [])
+    idle = replace(ledger.entry("12"), judge=lambda _: [])
     monkeypatch.setattr("derivations.ledger.command.entry", lambda _: idle)
-    assert verify("12", **options(mutants=True)) == 1
+    assert command.verify("12", **options(mutants=True)) == 1
     assert "surviving (12) A_Q: " in capsys.readouterr().out
     monkeypatch.undo()
-    assert verify("12", **options(mutants=True)) == 0
+    assert command.verify("12", **options(mutants=True)) == 0
     assert "29 mutants of what stands: 29 rejected" in capsys.readouterr().out
 
 
 # --- symbols and command line -------------------------------------------------------------------------------
 def test_every_symbol_has_unit_latex_place_and_meaning():
-    assert all(e.latex and e.where and e.meaning for e in NOMENCLATURE.values())
-    assert all(len(meanings) >= 2 for meanings in CLASHES.values())
+    assert all(e.latex and e.where and e.meaning for e in nomenclature.NOMENCLATURE.values())
+    assert all(len(meanings) >= 2 for meanings in nomenclature.CLASHES.values())
 
 
 def options(**changes):
@@ -266,7 +271,7 @@ def options(**changes):
 
 
 def test_one_equation_writes_its_steps_out(capsys):
-    assert verify("(6)", **options()) == 0
+    assert command.verify("(6)", **options()) == 0
     out = capsys.readouterr().out
     assert "derivation" in out
     assert "[checked]" in out
@@ -274,7 +279,7 @@ def test_one_equation_writes_its_steps_out(capsys):
 
 
 def test_an_unknown_equation_is_one_line_and_2(capsys):
-    assert verify("46", **options()) == 2
+    assert command.verify("46", **options()) == 2
     out, err = capsys.readouterr()
     assert out == ""
     assert err.count("\n") == 1
@@ -282,9 +287,9 @@ def test_an_unknown_equation_is_one_line_and_2(capsys):
 
 
 def test_an_unproved_equation_is_1(capsys, monkeypatch):
-    broken = replace(entry("12"), printed={"A_Q": A_A})
+    broken = replace(ledger.entry("12"), printed={"A_Q": nomenclature.sym("A_A")[0]})
     monkeypatch.setattr("derivations.ledger.command.entry", lambda _: broken)
-    assert verify("12", **options(json_=True)) == 1
+    assert command.verify("12", **options(json_=True)) == 1
     (found,) = json.loads(capsys.readouterr().out)
     assert found["confirmed"] is False
 

@@ -1,4 +1,4 @@
-"""The gallery runs, prints figures that hold, and its stored pictures are what it draws."""
+"""The gallery runs, prints figures that hold, and the pictures on a page are what it draws."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ import subprocess
 import sys
 from pathlib import Path
 
-import matplotlib.image
 import numpy as np
 import pytest
+from lazily import lazily
 
 import trum_sym as ts
 
@@ -23,6 +23,8 @@ PICTURES = {
     "optimize": "optimum",
     "own_motor": "own-motor",
 }
+ON_A_PAGE = ("evaluate", "starts", "torque_speed")
+image = lazily("matplotlib.image")
 NUMBER = re.compile(r"-?\d+\.?\d*(?:e-?\d+)?")
 
 
@@ -40,13 +42,14 @@ def drawn(tmp_path_factory):
             check=True,
         )
         printed[name] = done.stdout
+        assert (folder / f"{PICTURES[name]}.svg").stat().st_size < 400_000
     return printed, folder
 
 
 def images(text):
     """The text without its embedded images, and these."""
     found = re.findall(r"data:image/png;base64,([^\"]+)", text)
-    pixels = [matplotlib.image.imread(io.BytesIO(base64.b64decode(image))) for image in found]
+    pixels = [image.imread(io.BytesIO(base64.b64decode(data))) for data in found]
     drawing = re.sub(r"data:image/png;base64,[^\"]+", "", text)
     return re.sub(r'(id="|#)[^")]+', r"\1", drawing), pixels  # ids are hashes of what they name
 
@@ -64,13 +67,19 @@ def differ(ours, stored):
     return ""
 
 
-@pytest.mark.parametrize("name", PICTURES)
+@pytest.mark.parametrize("name", ON_A_PAGE)
 def test_the_stored_picture_is_what_the_script_draws(drawn, name):
     file = f"{PICTURES[name]}.svg"
     stored = (ROOT / "docs" / "pictures" / file).read_text("utf-8")
     found = differ((drawn[1] / file).read_text("utf-8"), stored)
     assert not found, f"{file}: {found}; run python examples/gallery_{name}.py docs/pictures"
-    assert len(stored) < 400_000
+
+
+def test_every_stored_picture_is_on_a_page():
+    text = "".join(page.read_text("utf-8") for page in (ROOT / "README.md", *(ROOT / "docs").glob("*.md")))
+    stored = [path for kind in ("svg", "png") for path in (ROOT / "docs").rglob(f"*.{kind}")]
+    shown = re.findall(r"!\[[^]]+\]\((?:docs/)?([^)]+)\)", text)
+    assert sorted(path.relative_to(ROOT / "docs").as_posix() for path in stored) == sorted(shown)
 
 
 def test_a_stale_picture_is_noticed(drawn):
@@ -81,9 +90,9 @@ def test_a_stale_picture_is_noticed(drawn):
     assert differ(text.replace("w_A (µm)", "w_A (mm)"), text) == "another drawing"
     map_text = (drawn[1] / "optimum.svg").read_text("utf-8")
     first = re.search(r"base64,([^\"]+)", map_text)[1]
-    pixels = matplotlib.image.imread(io.BytesIO(base64.b64decode(first)))
+    pixels = image.imread(io.BytesIO(base64.b64decode(first)))
     buffer = io.BytesIO()
-    matplotlib.image.imsave(buffer, pixels[::-1], format="png")
+    image.imsave(buffer, pixels[::-1], format="png")
     turned = map_text.replace(first, base64.b64encode(buffer.getvalue()).decode(), 1)
     assert differ(turned, map_text) == "another image"
 

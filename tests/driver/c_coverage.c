@@ -129,7 +129,7 @@ static void edges(void) {
     memset(&slopes_in, 0, sizeof slopes_in), memset(&slopes_out, 0, sizeof slopes_out);
     trum_orbits(&in, out + 1, &slopes_in, &slopes_out, 1);
     expect(out[1].mean == out[0].mean, "slopes change no figure");
-    expect(slopes_out.of[OF_MEAN][BY_DRAG] < 0, "a load slows the rotor down");
+    expect(slopes_out.of[TRUM_OF_MEAN][TRUM_BY_DRAG] < 0, "a load slows the rotor down");
   }
   {
     trum_orbit_in several[3];
@@ -148,7 +148,7 @@ static void edges(void) {
       trum_slopes_out of[3];
       memset(with, 0, sizeof with);
       trum_orbits(several, out, with, of, 3);
-      expect(of[2].of[OF_MEAN][BY_DRAG] == slopes_out.of[OF_MEAN][BY_DRAG], "slopes of several points");
+      expect(of[2].of[TRUM_OF_MEAN][TRUM_BY_DRAG] == slopes_out.of[TRUM_OF_MEAN][TRUM_BY_DRAG], "slopes of several points");
     }
     several[1].a_A = NAN;
     trum_orbits(several + 1, out, 0, 0, 1);

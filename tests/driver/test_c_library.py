@@ -12,10 +12,9 @@ import mpmath as mp
 import numpy as np
 import pytest
 from c_coverage import ROOT
-from test_generated import exact_outputs, random_arguments
+from test_generated import exact_outputs, kernels, random_arguments
 
 import trum_sym as ts
-from derivations.codegen.kernels import kernels
 from trum_sym.console import main
 from trum_sym.model.kernels import call
 
@@ -144,9 +143,9 @@ def test_scalar_kernels_agree_with_their_expressions_at_50_digits(harness):
     A kernel of derivatives gives the bits of the package's, which ``test_generated`` compares with 50 digits.
     """
     rng = np.random.default_rng(3)
-    by_name = {kernel.name: kernel for kernel in kernels()}
+    by_name = kernels()
     lines = c_coverage.friction()
-    for kernel in kernels():
+    for kernel in by_name.values():
         for _ in range(3):
             lines.append(" ".join(["kernel", kernel.name, *map(repr, random_arguments(kernel, rng).values())]))
     done = subprocess.run([harness], input="\n".join(lines) + "\n", text=True, capture_output=True, check=True)

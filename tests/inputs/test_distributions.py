@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 import pytest
+import scipy
 from refusals import MOTOR, MOTOR_TEXT, refusal, voltage
-from scipy import integrate, stats
 
 import trum_sym as ts
 from trum_sym.inputs.distributions import Distribution, checked, from_text
@@ -46,16 +46,16 @@ def test_moments_are_those_that_were_asked_for(distribution, mean, deviation):
 def test_a_cut_lognormal_has_the_cut_density():
     values = drawn(Distribution("lognormal", 0.2, 0.4, mean=0.25, standard_deviation=0.1))
     spread = math.log1p(0.4**2)
-    density = stats.lognorm(math.sqrt(spread), scale=0.25 * math.exp(-spread / 2)).pdf
-    whole = integrate.quad(density, 0.2, 0.4)[0]
-    assert values.mean() == pytest.approx(integrate.quad(lambda x: x * density(x), 0.2, 0.4)[0] / whole, rel=1e-6)
+    density = scipy.stats.lognorm(math.sqrt(spread), scale=0.25 * math.exp(-spread / 2)).pdf
+    whole = scipy.integrate.quad(density, 0.2, 0.4)[0]
+    assert values.mean() == pytest.approx(scipy.integrate.quad(lambda x: x * density(x), 0.2, 0.4)[0] / whole, rel=1e-6)
     assert 0.2 < values.min() < values.max() < 0.4
 
 
 def test_a_normal_distribution_is_cut_at_the_parameters_domain():
     values = drawn(Distribution("normal", mean=0.01, standard_deviation=0.1))
     assert values.min() >= 0
-    assert np.median(values) == pytest.approx(stats.truncnorm(-0.1, np.inf, 0.01, 0.1).median(), rel=1e-3)
+    assert np.median(values) == pytest.approx(scipy.stats.truncnorm(-0.1, np.inf, 0.01, 0.1).median(), rel=1e-3)
 
 
 def test_every_level_gives_a_finite_value():

@@ -7,14 +7,14 @@ import sys
 
 import numpy as np
 import pytest
-import sympy as sp
-import xarray as xr
-from orbit_reference import GATES, Reference, _modal, half_angle, surface
+from lazily import lazily
 
 import trum_sym as ts
 from trum_sym.console import main
 from trum_sym.model.histories import VARIABLES
 
+xr = lazily("xarray")
+orbit_reference = lazily("orbit_reference")
 DRIVE = {"periods": 6, "on_periods": 4, "load_torque": 0.1}
 
 
@@ -30,7 +30,7 @@ def found(trum60, drive):
 
 @pytest.fixture(scope="module")
 def reference(trum60, drive):
-    other = Reference(trum60, drive, ts.evaluate(trum60, drive, tolerance=1e-7))
+    other = orbit_reference.Reference(trum60, drive, ts.evaluate(trum60, drive, tolerance=1e-7))
     return other, other.orbit()
 
 
@@ -77,7 +77,7 @@ def test_histories_agree_with_the_independent_orbit(found, reference):
     for i in range(0, 6 * 32, 7):
         time, region, at = float(found.time[i]), int(found.region[i]), found.isel(time=i)
         tau = time - whole[:region].sum()
-        w = _modal(other.p, other.states[region], GATES[region], tau)
+        w = orbit_reference.modal(other.p, other.states[region], orbit_reference.GATES[region], tau)
         height = np.hypot(w[0], w[1])
         other.durations = np.where(np.arange(3) < region, whole, 0.0)
         other.durations[region] = tau
@@ -90,9 +90,9 @@ def test_histories_agree_with_the_independent_orbit(found, reference):
         assert float(at.Q) == pytest.approx(along, abs=1e-10 * other.p[6] * W**2 * other.p[0])
         if height > 0:  # the very first instant of a start from rest
             assert float(at.crest_speed) == pytest.approx(along / height, rel=1e-9, abs=1e-12)
-        assert float(at.theta) == pytest.approx(half_angle(other.p, height), rel=1e-9)
+        assert float(at.theta) == pytest.approx(orbit_reference.half_angle(other.p, height), rel=1e-9)
         assert float(at.rotor_speed) == pytest.approx(speed, abs=2e-5 * orbit.largest)  # a cubic between steps
-        net = surface(other.p, w, float(at.rotor_speed) * other.radius)[0]
+        net = orbit_reference.surface(other.p, w, float(at.rotor_speed) * other.radius)[0]
         assert float(at.friction) == pytest.approx(net, abs=1e-7)
         angle = orbit.start * time + x[1] / other.radius
         assert float(at.rotor_angle) == pytest.approx(angle, abs=1e-5 * orbit.largest * other.cycle_time)
@@ -100,6 +100,8 @@ def test_histories_agree_with_the_independent_orbit(found, reference):
 
 
 def test_the_surface_moves_as_eq_11_says(found):
+    import sympy as sp
+
     w_A, w_B, k, D, x = sp.symbols("w_A w_B k D x")
     zeta_z = w_A * sp.sin(k * x) + w_B * sp.cos(k * x)
     values = (found.w_A.values, found.w_B.values, found.attrs["wavenumber"], found.attrs["neutral_axis"])
@@ -120,9 +122,9 @@ def test_a_runaway_rotor_leaves_the_stators_histories(trum60):
 def test_hertz_contact_has_its_own_half_angle(trum60):
     drive = ts.Drive(**DRIVE)
     found = ts.simulate(trum60, drive, contact="hertz")
-    other = Reference(trum60, drive, ts.evaluate(trum60, drive, contact="hertz"), contact="hertz")
+    other = orbit_reference.Reference(trum60, drive, ts.evaluate(trum60, drive, contact="hertz"), contact="hertz")
     height = np.hypot(found.w_A, found.w_B).values
-    assert found.theta.values == pytest.approx([half_angle(other.p, h) for h in height], rel=1e-9)
+    assert found.theta.values == pytest.approx([orbit_reference.half_angle(other.p, h) for h in height], rel=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -6,12 +6,13 @@ import math
 
 import numpy as np
 import pytest
-from orbit_reference import GATES, Reference, _modal, half_angle, rate, surface
-from scipy.integrate import solve_ivp
+import scipy
+from lazily import lazily
 
 import trum_sym as ts
 from studies.orbit import disagreement, evaluate, reference, samples
 
+orbit_reference = lazily("orbit_reference")
 SMALL = samples(12, seed=7, periods=(4, 9))
 # From rest, the load drives: for moments only does the crest sweep past points that are faster than the rotor
 BRIEF = samples(60, seed=99, periods=(4, 12))[53]
@@ -67,7 +68,7 @@ def test_three_hundred_points_agree_with_the_independent_orbit():
 def test_hertz_contact_agrees_with_the_independent_orbit(trum60):
     drive = ts.Drive(periods=6, on_periods=4, load_torque=0.1, start="rest")
     point = ts.evaluate(trum60, drive, contact="hertz", tolerance=1e-7)
-    orbit = Reference(trum60, drive, point, contact="hertz").orbit()
+    orbit = orbit_reference.Reference(trum60, drive, point, contact="hertz").orbit()
     ours = np.array([point.mean_speed, point.min_speed, point.max_speed])
     assert np.abs(ours - [orbit.mean, orbit.low, orbit.high]).max() <= 1e-7 * orbit.largest
 
@@ -79,7 +80,7 @@ def test_the_reference_counts_the_points_of_the_surface_that_are_faster_than_the
     for _ in range(60):
         w = rng.normal(size=4) * np.array([1e-6, 1e-6, 0.3, 0.3]) * 10 ** rng.uniform(-2, 1)
         height, crest = np.hypot(w[0], w[1]), np.arctan2(w[0], w[1])
-        theta = half_angle(other.p, height)
+        theta = orbit_reference.half_angle(other.p, height)
         density = np.where(np.abs(u) < theta, np.cos(u) - np.cos(theta), 0.0)
         if theta == np.pi:
             density = np.cos(u) + other.p[7] / height / np.pi
@@ -90,21 +91,24 @@ def test_the_reference_counts_the_points_of_the_surface_that_are_faster_than_the
         sign = np.sign(speed - v)
         brute = [np.sum(sign * density), np.sum(sign * density * speed), np.sum(density * np.abs(speed - v))]
         scale = np.array([1, np.abs(speed).max(), np.abs(speed).max()])
-        assert np.abs(surface(other.p, w, v) - np.array(brute)).max() / scale.max() < 1e-4
+        assert np.abs(orbit_reference.surface(other.p, w, v) - np.array(brute)).max() / scale.max() < 1e-4
 
 
 def test_the_references_half_angle_carries_the_prepressure(steady):
     p = reference(*steady[0]).p
     for height in np.geomspace(p[7] / math.pi * 1.0001, p[7] * 1e4, 40):
-        theta = half_angle(p, height)
+        theta = orbit_reference.half_angle(p, height)
         assert math.sin(theta) - theta * math.cos(theta) == pytest.approx(p[7] / height, rel=1e-10)
-    assert half_angle(p, p[7] / 3.15) == math.pi
+    assert orbit_reference.half_angle(p, p[7] / 3.15) == math.pi
 
 
 def test_the_references_phases_are_continuous_over_the_regions_and_repeat(steady):
     for point, answer in steady:
         other = reference(point, answer)
-        ends = [_modal(other.p, other.states[r], GATES[r], other.durations[r])[[0, 2, 1, 3]] for r in range(3)]
+        ends = [
+            orbit_reference.modal(other.p, other.states[r], orbit_reference.GATES[r], other.durations[r])[[0, 2, 1, 3]]
+            for r in range(3)
+        ]
         scale = np.array([1, other.p[0]] * 2) * other.p[5]
         for r in (0, 1):
             assert np.abs((ends[r] - other.states[r + 1]) / scale).max() < 1e-10
@@ -133,13 +137,13 @@ def test_the_reference_closes_and_has_its_extremes_where_lsoda_has_them(steady):
 
             def derivative(t, x, r=r, other=other, v0=v0):
                 out = np.empty(5)
-                rate(other.p, other.states[r], GATES[r], t, v0, x, out)
+                orbit_reference.rate(other.p, other.states[r], orbit_reference.GATES[r], t, v0, x, out)
                 return out
 
             def turning(t, x, derivative=derivative):
                 return derivative(t, x)[0]
 
-            steps = solve_ivp(
+            steps = scipy.integrate.solve_ivp(
                 derivative,
                 (0, other.durations[r]),
                 x,

@@ -7,11 +7,9 @@ import math
 
 import numpy as np
 import pytest
-from scipy.integrate import quad
-from scipy.optimize import brentq
+import scipy
 
 import trum_sym as ts
-from benchmarks.lsoda import lsoda_cycles
 from trum_sym import _kernels
 from trum_sym.console import main
 from trum_sym.model.kernels import call
@@ -48,7 +46,7 @@ def pressure(u, contact):
 @pytest.mark.parametrize("y", [1e-4, 0.02, 0.5, 2.0, 3.1, 3.5, 40.0])
 def test_pressure_shares_sum_to_one(y):
     contact = winkler(y)
-    assert quad(pressure, -np.pi, np.pi, args=(contact,), points=[-contact["theta"], contact["theta"]])[
+    assert scipy.integrate.quad(pressure, -np.pi, np.pi, args=(contact,), points=[-contact["theta"], contact["theta"]])[
         0
     ] == pytest.approx(1, rel=1e-8)
 
@@ -101,7 +99,9 @@ def test_plain_travelling_wave_turns_the_rotor_where_friction_carries_the_load(t
     contact = winkler(y)
     limit = 0.0265 * 0.25 * 180.0
     surface = point.neutral_axis * point.wavenumber * point.amplitude * 2 * np.pi * point.drive_frequency
-    rim = brentq(lambda v: friction(contact, surface, 0.0, v)["f"] - load / limit, -surface, surface, xtol=1e-14)
+    rim = scipy.optimize.brentq(
+        lambda v: friction(contact, surface, 0.0, v)["f"] - load / limit, -surface, surface, xtol=1e-14
+    )
     assert point.mean_speed == pytest.approx(rim / 0.0265, rel=2e-6)
     assert point.max_speed - point.min_speed < 1e-4 * point.mean_speed
     assert point.stall_torque == pytest.approx(limit, rel=1e-9)
@@ -118,6 +118,8 @@ def test_plain_travelling_wave_turns_the_rotor_where_friction_carries_the_load(t
     ],
 )
 def test_orbit_agrees_with_lsoda_run_until_it_repeats(trum60, drive, cycles):
+    from benchmarks.lsoda import lsoda_cycles
+
     drive = ts.Drive(**drive)
     point = settings(trum60, drive)
     *_, (mean, low, high) = lsoda_cycles(trum60, drive, point, cycles)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from scipy import integrate, linalg, optimize
+import scipy
 
 import trum_sym as ts
 from trum_sym.model.kernels import call
@@ -31,7 +31,7 @@ def layers(v):
 
 def test_neutral_axis_balances_the_bending_stress(values):
     force = sum(
-        integrate.quad(lambda z, E=E, b=b: E * b * (z - values["D"]), lo, hi)[0]
+        scipy.integrate.quad(lambda z, E=E, b=b: E * b * (z - values["D"]), lo, hi)[0]
         for lo, hi, E, _, _, b in layers(values)
     )
     scale = sum(E * b * (hi - lo) ** 2 for lo, hi, E, _, _, b in layers(values))
@@ -41,9 +41,12 @@ def test_neutral_axis_balances_the_bending_stress(values):
 def test_section_by_numerical_integration(values):
     parts = layers(values)
     bending = sum(
-        integrate.quad(lambda z, E=E, b=b: E * b * (z - values["D"]) ** 2, lo, hi)[0] for lo, hi, E, _, _, b in parts
+        scipy.integrate.quad(lambda z, E=E, b=b: E * b * (z - values["D"]) ** 2, lo, hi)[0]
+        for lo, hi, E, _, _, b in parts
     )
-    second = sum(integrate.quad(lambda z, b=b: b * (z - values["D"]) ** 2, lo, hi)[0] for lo, hi, _, _, _, b in parts)
+    second = sum(
+        scipy.integrate.quad(lambda z, b=b: b * (z - values["D"]) ** 2, lo, hi)[0] for lo, hi, _, _, _, b in parts
+    )
     assert values["E"] * values["I_z"] == pytest.approx(bending, rel=1e-12)
     assert values["I_z"] == pytest.approx(second, rel=1e-12)
     assert values["rho"] * values["A"] == pytest.approx(
@@ -66,7 +69,7 @@ def stiffness_and_mass(v, k_f=0.0):
 
 @pytest.mark.parametrize("k_f", [0.0, 3e8, 3e10])
 def test_quartic_is_the_lower_eigenvalue_of_the_two_field_system(values, k_f):
-    squares, modes = linalg.eigh(*stiffness_and_mass(values, k_f))
+    squares, modes = scipy.linalg.eigh(*stiffness_and_mass(values, k_f))
     found = call("trum_resonance", {**values, "k_f": k_f})
     assert found["quartic"] == pytest.approx(np.sqrt(squares[0]), rel=1e-12)
     assert found["beta"] == pytest.approx(modes[1, 0] / modes[0, 0], rel=1e-11)
@@ -97,7 +100,7 @@ def test_printed_resonance_loses_the_factor_E_I_z(values):
 
 def contact_force(v, theta):
     k, W = v["k_c"], v["W"]
-    per_crest, _ = integrate.quad(lambda x: v["k_N"] * W * (np.cos(k * x) - np.cos(theta)), -theta / k, theta / k)
+    per_crest, _ = scipy.integrate.quad(lambda x: v["k_N"] * W * (np.cos(k * x) - np.cos(theta)), -theta / k, theta / k)
     return v["n_j"] * per_crest
 
 
@@ -114,7 +117,7 @@ def test_winkler_half_angle_agrees_with_a_bracketed_root_over_its_whole_range():
     unit = {"k_N": 0.5, "W": 1.0, "k_c": 1.0, "n_j": 1.0}
     ours = call("contact_half_angle", {**unit, "F_c": y})["theta"]
     for value, theta in zip(y, ours, strict=True):
-        root = optimize.brentq(
+        root = scipy.optimize.brentq(
             lambda t, value=value: np.sin(t) - t * np.cos(t) - value, 0, np.pi, xtol=1e-16, rtol=1e-15
         )
         assert theta == pytest.approx(root, rel=1e-9)
@@ -162,7 +165,7 @@ def test_forced_amplitude_is_the_two_field_response_near_resonance(values):
     moment = abs(v["d_31"]) / v["s_11E"] * v["U_s"] * v["b_p"] * arm * 4 / np.pi
     for detuning, tolerance in ((1e-5, 1e-4), (1e-3, 1e-2)):
         omega_q = found["quartic"] * (1 + detuning)
-        exact = linalg.solve(K - omega_q**2 * M, [0.0, moment * v["k_c"]])[0]
+        exact = scipy.linalg.solve(K - omega_q**2 * M, [0.0, moment * v["k_c"]])[0]
         ours = call(
             "trum_amplitude_forced", {**v, "omega_n": found["quartic"], "omega_q": omega_q, "beta": found["beta"]}
         )

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy.optimize import brentq
+import scipy
 
 import trum_sym as ts
 from studies import optimum as optimise_study
@@ -166,7 +166,7 @@ def test_one_variable_gives_the_root(trum60):
         return ts.evaluate(trum60, replace(DRIVE, frequency_difference=difference), tolerance=1e-9).mean_speed - 1
 
     assert found.prepressure == 180
-    assert found.frequency_difference == pytest.approx(brentq(miss, 2800, 3200, xtol=1e-7), abs=1e-5)
+    assert found.frequency_difference == pytest.approx(scipy.optimize.brentq(miss, 2800, 3200, xtol=1e-7), abs=1e-5)
 
 
 def test_constraints_hold_and_cost(trum60, at_one):
@@ -296,7 +296,7 @@ def test_the_highest_pressure_is_the_contact_law_s_at_the_highest_wave(trum60, c
     wavelengths = 2 * s["n_j"] / s["k_c"]
     if contact == "winkler":
         balance = s["F_c"] / (wavelengths * s["k_N"] * height)
-        theta = brentq(lambda a: math.sin(a) - a * math.cos(a) - balance, 0, math.pi, xtol=1e-15)
+        theta = scipy.optimize.brentq(lambda a: math.sin(a) - a * math.cos(a) - balance, 0, math.pi, xtol=1e-15)
         stiffness = s["k_N"]
     else:
         theta = math.pi * math.sqrt(case.arguments["W_full"] / height)

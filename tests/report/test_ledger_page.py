@@ -9,9 +9,10 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
+from lazily import lazily
 
-from derivations.ledger import ENTRIES
-from derivations.ledger.html import anchor, page
+ledger = lazily("derivations.ledger")
+html = lazily("derivations.ledger.html")
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "generated" / "ledger.html"
@@ -54,7 +55,7 @@ def reader(text):
 
 
 def test_every_entry_has_its_article_in_order(reader):
-    assert reader.articles == [(anchor(e.id), e.verdict) for e in ENTRIES]
+    assert reader.articles == [(html.anchor(e.id), e.verdict) for e in ledger.ENTRIES]
 
 
 def test_it_is_well_formed_with_unique_ids_and_links_that_lead_somewhere(reader):
@@ -77,14 +78,14 @@ def test_formulas_are_mathml_and_errors_are_drawn(reader, text):
         for r in records
     )
     assert text.count('class="formula"') == formulas
-    assert reader.svgs == sum(e.picture is not None for e in ENTRIES) >= 5
+    assert reader.svgs == sum(e.picture is not None for e in ledger.ENTRIES) >= 5
     shown = re.sub(r"<[^>]+>", "", text[text.index("<article") : text.index('<section id="nomenclature"')])
     assert "\\" not in shown  # LaTeX that was not understood
 
 
 def test_the_page_is_what_the_ledger_gives(text):
     records = json.loads((ROOT / "generated" / "ledger.json").read_text("utf-8"))
-    assert page(records, ENTRIES) == text
+    assert html.page(records, ledger.ENTRIES) == text
 
 
 # --- in a browser: run with -m browser ----------------------------------------------------------------------
@@ -125,17 +126,17 @@ def test_it_opens_filters_searches_and_finds_its_anchors(browser):
         return [a.get_attribute("id") for a in browser.find_elements(By.TAG_NAME, "article") if a.is_displayed()]
 
     browser.get(PAGE.as_uri())
-    assert visible() == [anchor(e.id) for e in ENTRIES]
+    assert visible() == [html.anchor(e.id) for e in ledger.ENTRIES]
     browser.find_element(By.CSS_SELECTOR, 'button[data-verdict="erratum"]').click()
-    assert visible() == [anchor(e.id) for e in ENTRIES if e.verdict == "erratum"]
+    assert visible() == [html.anchor(e.id) for e in ledger.ENTRIES if e.verdict == "erratum"]
     browser.get(PAGE.as_uri() + "#eq-1")  # hidden by the filter until asked for
     assert "eq-1" in visible()
     box = browser.find_element(By.ID, "search")
     box.send_keys("(24)")
     assert "eq-24" in visible()
-    assert len(visible()) < len(ENTRIES)
+    assert len(visible()) < len(ledger.ENTRIES)
     heights = browser.execute_script(
         "return [...document.querySelectorAll('math')].map(m => m.getBBox ? 1 : m.offsetHeight)"
     )
-    assert len(heights) > len(ENTRIES)
+    assert len(heights) > len(ledger.ENTRIES)
     assert [entry for entry in browser.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")] == []

@@ -84,6 +84,9 @@ def test_every_claim_is_shown_with_its_verdict_and_linked_from_what_shows_it(tex
     for name, _ in shown:
         assert text.count(f'href="#{name}"') == 2  # itself, and the figure or table that shows it
     assert len(re.findall(r"<tr>", text[text.index('id="readings-all"') :])) > 800
+    for anchor, rows in (("claims-inertia", 24), ("trends-inertia", 12)):
+        table = text[text.index(f'id="{anchor}"') :]
+        assert table[: table.index("</table>")].count("<tr>") == rows + 1
 
 
 def test_the_page_is_the_same_in_another_process(folder, tmp_path):
@@ -117,20 +120,24 @@ def number(cell):
 
 def test_table_4_is_evaluate_in_every_reading_and_table_5_the_six_points(trum60):
     *_, four, five = tables(trum60)
-    assert four.rows[0][1:] == tuple(f"{value:g}" for value in TABLE_4.values())
-    assert len(four.rows) == 7
+    assert four.rows[0][2:] == tuple(f"{value:g}" for value in TABLE_4.values())
+    assert [row[1] for row in four.rows[1:]] == 6 * ["no", "a weight"]
+    weight = trum60.with_values({"rotor_inertia": 4.5e-6 + 0.3 * 0.030 / 9.80665})
     for row in four.rows[1:]:
         start, lead = row[0].replace("−", "-").split(", lead ")
-        point = ts.evaluate(trum60, ts.Drive(start=start, phase_lead=int(lead)), sampling_period=2e-3)
-        assert number(row[4]) == pytest.approx(point.q_average, rel=1e-4)
-        assert number(row[5]) == pytest.approx(point.q_volatility, rel=1e-4)
-        assert number(row[3]) == pytest.approx(100 * point.speed_volatility, rel=1e-4)
-        assert number(row[1]) == pytest.approx(point.mean_speed * 648000 / 3.141592653589793, rel=1e-4)
+        motor = trum60 if row[1] == "no" else weight
+        point = ts.evaluate(motor, ts.Drive(start=start, phase_lead=int(lead)), sampling_period=2e-3)
+        assert number(row[5]) == pytest.approx(point.q_average, rel=1e-4)
+        assert number(row[6]) == pytest.approx(point.q_volatility, rel=1e-4)
+        assert number(row[4]) == pytest.approx(100 * point.speed_volatility, rel=1e-4)
+        assert number(row[2]) == pytest.approx(point.mean_speed * 648000 / 3.141592653589793, rel=1e-4)
         # readings spread over a few of their deviations to either side of the mean
-        assert 2 < number(row[2]) / (abs(number(row[1])) * number(row[3]) / 100) < 4
+        assert 2 < number(row[3]) / (abs(number(row[2])) * number(row[4]) / 100) < 4
     assert [row[2:4] for row in five.rows[:3]] == [("180", "3300"), ("170", "3100"), ("160", "3000")]
     drive = ts.Drive(prepressure=190.0, frequency_difference=2800.0, start="rest", phase_lead=-1)
-    assert number(five.rows[9][5]) == pytest.approx(ts.evaluate(trum60, drive).q_average, rel=1e-4)
+    measured = ts.evaluate(weight, drive, sampling_period=2e-3)
+    assert number(five.rows[9][5]) == pytest.approx(measured.q_average, rel=1e-4)
+    assert number(five.rows[9][6]) == pytest.approx(100 * measured.speed_volatility, rel=1e-4)
 
 
 # --- what is refused, and what is left when something fails --------------------------------------------------

@@ -17,13 +17,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 import sweep_process
-import xarray as xr
+from lazily import lazily
 from refusals import refusal
 from sweep_process import CHUNKS, DRIVE, RANGES, SETTINGS, finished, hashes, logged, sweep
 
 import trum_sym as ts
 from trum_sym.console import main
-from trum_sym.sweeps.store import Store
+
+xr = lazily("xarray")
 
 HERE = Path(__file__).parent
 ENVIRONMENT = {**os.environ, "SWEEP_PAUSE": "0.02", "PYTHONPATH": os.pathsep.join([str(HERE), str(HERE.parents[1])])}
@@ -199,6 +200,8 @@ def test_rests_of_a_cut_off_write_are_swept_away(tmp_path, undisturbed):
 
 
 def test_a_disk_quota_is_one_line_and_the_store_is_completed(tmp_path, undisturbed, monkeypatch, capsys):
+    from trum_sym.sweeps.store import Store
+
     out, write, limits = tmp_path / "map.zarr", Store.write, resource.getrlimit(resource.RLIMIT_FSIZE)
 
     def limited(store, index, figures):

@@ -6,14 +6,20 @@ import math
 
 import numpy as np
 import pytest
+import scipy
 from refusals import refusal
-from scipy import stats
 
 from trum_sym.uncertainty.propagation import propagate, share
 
-UNIT = stats.uniform().ppf
-TURN = stats.uniform(-np.pi, 2 * np.pi).ppf
 WEIGHTS = np.array([0.0, 1.0, 4.5, 9.0])
+
+
+def unit(share):
+    return scipy.stats.uniform().ppf(share)
+
+
+def turn(share):
+    return scipy.stats.uniform(-np.pi, 2 * np.pi).ppf(share)
 
 
 def ishigami(point):
@@ -42,8 +48,8 @@ def g_indices():
 
 
 FUNCTIONS = {
-    "ishigami": (ishigami, dict.fromkeys(("x1", "x2", "x3"), TURN), ishigami_indices()),
-    "g": (g_function, {f"x{i}": UNIT for i in range(4)}, g_indices()),
+    "ishigami": (ishigami, dict.fromkeys(("x1", "x2", "x3"), turn), ishigami_indices()),
+    "g": (g_function, {f"x{i}": unit for i in range(4)}, g_indices()),
 }
 
 
@@ -90,7 +96,7 @@ def test_the_leader_is_what_alone_moves_most():
 
 
 def test_one_parameter_does_it_all():
-    indices = propagate(lambda p: {"y": p["x"] ** 3}, {"x": UNIT}, samples=256).indices["y"]
+    indices = propagate(lambda p: {"y": p["x"] ** 3}, {"x": unit}, samples=256).indices["y"]
     assert indices.first["x"].value == pytest.approx(1, abs=0.02)
     assert indices.total["x"].value == pytest.approx(1, abs=0.02)
     assert indices.lead == 1
@@ -98,9 +104,11 @@ def test_one_parameter_does_it_all():
 
 def test_quantiles_and_their_intervals():
     found = propagate(
-        lambda p: {"y": p["a"] + p["b"]}, {"a": stats.norm(1, 3).ppf, "b": stats.norm(1, 4).ppf}, samples=512
+        lambda p: {"y": p["a"] + p["b"]},
+        {"a": scipy.stats.norm(1, 3).ppf, "b": scipy.stats.norm(1, 4).ppf},
+        samples=512,
     )
-    spread, exact = found.spread("y"), stats.norm(2, 5)
+    spread, exact = found.spread("y"), scipy.stats.norm(2, 5)
     assert spread.mean == pytest.approx(2, abs=0.05)
     assert spread.standard_deviation == pytest.approx(5, rel=0.02)
     for level, estimate in spread.quantiles.items():
@@ -124,7 +132,7 @@ def test_rows_without_a_value_are_left_out_and_counted():
         y = point["a"] + 2 * point["b"] * point["c"]
         return {"y": np.where(point["a"] * point["b"] > 0.5, np.nan, y)}
 
-    found = propagate(function, dict.fromkeys("abc", UNIT), samples=512, seed=3)
+    found = propagate(function, dict.fromkeys("abc", unit), samples=512, seed=3)
     indices, values = found.indices["y"], found.values["y"]
     kept = values[:, np.isfinite(values).all(axis=0)]
     assert 0 < indices.rows == kept.shape[1] < 512
@@ -139,7 +147,7 @@ def test_rows_without_a_value_are_left_out_and_counted():
 
 
 def test_the_design_mixes_a_and_b():
-    points = propagate(lambda p: {"y": p["a"] + p["b"]}, {"a": UNIT, "b": TURN}, samples=64).points
+    points = propagate(lambda p: {"y": p["a"] + p["b"]}, {"a": unit, "b": turn}, samples=64).points
     for place, name in enumerate("ab"):
         a, b, *mixed = points[name]
         assert not np.any(a == b)
@@ -179,7 +187,7 @@ BAD_DESIGNS = [
 @pytest.mark.parametrize(("design", "naming"), BAD_DESIGNS, ids=[str(design) for design, _ in BAD_DESIGNS])
 def test_bad_designs_are_refused(design, naming):
     with refusal(*naming):
-        propagate(ishigami, dict.fromkeys(("x1", "x2", "x3"), TURN), **design)
+        propagate(ishigami, dict.fromkeys(("x1", "x2", "x3"), turn), **design)
 
 
 @pytest.mark.parametrize(
@@ -193,7 +201,7 @@ def test_bad_designs_are_refused(design, naming):
 )
 def test_an_output_that_does_not_vary_is_refused(function, naming):
     with refusal(*naming):
-        propagate(function, {"x": UNIT}, samples=64)
+        propagate(function, {"x": unit}, samples=64)
 
 
 def test_no_parameters_are_refused():

@@ -9,8 +9,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import scipy
 from refusals import MOTOR, assert_one_clear_line, refusal
-from scipy import stats
 
 import trum_sym as ts
 from trum_sym.model import batch
@@ -99,7 +99,10 @@ def test_indices_of_a_determinant_are_those_of_a_double_loop():
         moved = replace(drive, frequency_difference=point["frequency_difference"])
         return {"y": cycle_sums(modal_values(omega_n, point["damping_ratio"], moved))["q_average"]}
 
-    parameters = {"frequency_difference": stats.norm(3000, 100).ppf, "damping_ratio": stats.uniform(0.002, 0.008).ppf}
+    parameters = {
+        "frequency_difference": scipy.stats.norm(3000, 100).ppf,
+        "damping_ratio": scipy.stats.uniform(0.002, 0.008).ppf,
+    }
     indices = propagate(determinant, parameters, samples=256).indices["y"]
     rng = np.random.default_rng(5)
     for name in parameters:
@@ -117,7 +120,7 @@ def test_indices_of_the_rotors_speed_are_those_of_a_double_loop(study):
         motor = MOTOR.with_values({name: value for name, value in point.items() if name != "prepressure"})
         return {"y": ts.evaluate(motor, replace(SHORT, prepressure=force), tolerance=1e-6).speed_volatility}
 
-    parameters = {name: stats.uniform(low, high - low).ppf for name, (low, high) in BOUNDS.items()}
+    parameters = {name: scipy.stats.uniform(low, high - low).ppf for name, (low, high) in BOUNDS.items()}
     rng = np.random.default_rng(6)
     for name, found in study.propagation.indices["speed_volatility"].first.items():
         brute, error = double_loop(volatility, parameters, name, rng, 300, 60)

@@ -33,13 +33,13 @@ inline bool enter_region(Walk* w, Samples* s, int i) {
     w->index = 0, w->count = trum_panel_count(&c, w->region, w->panels);
   } while (!(w->count > 0));
   trum_cycle_enter(&c, w->region);
-  const int state[] = {trum_response_in_a_A, trum_response_in_b_A, trum_response_in_a_B, trum_response_in_b_B};
-  for (int k = 0; k < 4; ++k) s->arg[state[k]].set(i, c.state[k]);
-  s->arg[trum_response_in_g_A].set(i, c.g_A), s->arg[trum_response_in_g_B].set(i, c.g_B);
+  s->arg[trum_response_in_a_A].set(i, c.state.a_A), s->arg[trum_response_in_b_A].set(i, c.state.b_A);
+  s->arg[trum_response_in_a_B].set(i, c.state.a_B), s->arg[trum_response_in_b_B].set(i, c.state.b_B);
+  s->arg[trum_response_in_g_A].set(i, c.gates.g_A), s->arg[trum_response_in_g_B].set(i, c.gates.g_B);
   return true;
 }
 
-inline void cycle_sums(const double* in, double* out, long count) {
+inline void cycle_sums(const trum_cycle_sums_in* in, trum_cycle_sums_out* out, long count) {
   static const double nodes[] = TRUM_GAUSS_NODES, weights[] = TRUM_GAUSS_WEIGHTS;
   Walk walks[LANES];
   Samples s;
@@ -51,16 +51,17 @@ inline void cycle_sums(const double* in, double* out, long count) {
     for (;;) {
       w.point = next < count ? next++ : -1;
       if (w.point < 0) return;
-      const double* v = in + 12 * w.point;
-      w.cycle = {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8], v[9], v[10], 1.0, 1.0, 1.0,
-                 {}, {}, {}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-      w.sums = {0.0, 0.0, 0.0, 0.0}, w.panels = v[11], w.region = -1;
+      const trum_cycle_sums_in& v = in[w.point];
+      w.cycle = {};
+      w.cycle.constants = {v.omega_n, v.Delta_omega, v.xi, v.psi, v.s, v.m, v.n, 1.0, 1.0, 1.0};
+      w.cycle.before = {v.a_A, v.b_A, v.a_B, v.b_B};
+      w.sums = {0.0, 0.0, 0.0, 0.0}, w.panels = v.panels, w.region = -1;
       trum_cycle_regions(&w.cycle);
-      const int field[] = {trum_response_in_omega_n, trum_response_in_Delta_omega, trum_response_in_xi,
-                           trum_response_in_psi, trum_response_in_s};
-      for (int k = 0; k < 5; ++k) s.arg[field[k]].set(i, v[k]);
+      s.arg[trum_response_in_omega_n].set(i, v.omega_n), s.arg[trum_response_in_Delta_omega].set(i, v.Delta_omega);
+      s.arg[trum_response_in_xi].set(i, v.xi), s.arg[trum_response_in_psi].set(i, v.psi);
+      s.arg[trum_response_in_s].set(i, v.s);
       if (enter_region(&w, &s, i)) break;
-      for (int k = 0; k < 4; ++k) out[4 * w.point + k] = 0.0;
+      out[w.point] = {};
     }
     ++busy;
   };
@@ -101,8 +102,7 @@ inline void cycle_sums(const double* in, double* out, long count) {
         trum_add(&w.sums, half[i] * integral[i], half[i] * square[i]);
       }
       if (++w.index < w.count || enter_region(&w, &s, i)) continue;
-      double* to_sums = out + 4 * w.point;
-      to_sums[0] = w.sums.q_plus, to_sums[1] = w.sums.q_minus, to_sums[2] = w.sums.p_plus, to_sums[3] = w.sums.p_minus;
+      out[w.point] = {w.sums.q_plus, w.sums.q_minus, w.sums.p_plus, w.sums.p_minus};
       --busy;
       load(i);
     }

@@ -44,18 +44,18 @@ inline Lane sqrt(Lane a) { return (Vector)_mm512_sqrt_pd((__m512d)a.v); }
 inline Lane fmin(Lane a, Lane b) { return (Vector)_mm512_min_pd((__m512d)a.v, (__m512d)b.v); }
 inline Lane fmax(Lane a, Lane b) { return (Vector)_mm512_max_pd((__m512d)a.v, (__m512d)b.v); }
 // 1/a to the last digits, without the divider's wait.
-inline Lane inverse_of(Lane a) {
+inline Lane reciprocal(Lane a) {
   const Lane r = (Vector)_mm512_rcp14_pd((__m512d)a.v), s = r + r * (Lane(1.0) - a * r);
   return s + s * (Lane(1.0) - a * s);
 }
-inline bool any(Bits mask) { return _mm512_test_epi64_mask((__m512i)mask, (__m512i)mask) != 0; }
+inline bool any_lane(Bits mask) { return _mm512_test_epi64_mask((__m512i)mask, (__m512i)mask) != 0; }
 #elif defined(__AVX2__)
 static_assert(LANES == 4, "one register of lanes");
 inline Lane sqrt(Lane a) { return (Vector)_mm256_sqrt_pd((__m256d)a.v); }
 inline Lane fmin(Lane a, Lane b) { return (Vector)_mm256_min_pd((__m256d)a.v, (__m256d)b.v); }
 inline Lane fmax(Lane a, Lane b) { return (Vector)_mm256_max_pd((__m256d)a.v, (__m256d)b.v); }
-inline Lane inverse_of(Lane a) { return Lane(1.0) / a; }
-inline bool any(Bits mask) { return _mm256_movemask_pd((__m256d)mask) != 0; }
+inline Lane reciprocal(Lane a) { return Lane(1.0) / a; }
+inline bool any_lane(Bits mask) { return _mm256_movemask_pd((__m256d)mask) != 0; }
 #else
 inline Lane fmin(Lane a, Lane b) { return select(a.v < b.v, a, b); }
 inline Lane fmax(Lane a, Lane b) { return select(a.v > b.v, a, b); }
@@ -64,8 +64,8 @@ inline Lane sqrt(Lane a) {
   for (int i = 0; i < LANES; ++i) root.v[i] = __builtin_sqrt(a.v[i]);
   return root;
 }
-inline Lane inverse_of(Lane a) { return Lane(1.0) / a; }
-inline bool any(Bits mask) {
+inline Lane reciprocal(Lane a) { return Lane(1.0) / a; }
+inline bool any_lane(Bits mask) {
   long long found = 0;
   for (int i = 0; i < LANES; ++i) found |= mask[i];
   return found != 0;
@@ -133,7 +133,7 @@ inline Lane exp(Lane x) {
 }
 
 // Cube root of a positive number to 1e-4: a first guess is all that it serves as.
-inline Lane cube_root_of(Lane t) {
+inline Lane cube_root(Lane t) {
   const Bits high = (Bits)t.v >> 32;
   const Bits third = ((high * 0x55555556LL) >> 32) + 0x2A9F7893LL;
   const Lane r = (Vector)(third << 32), cube = r * r * r;
@@ -143,15 +143,15 @@ inline Lane cube_root_of(Lane t) {
 // What trum_orbit.h asks of numbers and of their truth values.
 inline Bits less_than(Lane a, Lane b) { return a.v < b.v; }
 inline Bits at_most(Lane a, Lane b) { return a.v <= b.v; }
-inline Bits no(Bits a) { return ~a; }
-inline Bits is(int a) { return a ? ~Bits{} : Bits{}; }
-inline int in_lane(Bits a, int i) { return a[i] != 0; }
-inline Lane sel(Bits m, Lane a, Lane b) { return select(m, a, b); }
-inline Bits sel_mask(Bits m, Bits a, Bits b) { return (m & a) | (~m & b); }
-inline Lane least(Lane a, Lane b) { return fmin(a, b); }
-inline Lane most(Lane a, Lane b) { return fmax(a, b); }
-inline Lane size_of(Lane a) { return fabs(a); }
-inline Lane root_of(Lane a) { return sqrt(a); }
-inline double get(const Lane* x, int i) { return x->v[i]; }
-inline void put(Lane* x, int i, double value) { x->v[i] = value; }
-inline void put_mask(Bits* x, int i, int value) { (*x)[i] = value ? -1 : 0; }
+inline Bits mask_not(Bits a) { return ~a; }
+inline Bits mask_all(int a) { return a ? ~Bits{} : Bits{}; }
+inline int mask_in_lane(Bits a, int i) { return a[i] != 0; }
+inline Lane where(Bits m, Lane a, Lane b) { return select(m, a, b); }
+inline Bits where_mask(Bits m, Bits a, Bits b) { return (m & a) | (~m & b); }
+inline Lane minimum(Lane a, Lane b) { return fmin(a, b); }
+inline Lane maximum(Lane a, Lane b) { return fmax(a, b); }
+inline Lane absolute(Lane a) { return fabs(a); }
+inline Lane square_root(Lane a) { return sqrt(a); }
+inline double lane_value(const Lane* x, int i) { return x->v[i]; }
+inline void set_lane(Lane* x, int i, double value) { x->v[i] = value; }
+inline void set_lane_mask(Bits* x, int i, int value) { (*x)[i] = value ? -1 : 0; }

@@ -85,10 +85,10 @@ static void browser_touch(const trum_orbit_in* in, const trum_cycle* c, trum_rea
   v[trum_at_omega_n] = in->omega_n, v[trum_at_Delta_omega] = in->Delta_omega, v[trum_at_xi] = in->xi;
   v[trum_at_s] = in->s, v[trum_at_W] = in->W, v[trum_at_D] = in->D, v[trum_at_k_c] = in->k_c;
   v[trum_at_engagement_per_height] = in->engagement_per_height;
-  v[trum_at_a] = c->w_A, v[trum_at_b] = c->v_A;
+  v[trum_at_a] = c->at.w_A, v[trum_at_b] = c->at.v_A;
   trum_call_phasor(v);
   v[trum_at_f_A_re] = v[trum_at_re], v[trum_at_f_A_im] = v[trum_at_im];
-  v[trum_at_a] = c->w_B, v[trum_at_b] = c->v_B;
+  v[trum_at_a] = c->at.w_B, v[trum_at_b] = c->at.v_B;
   trum_call_phasor(v);
   v[trum_at_f_B_re] = v[trum_at_re], v[trum_at_f_B_im] = v[trum_at_im];
   v[trum_at_e_re] = v[trum_at_d_re] = v[trum_at_p_re] = 1;
@@ -112,9 +112,7 @@ static void browser_vibrate(const trum_orbit_in* in, int count) {
   int i, region = 0;
   memset(v, 0, sizeof v);
   memset(&c, 0, sizeof c);
-  c.omega_n = in->omega_n, c.Delta_omega = in->Delta_omega, c.xi = in->xi, c.psi = in->psi, c.s = in->s;
-  c.m = in->m, c.n = in->n, c.a_A = in->a_A, c.b_A = in->b_A, c.a_B = in->a_B, c.b_B = in->b_B;
-  c.W = in->W, c.D = in->D, c.k_c = in->k_c;
+  trum_load_cycle(in, &c.constants, &c.before);
   trum_cycle_regions(&c);
   trum_cycle_enter(&c, 0);
   figures[browser_figure_region_1] = c.duration[0], figures[browser_figure_region_2] = c.duration[0] + c.duration[1];
@@ -124,9 +122,9 @@ static void browser_vibrate(const trum_orbit_in* in, int count) {
       since += c.duration[region];
     trum_cycle_at(&c, time - since);
     browser_touch(in, &c, v);
-    v[trum_at_w_A] = c.w_A, v[trum_at_w_B] = c.w_B, v[trum_at_x] = 0;
+    v[trum_at_w_A] = c.at.w_A, v[trum_at_w_B] = c.at.w_B, v[trum_at_x] = 0;
     trum_call_displacement(v);
-    histories[browser_history_w_A][i] = c.w_A, histories[browser_history_w_B][i] = c.w_B, histories[browser_history_Q][i] = c.Q;
+    histories[browser_history_w_A][i] = c.at.w_A, histories[browser_history_w_B][i] = c.at.w_B, histories[browser_history_Q][i] = c.at.Q;
     histories[browser_history_zeta_x][i] = v[trum_at_zeta_x];
     histories[browser_history_W_c][i] = v[trum_at_W_c], histories[browser_history_theta][i] = v[trum_at_theta];
   }

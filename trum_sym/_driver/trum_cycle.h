@@ -8,6 +8,7 @@
 #include <math.h>
 
 #include "trum_kernels.h"
+#include "trum_plain_calls.h"
 #include "trum_quadrature.h"
 
 /* A function of one variable and its slope. */
@@ -41,19 +42,10 @@ static inline trum_real trum_bracketed_root(trum_curve f, void* of, trum_real lo
   return x;
 }
 
-typedef struct {
-  trum_real F_c, k_N, W, k_c, n_j;
-} trum_balance;
-
 static inline void trum_balance_at(void* of, trum_real theta, trum_real* value, trum_real* slope) {
-  const trum_balance* b = (const trum_balance*)of;
-  const trum_real* arg[trum_winkler_balance_n_arg];
-  trum_real* res[trum_winkler_balance_n_res];
-  arg[trum_winkler_balance_in_F_c] = &b->F_c, arg[trum_winkler_balance_in_W] = &b->W;
-  arg[trum_winkler_balance_in_k_N] = &b->k_N, arg[trum_winkler_balance_in_k_c] = &b->k_c;
-  arg[trum_winkler_balance_in_n_j] = &b->n_j, arg[trum_winkler_balance_in_theta] = &theta;
-  res[trum_winkler_balance_out_residual] = value, res[trum_winkler_balance_out_slope] = slope;
-  trum_winkler_balance(arg, res, 0, 0, 0);
+  trum_balance_values at;
+  trum_plain_winkler_balance((const trum_balance*)of, &at, theta);
+  *value = at.residual, *slope = at.slope;
 }
 
 /* Half-angle in (0, pi] at which the Winkler layer carries the prepressure; pi: the whole wave is in contact. */
@@ -69,54 +61,36 @@ static inline trum_real trum_half_angle(trum_real F_c, trum_real k_N, trum_real 
 
 /* One drive cycle: what the determinant needs to be evaluated anywhere in it. */
 typedef struct {
-  trum_real omega_n, Delta_omega, xi, psi, s, m, n;
-  trum_real a_A, b_A, a_B, b_B;  /* free motion before t1 */
-  trum_real W, D, k_c;
-  trum_real duration[TRUM_REGIONS], start[4 * TRUM_REGIONS];
-  trum_real state[4], g_A, g_B;  /* of the region entered last */
-  trum_real w_A, w_B, v_A, v_B, Q, Q_rate;  /* filled by trum_cycle_at */
+  trum_cycle_constants constants;
+  trum_free_motion before; /* t1 */
+  trum_real duration[TRUM_REGIONS];
+  trum_free_motion start[TRUM_REGIONS]; /* of the regions */
+  trum_free_motion state;               /* at the start of the region entered last */
+  trum_gates gates;                     /* of that region */
+  trum_phases at;                       /* filled by trum_cycle_at */
 } trum_cycle;
 
-/* Fills the regions of a cycle whose fields down to k_c are set. */
+/* Fills the regions of a cycle whose constants and motion before t1 are set. */
 static inline void trum_cycle_regions(trum_cycle* c) {
-  const trum_real* arg[trum_regions_n_arg];
   trum_real out[trum_regions_n_res];
-  trum_real* res[trum_regions_n_res];
-  int i;
-  for (i = 0; i < trum_regions_n_res; ++i) res[i] = &out[i];
-  arg[trum_regions_in_Delta_omega] = &c->Delta_omega, arg[trum_regions_in_W] = &c->W;
-  arg[trum_regions_in_a_A] = &c->a_A, arg[trum_regions_in_b_A] = &c->b_A;
-  arg[trum_regions_in_a_B] = &c->a_B, arg[trum_regions_in_b_B] = &c->b_B;
-  arg[trum_regions_in_m] = &c->m, arg[trum_regions_in_n] = &c->n;
-  arg[trum_regions_in_omega_n] = &c->omega_n, arg[trum_regions_in_psi] = &c->psi;
-  arg[trum_regions_in_s] = &c->s, arg[trum_regions_in_xi] = &c->xi;
-  trum_regions(arg, res, 0, 0, 0);
-  for (i = 0; i < TRUM_REGIONS; ++i) c->duration[i] = out[trum_regions_out_time_redu + i];
-  for (i = 0; i < 4 * TRUM_REGIONS; ++i) c->start[i] = out[trum_regions_out_a_A_redu + i];
+  int r;
+  trum_plain_regions(&c->constants, &c->before, out);
+  for (r = 0; r < TRUM_REGIONS; ++r) {
+    const trum_real* start = &out[trum_regions_out_a_A_redu + 4 * r];
+    c->duration[r] = out[trum_regions_out_time_redu + r];
+    c->start[r].a_A = start[0], c->start[r].b_A = start[1], c->start[r].a_B = start[2], c->start[r].b_B = start[3];
+  }
 }
 
 static inline void trum_cycle_enter(trum_cycle* c, int region) {
   static const trum_real gates_A[] = TRUM_GATES_A, gates_B[] = TRUM_GATES_B;
-  int i;
-  for (i = 0; i < 4; ++i) c->state[i] = c->start[4 * region + i];
-  c->g_A = gates_A[region], c->g_B = gates_B[region];
+  c->state = c->start[region];
+  c->gates.g_A = gates_A[region], c->gates.g_B = gates_B[region];
 }
 
 /* Both phases and the determinant, tau after the start of the region entered last. */
 static inline void trum_cycle_at(trum_cycle* c, trum_real tau) {
-  const trum_real* arg[trum_response_n_arg];
-  trum_real* res[trum_response_n_res];
-  arg[trum_response_in_D] = &c->D, arg[trum_response_in_Delta_omega] = &c->Delta_omega;
-  arg[trum_response_in_W] = &c->W, arg[trum_response_in_k_c] = &c->k_c;
-  arg[trum_response_in_a_A] = &c->state[0], arg[trum_response_in_b_A] = &c->state[1];
-  arg[trum_response_in_a_B] = &c->state[2], arg[trum_response_in_b_B] = &c->state[3];
-  arg[trum_response_in_g_A] = &c->g_A, arg[trum_response_in_g_B] = &c->g_B;
-  arg[trum_response_in_omega_n] = &c->omega_n, arg[trum_response_in_psi] = &c->psi;
-  arg[trum_response_in_s] = &c->s, arg[trum_response_in_tau] = &tau, arg[trum_response_in_xi] = &c->xi;
-  res[trum_response_out_w_A] = &c->w_A, res[trum_response_out_w_B] = &c->w_B;
-  res[trum_response_out_v_A] = &c->v_A, res[trum_response_out_v_B] = &c->v_B;
-  res[trum_response_out_Q] = &c->Q, res[trum_response_out_Q_rate] = &c->Q_rate;
-  trum_response(arg, res, 0, 0, 0);
+  trum_plain_response(&c->constants, &c->state, &c->gates, &c->at, tau);
 }
 
 /* Integrals over a cycle of Q's positive part, of its negative part's magnitude, and of their squares. */
@@ -131,7 +105,7 @@ typedef struct {
 static inline trum_sample trum_sample_at(trum_cycle* c, trum_real tau) {
   trum_sample here;
   trum_cycle_at(c, tau);
-  here.tau = tau, here.Q = c->Q, here.rate = c->Q_rate;
+  here.tau = tau, here.Q = c->at.Q, here.rate = c->at.Q_rate;
   return here;
 }
 
@@ -226,12 +200,13 @@ static inline void trum_panel(trum_cycle* c, trum_sums* sums, const trum_sample*
 
 /* How many panels a region takes, at so many in a period of the faster of drive and resonance. */
 static inline trum_real trum_panel_count(const trum_cycle* c, int region, trum_real panels_per_period) {
-  const trum_real driven = c->omega_n + c->Delta_omega, fastest = c->omega_n < driven ? driven : c->omega_n;
+  const trum_real omega_n = c->constants.omega_n, driven = omega_n + c->constants.Delta_omega;
+  const trum_real fastest = omega_n < driven ? driven : omega_n;
   const trum_real turns = panels_per_period * c->duration[region] * fastest / (trum_real)6.283185307179586;
   return (trum_real)ceil((double)turns - 1e-9);
 }
 
-/* The sums of a cycle whose fields down to k_c are set, on so many panels in a period. */
+/* The sums of a cycle whose constants and motion before t1 are set, on so many panels in a period. */
 static inline trum_sums trum_cycle_sums(trum_cycle* c, trum_real panels_per_period) {
   trum_sums sums = {0, 0, 0, 0};
   int region;

@@ -155,12 +155,14 @@ static inline enum trum_status trum_begin_cycle(const struct trum_drive* drive, 
 
 static inline void trum_determinants(trum_real* v) {
   trum_cycle c;
+  trum_cycle_constants* k = &c.constants;
   trum_sums sums;
   memset(&c, 0, sizeof c);
-  c.omega_n = v[trum_at_omega_n], c.Delta_omega = v[trum_at_Delta_omega], c.xi = v[trum_at_xi];
-  c.psi = v[trum_at_psi], c.s = v[trum_at_s], c.m = v[trum_at_m], c.n = v[trum_at_n];
-  c.a_A = v[trum_at_a_A], c.b_A = v[trum_at_b_A], c.a_B = v[trum_at_a_B], c.b_B = v[trum_at_b_B];
-  c.W = c.D = c.k_c = 1;
+  k->omega_n = v[trum_at_omega_n], k->Delta_omega = v[trum_at_Delta_omega], k->xi = v[trum_at_xi];
+  k->psi = v[trum_at_psi], k->s = v[trum_at_s], k->m = v[trum_at_m], k->n = v[trum_at_n];
+  k->W = k->D = k->k_c = 1;
+  c.before.a_A = v[trum_at_a_A], c.before.b_A = v[trum_at_b_A];
+  c.before.a_B = v[trum_at_a_B], c.before.b_B = v[trum_at_b_B];
   sums = trum_cycle_sums(&c, 2);
   v[trum_at_q_plus] = sums.q_plus, v[trum_at_q_minus] = sums.q_minus;
   v[trum_at_p_plus] = sums.p_plus, v[trum_at_p_minus] = sums.p_minus;

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstring>
 #include <iterator>
+#include <string>
 #include <vector>
 
 #include <numpy/arrayobject.h>
@@ -45,135 +46,142 @@ class Unlocked {
   PyThreadState* state_;
 };
 
-template <int n>
-std::array<double, n> gather(char** args, const npy_intp* steps, npy_intp i) {
-  std::array<double, n> values;
-  for (int j = 0; j < n; ++j) values[j] = *reinterpret_cast<const double*>(args[j] + i * steps[j]);
-  return values;
+// Fields of a struct from a ufunc's arguments and to its results, in the order of the struct's list; with the names and
+// the number of the fields.
+#define NAME_OF(name, unit) #name " "
+#define ONE(name, unit) +1
+#define READ(name, unit) to->name = *reinterpret_cast<const double*>(*args++ + i * *steps++);
+#define WRITE(name, unit) *reinterpret_cast<double*>(*args++ + i * *steps++) = from.name;
+#define COUNT(LIST) (0 LIST(ONE))
+#define READER(type, LIST) \
+  inline void read(type* to, char** args, const npy_intp* steps, npy_intp i) { LIST(READ) } \
+  static_assert(sizeof(type) == COUNT(LIST) * sizeof(double), #type " has the fields of " #LIST);
+#define WRITER(type, LIST) \
+  inline void write(const type& from, char** args, const npy_intp* steps, npy_intp i) { LIST(WRITE) } \
+  static_assert(sizeof(type) == COUNT(LIST) * sizeof(double), #type " has the fields of " #LIST);
+READER(trum_balance, TRUM_HALF_ANGLE_IN)
+READER(trum_cycle_sums_in, TRUM_CYCLE_SUMS_IN)
+WRITER(trum_cycle_sums_out, TRUM_CYCLE_SUMS_OUT)
+READER(trum_cycle_response_in, TRUM_CYCLE_RESPONSE_IN)
+WRITER(trum_cycle_response_out, TRUM_CYCLE_RESPONSE_OUT)
+READER(trum_orbit_in, TRUM_ORBIT_IN)
+WRITER(trum_orbit_out, TRUM_ORBIT_OUT)
+READER(trum_slopes_in, TRUM_SLOPES_IN)
+inline void read_orbit(trum_orbit_out* to, char** args, const npy_intp* steps, npy_intp i) { TRUM_HISTORY_IN(READ) }
+
+// The signature of a generalised ufunc: n scalars.
+std::string scalars(int n) {
+  std::string text;
+  for (int k = 0; k < n; ++k) text += k ? ",()" : "()";
+  return text;
 }
 
-template <std::size_t n>
-void scatter(const std::array<double, n>& values, char** args, const npy_intp* steps, npy_intp i) {
-  for (std::size_t j = 0; j < n; ++j) *reinterpret_cast<double*>(args[j] + i * steps[j]) = values[j];
-}
-
-constexpr char half_angle_in[] = "F_c k_N W k_c n_j";
-constexpr char half_angle_out[] = "theta";
+constexpr int n_half_angle_in = COUNT(TRUM_HALF_ANGLE_IN);
 void half_angle_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
   for (npy_intp i = 0; i < dimensions[0]; ++i) {
-    const auto v = gather<5>(args, steps, i);
-    scatter<1>({trum_half_angle(v[0], v[1], v[2], v[3], v[4])}, args + 5, steps + 5, i);
+    trum_balance b;
+    read(&b, args, steps, i);
+    *reinterpret_cast<double*>(args[n_half_angle_in] + i * steps[n_half_angle_in]) =
+        trum_half_angle(b.F_c, b.k_N, b.W, b.k_c, b.n_j);
   }
 }
 
-constexpr char cycle_sums_in[] = "omega_n Delta_omega xi psi s m n a_A b_A a_B b_B panels";
-constexpr char cycle_sums_out[] = "q_plus q_minus p_plus p_minus";
-constexpr char cycle_response_in[] = "t omega_n Delta_omega xi psi s m n a_A b_A a_B b_B W D k_c";
-constexpr char cycle_response_out[] = "w_A w_B v_A v_B Q";
+constexpr int n_response_in = COUNT(TRUM_CYCLE_RESPONSE_IN);
 void cycle_response_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
   for (npy_intp i = 0; i < dimensions[0]; ++i) {
-    const auto v = gather<15>(args, steps, i);
-    trum_cycle cycle = {v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8], v[9], v[10], v[11], v[12], v[13], v[14],
-                        {}, {}, {}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+    trum_cycle_response_in in;
+    trum_cycle cycle = {};
+    read(&in, args, steps, i);
+    cycle.constants = {in.omega_n, in.Delta_omega, in.xi, in.psi, in.s, in.m, in.n, in.W, in.D, in.k_c};
+    cycle.before = {in.a_A, in.b_A, in.a_B, in.b_B};
     trum_cycle_regions(&cycle);
-    double tau = v[0];
+    double tau = in.t;
     int region = 0;
     while (region < TRUM_REGIONS - 1 && tau >= cycle.duration[region]) tau -= cycle.duration[region++];
     trum_cycle_enter(&cycle, region);
     trum_cycle_at(&cycle, tau);
-    scatter<5>({cycle.w_A, cycle.w_B, cycle.v_A, cycle.v_B, cycle.Q}, args + 15, steps + 15, i);
+    write(trum_cycle_response_out{cycle.at.w_A, cycle.at.w_B, cycle.at.v_A, cycle.at.v_B, cycle.at.Q},
+          args + n_response_in, steps + n_response_in, i);
   }
 }
 
-constexpr char orbit_in[] =
-    "omega_n Delta_omega xi psi s m n a_A b_A a_B b_B W D k_c engagement_per_height W_full hertz push drag tolerance held";
-constexpr char orbit_out[] = "mean low high variance contact held start level error flags";
-constexpr int n_orbit_in = 21, n_orbit_out = 10, hertz_in = 16;
 const trum::OrbitCode* orbit_code = &trum::orbit_baseline;
 
 // Blocks of points of one contact law, small enough to keep their inputs in cache.
+constexpr int n_orbit_in = COUNT(TRUM_ORBIT_IN), n_orbit_out = COUNT(TRUM_ORBIT_OUT);
 void rotor_orbit_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
   const Unlocked unlocked;
   constexpr npy_intp most = 256;
-  std::array<std::array<double, n_orbit_in>, most> in;
-  std::array<std::array<double, n_orbit_out>, most> out;
+  std::array<trum_orbit_in, most> in;
+  std::array<trum_orbit_out, most> out;
   for (npy_intp i = 0; i < dimensions[0];) {
     npy_intp count = 0;
     for (; i + count < dimensions[0] && count < most; ++count) {
-      in[count] = gather<n_orbit_in>(args, steps, i + count);
-      if (in[count][hertz_in] != in[0][hertz_in]) break;
+      read(&in[count], args, steps, i + count);
+      if (in[count].hertz != in[0].hertz) break;
     }
-    orbit_code->orbits(in[0].data(), out[0].data(), nullptr, nullptr, static_cast<long>(count));
-    for (npy_intp k = 0; k < count; ++k) scatter(out[k], args + n_orbit_in, steps + n_orbit_in, i + k);
+    orbit_code->orbits(in.data(), out.data(), nullptr, nullptr, static_cast<long>(count));
+    for (npy_intp k = 0; k < count; ++k) write(out[k], args + n_orbit_in, steps + n_orbit_in, i + k);
     i += count;
   }
 }
 
+constexpr int n_sums_in = COUNT(TRUM_CYCLE_SUMS_IN);
 void cycle_sums_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
   const Unlocked unlocked;
   constexpr npy_intp most = 512;
-  std::array<std::array<double, 12>, most> in;
-  std::array<std::array<double, 4>, most> out;
+  std::array<trum_cycle_sums_in, most> in;
+  std::array<trum_cycle_sums_out, most> out;
   for (npy_intp i = 0; i < dimensions[0]; i += most) {
     const npy_intp count = std::min(most, dimensions[0] - i);
-    for (npy_intp k = 0; k < count; ++k) in[k] = gather<12>(args, steps, i + k);
-    orbit_code->sums(in[0].data(), out[0].data(), static_cast<long>(count));
-    for (npy_intp k = 0; k < count; ++k) scatter(out[k], args + 12, steps + 12, i + k);
+    for (npy_intp k = 0; k < count; ++k) read(&in[k], args, steps, i + k);
+    orbit_code->sums(in.data(), out.data(), static_cast<long>(count));
+    for (npy_intp k = 0; k < count; ++k) write(out[k], args + n_sums_in, steps + n_sums_in, i + k);
   }
 }
 
 // The same with the slopes of the figures, a matrix of figures by what they depend on.
-constexpr char slopes_in[] =
-    "omega_n Delta_omega xi psi s m n a_A b_A a_B b_B W D k_c engagement_per_height W_full hertz push drag tolerance held "
-    "a_A_omega_n b_A_omega_n a_B_omega_n b_B_omega_n a_A_Delta_omega b_A_Delta_omega a_B_Delta_omega b_B_Delta_omega";
-constexpr char slopes_out[] = "mean low high variance contact held start level error flags slopes";
-constexpr char slopes_signature[] =
-    "(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),()->"
-    "(),(),(),(),(),(),(),(),(),(),(6,6)";
-constexpr int n_slopes_in = n_orbit_in + 8, n_slopes_out = n_orbit_out + 1, n_slopes = 36;
+constexpr int n_slopes_in = n_orbit_in + COUNT(TRUM_SLOPES_IN), n_slopes_out = n_orbit_out + 1;
 void rotor_slopes_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
   const Unlocked unlocked;
   constexpr npy_intp most = 64;
-  std::array<std::array<double, n_orbit_in>, most> in;
-  std::array<std::array<double, n_slopes_in - n_orbit_in>, most> with;
-  std::array<std::array<double, n_orbit_out>, most> out;
-  std::array<std::array<double, n_slopes>, most> slopes;
+  std::array<trum_orbit_in, most> in;
+  std::array<trum_slopes_in, most> with;
+  std::array<trum_orbit_out, most> out;
+  std::array<trum_slopes_out, most> slopes;
   const npy_intp* core = steps + n_slopes_in + n_slopes_out;  // strides of rows and columns
   for (npy_intp i = 0; i < dimensions[0];) {
     npy_intp count = 0;
     for (; i + count < dimensions[0] && count < most; ++count) {
-      in[count] = gather<n_orbit_in>(args, steps, i + count);
-      with[count] = gather<n_slopes_in - n_orbit_in>(args + n_orbit_in, steps + n_orbit_in, i + count);
-      if (in[count][hertz_in] != in[0][hertz_in]) break;
+      read(&in[count], args, steps, i + count);
+      read(&with[count], args + n_orbit_in, steps + n_orbit_in, i + count);
+      if (in[count].hertz != in[0].hertz) break;
     }
-    orbit_code->orbits(in[0].data(), out[0].data(), with[0].data(), slopes[0].data(), static_cast<long>(count));
+    orbit_code->orbits(in.data(), out.data(), with.data(), slopes.data(), static_cast<long>(count));
     for (npy_intp k = 0; k < count; ++k) {
-      scatter(out[k], args + n_slopes_in, steps + n_slopes_in, i + k);
+      write(out[k], args + n_slopes_in, steps + n_slopes_in, i + k);
       char* to = args[n_slopes_in + n_orbit_out] + (i + k) * steps[n_slopes_in + n_orbit_out];
-      for (int e = 0; e < n_slopes; ++e) *reinterpret_cast<double*>(to + e / 6 * core[0] + e % 6 * core[1]) = slopes[k][e];
+      for (int of = 0; of < TRUM_SLOPE_FIGURES_COUNT; ++of)
+        for (int by = 0; by < TRUM_SLOPE_PARAMETERS_COUNT; ++by)
+          *reinterpret_cast<double*>(to + of * core[0] + by * core[1]) = slopes[k].of[of][by];
     }
     i += count;
   }
 }
 
 // Core dimension k: equal times of a cycle; `times` only gives their number.
-constexpr char history_in[] =
-    "omega_n Delta_omega xi psi s m n a_A b_A a_B b_B W D k_c engagement_per_height W_full hertz push drag tolerance held "
-    "low high start level times";
-constexpr char history_out[] = "speed distance";
-constexpr char history_signature[] =
-    "(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(),(k)->(k),(k)";
-constexpr int n_history_in = n_orbit_in + 5, n_history_out = 2;
+constexpr int n_history_in = n_orbit_in + COUNT(TRUM_HISTORY_IN) + 1, n_history_out = 2;
 void rotor_history_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
   const Unlocked unlocked;
   const npy_intp k = dimensions[1];
   const npy_intp* core = steps + n_history_in + n_history_out;  // strides of times, speed, distance
   std::vector<double> out(static_cast<std::size_t>(n_history_out * k));
   for (npy_intp i = 0; i < dimensions[0]; ++i) {
-    const auto point = gather<n_orbit_in>(args, steps, i);
-    const auto from = gather<4>(args + n_orbit_in, steps + n_orbit_in, i);
-    const double orbit[n_orbit_out] = {0.0, from[0], from[1], 0.0, 0.0, 0.0, from[2], from[3], 0.0, 0.0};
-    orbit_code->history(point.data(), orbit, out.data(), out.data() + k, k);
+    trum_orbit_in point;
+    trum_orbit_out orbit = {};
+    read(&point, args, steps, i);
+    read_orbit(&orbit, args + n_orbit_in, steps + n_orbit_in, i);
+    orbit_code->history(&point, &orbit, out.data(), out.data() + k, k);
     for (int o = 0; o < n_history_out; ++o) {
       char* to = args[n_history_in + o] + i * steps[n_history_in + o];
       for (npy_intp j = 0; j < k; ++j) *reinterpret_cast<double*>(to + j * core[1 + o]) = out[o * k + j];
@@ -282,17 +290,26 @@ PyMODINIT_FUNC PyInit__kernels() {
   if (!add(module, signatures, #name, loop_##name, n_in, n_out, inputs, outputs)) return nullptr;
   TRUM_KERNELS(ADD)
 #undef ADD
-  if (!add(module, signatures, "contact_half_angle", loop_half_angle, 5, 1, half_angle_in, half_angle_out)) return nullptr;
-  if (!add(module, signatures, "cycle_sums", loop_cycle_sums, 12, 4, cycle_sums_in, cycle_sums_out)) return nullptr;
-  if (!add(module, signatures, "cycle_response", loop_cycle_response, 15, 5, cycle_response_in, cycle_response_out))
+  const std::string slopes = scalars(n_slopes_in) + "->" + scalars(n_orbit_out) + ",(" +
+                             std::to_string(TRUM_SLOPE_FIGURES_COUNT) + "," +
+                             std::to_string(TRUM_SLOPE_PARAMETERS_COUNT) + ")";
+  const std::string history = scalars(n_history_in - 1) + ",(k)->(k),(k)";
+  if (!add(module, signatures, "contact_half_angle", loop_half_angle, n_half_angle_in, 1, TRUM_HALF_ANGLE_IN(NAME_OF),
+           "theta") ||
+      !add(module, signatures, "cycle_sums", loop_cycle_sums, n_sums_in, COUNT(TRUM_CYCLE_SUMS_OUT),
+           TRUM_CYCLE_SUMS_IN(NAME_OF), TRUM_CYCLE_SUMS_OUT(NAME_OF)) ||
+      !add(module, signatures, "cycle_response", loop_cycle_response, n_response_in, COUNT(TRUM_CYCLE_RESPONSE_OUT),
+           TRUM_CYCLE_RESPONSE_IN(NAME_OF), TRUM_CYCLE_RESPONSE_OUT(NAME_OF)) ||
+      !add(module, signatures, "rotor_orbit", loop_rotor_orbit, n_orbit_in, n_orbit_out, TRUM_ORBIT_IN(NAME_OF),
+           TRUM_ORBIT_OUT(NAME_OF)) ||
+      !add(module, signatures, "rotor_slopes", loop_rotor_slopes, n_slopes_in, n_slopes_out,
+           TRUM_ORBIT_IN(NAME_OF) TRUM_SLOPES_IN(NAME_OF), TRUM_ORBIT_OUT(NAME_OF) "slopes", slopes.c_str()) ||
+      !add(module, signatures, "rotor_history", loop_rotor_history, n_history_in, n_history_out,
+           TRUM_ORBIT_IN(NAME_OF) TRUM_HISTORY_IN(NAME_OF) "times", "speed distance", history.c_str()))
     return nullptr;
-  if (!add(module, signatures, "rotor_orbit", loop_rotor_orbit, n_orbit_in, n_orbit_out, orbit_in, orbit_out))
-    return nullptr;
-  if (!add(module, signatures, "rotor_slopes", loop_rotor_slopes, n_slopes_in, n_slopes_out, slopes_in, slopes_out,
-           slopes_signature))
-    return nullptr;
-  if (!add(module, signatures, "rotor_history", loop_rotor_history, n_history_in, n_history_out, history_in, history_out,
-           history_signature))
+  if (PyModule_AddStringConstant(module, "slope_figures", TRUM_SLOPE_FIGURES(NAME_OF)) < 0 ||
+      PyModule_AddStringConstant(module, "slope_parameters", TRUM_SLOPE_PARAMETERS(NAME_OF)) < 0 ||
+      PyModule_AddStringConstant(module, "orbit_flags", TRUM_ORBIT_FLAGS) < 0)
     return nullptr;
   for (const trum::OrbitCode* code : orbit_codes)
     if (supported(*code)) orbit_code = code;

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 
@@ -16,9 +16,30 @@ except ImportError as error:  # pragma: no cover - an installed package has them
         "`pip install -e .`, or leave its folder to use the installed package"
     ) from error
 
-__all__ = ["call", "signature"]
+__all__ = ["ORBIT_FLAGS", "SLOPE_FIGURES", "SLOPE_PARAMETERS", "call", "expect", "signature"]
 
 _SIGNATURES = {name: (i.split(), o.split()) for name, (i, o) in _kernels.signatures.items()}
+
+# The driver's own names, in its order: bits of an orbit's flags from the lowest, rows and columns of its slopes
+ORBIT_FLAGS = tuple(_kernels.orbit_flags.split())
+SLOPE_FIGURES = tuple(_kernels.slope_figures.split())
+SLOPE_PARAMETERS = tuple(_kernels.slope_parameters.split())
+
+
+def expect(what: str, names: Iterable[str], compiled: Iterable[str]) -> None:
+    """Compare names that a module is written for with those of the compiled driver, in any order.
+
+    Raises
+    ------
+    ImportError
+        If they differ: the compiled kernels belong to another version of the package.
+    """
+    ours, theirs = set(names), set(compiled)
+    if ours != theirs:
+        raise ImportError(
+            f"the compiled kernels are of another version: {what} differ by {', '.join(sorted(ours ^ theirs))}; "
+            "install the package anew with `pip install -e .`"
+        )
 
 
 def signature(kernel: str) -> tuple[list[str], list[str]]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from trum_sym.inputs.checks import Array, ArrayLike
 from trum_sym.model.batch import call_in_blocks
-from trum_sym.model.kernels import call
+from trum_sym.model.kernels import ORBIT_FLAGS, call, expect, signature
 
 __all__ = [
     "Orbit",
@@ -21,7 +21,18 @@ __all__ = [
     "solve_orbit",
 ]
 
-_CONVERGED, _FULL_CONTACT, _RUNAWAY = 1, 2, 4
+_FLAG = {name: 1 << bit for bit, name in enumerate(ORBIT_FLAGS)}
+# What the driver takes and gives, by the names that this module uses
+_INPUTS = (
+    "omega_n", "Delta_omega", "xi", "psi", "s", "m", "n", "a_A", "b_A", "a_B", "b_B", "W", "D", "k_c",
+    "engagement_per_height", "W_full", "hertz", "push", "drag", "tolerance", "held",
+)  # fmt: skip
+_OUTPUTS = ("mean", "low", "high", "variance", "contact", "held", "start", "level", "error", "flags")
+_OF_HISTORY = ("low", "high", "start", "level")
+expect("an orbit's inputs", _INPUTS, signature("rotor_orbit")[0])
+expect("an orbit's outputs", _OUTPUTS, signature("rotor_orbit")[1])
+expect("an orbit's flags", ("converged", "full_contact", "runaway"), ORBIT_FLAGS)
+expect("a history's inputs", (*_INPUTS, *_OF_HISTORY, "times"), signature("rotor_history")[0])
 
 
 @dataclass(frozen=True)
@@ -96,9 +107,9 @@ def as_orbit(raw: Mapping[str, Array], stator: Mapping[str, ArrayLike]) -> Orbit
         variance=raw["variance"] / radius**2,
         stall_torque=stall,
         contact_fraction=raw["contact"],
-        converged=(flags & _CONVERGED) > 0,
-        full_contact=(flags & _FULL_CONTACT) > 0,
-        runaway=(flags & _RUNAWAY) > 0,
+        converged=(flags & _FLAG["converged"]) > 0,
+        full_contact=(flags & _FLAG["full_contact"]) > 0,
+        runaway=(flags & _FLAG["runaway"]) > 0,
         raw=raw,
     )
 
@@ -111,7 +122,7 @@ def history(values: Mapping[str, ArrayLike], raw: Mapping[str, ArrayLike], count
     dict
         ``speed`` of the rim (m/s), its ``distance`` since t1 (m) and the net ``friction`` fraction.
     """
-    point = {name: raw[name] for name in ("low", "high", "start", "level")}
+    point = {name: raw[name] for name in _OF_HISTORY}
     found = call("rotor_history", {**values, **point, "times": np.empty(count)})
     return {name: np.asarray(value) for name, value in found.items()}
 

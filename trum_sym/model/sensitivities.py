@@ -14,7 +14,7 @@ from trum_sym.inputs.checks import Array, ArrayLike
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
 from trum_sym.model.batch import call_in_blocks
-from trum_sym.model.kernels import call
+from trum_sym.model.kernels import SLOPE_FIGURES, SLOPE_PARAMETERS, call, expect, signature
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.model.operating_point import Case, prepare
 from trum_sym.model.rotor import Orbit, as_orbit
@@ -32,8 +32,23 @@ PARAMETERS = (
 )
 DIFFERENTIATED = ("mean_speed", "min_speed", "max_speed", "speed_volatility", "contact_fraction", "stall_torque")
 
+# The driver's rows and columns by name
+_FIGURE = {name: row for row, name in enumerate(SLOPE_FIGURES)}
+_BY = {name: column for column, name in enumerate(SLOPE_PARAMETERS)}
 _TURN = 2 * np.pi
 _STATES = ("a_A", "b_A", "a_B", "b_B")
+_FREQUENCIES = ("omega_n", "Delta_omega")
+expect("the figures with slopes", ("mean", "low", "high", "variance", "contact", "held"), SLOPE_FIGURES)
+expect(
+    "what slopes are by",
+    ("prepressure", "difference", "drag", "friction", "amplitude", "resonance"),
+    SLOPE_PARAMETERS,
+)
+expect(
+    "the slopes' inputs",
+    (*signature("rotor_orbit")[0], *(f"{state}_{by}" for state in _STATES for by in _FREQUENCIES)),
+    signature("rotor_slopes")[0],
+)
 _STEP = 1e-3  # of the stator's differences, relative: their error is its fourth power
 
 
@@ -87,18 +102,18 @@ def orbit_with_slopes(case: Case) -> tuple[Orbit, dict[str, dict[str, Array]]]:
     raw = call_in_blocks(
         "rotor_slopes",
         {**case.arguments, **_states(case)},
-        inner={"slopes": (len(DIFFERENTIATED), len(PARAMETERS))},
+        inner={"slopes": (len(SLOPE_FIGURES), len(SLOPE_PARAMETERS))},
         smallest=1,  # steps with slopes are long: a core each
     )
     slopes = raw["slopes"]
     force, friction, radius, inertia = (np.asarray(case.symbols[name]) for name in ("F_c", "mu", "r_c", "J"))
     alone = {
-        "prepressure": slopes[..., 0] / _column(force),
-        "frequency_difference": slopes[..., 1] * _TURN,
-        "load_torque": slopes[..., 2] * _column(radius / inertia),
-        "friction_coefficient": slopes[..., 3] / _column(friction),
-        "amplitude": slopes[..., 4] / _column(case.stator.W),
-        "resonance_frequency": slopes[..., 5] * _TURN,
+        "prepressure": slopes[..., _BY["prepressure"]] / _column(force),
+        "frequency_difference": slopes[..., _BY["difference"]] * _TURN,
+        "load_torque": slopes[..., _BY["drag"]] * _column(radius / inertia),
+        "friction_coefficient": slopes[..., _BY["friction"]] / _column(friction),
+        "amplitude": slopes[..., _BY["amplitude"]] / _column(case.stator.W),
+        "resonance_frequency": slopes[..., _BY["resonance"]] * _TURN,
     }
     for name, (d_omega_n, d_W) in _following(case).items():
         alone[name] = alone[name] + alone["amplitude"] * _column(d_W)
@@ -114,7 +129,7 @@ def _column(value: ArrayLike) -> Array:
 
 def _states(case: Case) -> dict[str, ArrayLike]:
     """How the free motion before t1 follows the frequencies."""
-    rates: dict[str, ArrayLike] = {f"{state}_{by}": 0.0 for state in _STATES for by in ("omega_n", "Delta_omega")}
+    rates: dict[str, ArrayLike] = {f"{state}_{by}": 0.0 for state in _STATES for by in _FREQUENCIES}
     if case.drive.start == "steady":
         return rates
     return {**rates, **call(f"trum_start_{case.drive.start}_slopes", case.arguments)}
@@ -156,14 +171,17 @@ def _figures(case: Case, orbit: Mapping[str, ArrayLike], slopes: Mapping[str, Ar
     with np.errstate(all="ignore"):
         deviation = np.sqrt(orbit["variance"])
         for parameter, slope in slopes.items():
-            for place, name in enumerate(("mean_speed", "min_speed", "max_speed")):
-                found[name][parameter] = slope[..., place] / radius
-            of_deviation, of_mean = slope[..., 3] / (2 * deviation), slope[..., 0] * np.sign(mean)
+            for name, row in (("mean_speed", "mean"), ("min_speed", "low"), ("max_speed", "high")):
+                found[name][parameter] = slope[..., _FIGURE[row]] / radius
+            of_deviation, of_mean = (
+                slope[..., _FIGURE["variance"]] / (2 * deviation),
+                slope[..., _FIGURE["mean"]] * np.sign(mean),
+            )
             volatility = (of_deviation - deviation * of_mean / np.abs(mean)) / np.abs(mean)
             found["speed_volatility"][parameter] = volatility
             found["speed_deviation"][parameter] = of_deviation / radius
-            found["contact_fraction"][parameter] = slope[..., 4]
-            stall = call("trum_stall_torque", {**case.symbols, "f": slope[..., 5]})["torque"]
+            found["contact_fraction"][parameter] = slope[..., _FIGURE["contact"]]
+            stall = call("trum_stall_torque", {**case.symbols, "f": slope[..., _FIGURE["held"]]})["torque"]
             if parameter in ("prepressure", "friction_coefficient"):  # the torque is in proportion to both
                 own = call("trum_stall_torque", {**case.symbols, "f": held})["torque"]
                 stall = stall + own / (force if parameter == "prepressure" else friction)

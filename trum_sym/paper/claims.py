@@ -1,4 +1,4 @@
-"""The paper's statements of results, Sects. 5 to 9, each computed and judged; and which reading meets which.
+"""The paper's statements, Sects. 1 to 9, each computed and judged; and which reading meets which.
 
 A verdict is derived: a claim's check says in which readings it holds, and this module what follows from that.
 """
@@ -14,9 +14,9 @@ import numpy as np
 
 from trum_sym.inputs.drive import STARTS
 from trum_sym.inputs.motor import Motor
-from trum_sym.paper import section_5, section_6, sections_7_to_9
-from trum_sym.paper.findings import Context, Finding, Truth
-from trum_sym.paper.readings import AXES, LEADS, LEVELS, Readings
+from trum_sym.paper import section_5, section_6, sections_1_to_4, sections_7_to_9
+from trum_sym.paper.findings import ByInertia, Context, Finding, Truth
+from trum_sym.paper.readings import AXES, COMBINATIONS, LEADS, Readings
 from trum_sym.paper.readings import readings as compute_readings
 
 __all__ = [
@@ -24,12 +24,14 @@ __all__ = [
     "VERDICTS",
     "Claim",
     "Statement",
+    "Varied",
     "best",
     "claims",
     "judged",
     "reading_rows",
     "readings",
     "statements",
+    "varied",
 ]
 
 REPRODUCED, PARTLY, CONTRADICTED = "reproduced", "reproduced only under", "contradicted"
@@ -70,6 +72,7 @@ class Claim:
     anchor : of the figure or table that shows it
     holds : by (start, phase lead, switching phase, level); False where it was not computed, as ``known`` says
     known : the same shape
+    rotor : where it holds at each load's inertia, for a claim on the rotor
     """
 
     id: str
@@ -81,6 +84,7 @@ class Claim:
     anchor: str
     holds: Truth
     known: Truth
+    rotor: ByInertia | None = None
 
     def as_dict(self) -> dict[str, str]:
         """The words, by name."""
@@ -90,8 +94,8 @@ class Claim:
 
 def judged(statement: Statement, finding: Finding) -> Claim:
     """The verdict that a finding gives."""
-    levels = tuple(range(len(LEVELS))) if finding.levels is None else finding.levels
-    shape = (*_SHAPE, len(LEVELS))
+    levels = tuple(range(len(COMBINATIONS))) if finding.levels is None else finding.levels
+    shape = (*_SHAPE, len(COMBINATIONS))
     known, holds = np.zeros(shape, bool), np.zeros(shape, bool)
     known[..., levels] = True
     holds[..., levels] = np.broadcast_to(np.asarray(finding.holds, bool), (*_SHAPE, len(levels)))
@@ -99,33 +103,111 @@ def judged(statement: Statement, finding: Finding) -> Claim:
     conditions = _where(here, levels)
     if finding.undecidable is not None:
         verdict, conditions = UNDECIDABLE, finding.undecidable
-    elif finding.assumed is not None:
-        verdict, conditions = _assumed(here, finding.assumed, conditions)
     else:
-        verdict = REPRODUCED if here.all() else PARTLY if here.any() else CONTRADICTED
+        verdict = _verdict(here, finding.assumed, finding.possible)
+        if finding.assumed is not None:
+            conditions = _conditions(verdict, here, finding.assumed, conditions, finding.assumed_of)
     return Claim(
         statement.id, statement.place, statement.quote, finding.computed, conditions, verdict, statement.anchor,
-        holds, known,
+        holds, known, finding.rotor,
     )  # fmt: skip
 
 
-def _assumed(holds: Truth, corners: Truth, conditions: str) -> tuple[str, str]:
-    """The verdict where friction or contact radius matter, which the paper does not give.
+def _verdict(holds: Truth, corners: Truth | None = None, possible: Truth | None = None) -> str:
+    """The verdict that follows from where a claim holds.
 
-    A reading counts only if the claim holds at all values of both that are plausible; if it holds at some of them only,
-    and in no reading at all, the paper does not decide it.
+    Where something matters that the paper does not give, a reading counts only if the claim holds at all corners of
+    what is plausible; if it holds at some of them only, and in no reading at all, the paper does not decide it.
     """
-    always, sometimes = corners.all(axis=-1), corners.any(axis=-1)
-    of = f"of {corners.shape[-1]} corners of the assumed friction (0.2 to 0.3) and contact radius (25 to 30 mm)"
-    if holds.all() and always.all():
-        return REPRODUCED, f"{conditions}; at all {of}"
-    if (holds.all(axis=-1) & always).any():
-        cells = _cells(np.asarray(holds.all(axis=-1) & always)[..., None])
-        return PARTLY, f"{cells}; at all {of}"
-    if sometimes.any() or holds.any():
-        most = int(corners.sum(axis=-1).max())
-        return UNDECIDABLE, f"{conditions}; at the default level at most at {most} {of}"
-    return CONTRADICTED, f"{conditions}; at none {of}"
+    if corners is None:
+        return REPRODUCED if holds.all() else PARTLY if holds.any() else CONTRADICTED
+    if holds.all() and corners.all():
+        return REPRODUCED
+    if _certain(holds, corners).any():
+        return PARTLY
+    some = corners.any() or (holds if possible is None else possible).any()
+    return UNDECIDABLE if some else CONTRADICTED
+
+
+def _certain(holds: Truth, corners: Truth) -> Truth:
+    """By (start, phase lead, switching phase), whether it holds at all levels and corners."""
+    return np.asarray(holds.all(axis=-1) & corners.all(axis=-1))
+
+
+def _conditions(verdict: str, holds: Truth, corners: Truth, where: str, of_what: str) -> str:
+    """In which readings it holds, and at how many corners."""
+    of = f"of {corners.shape[-1]} corners of the assumed {of_what}"
+    if verdict == REPRODUCED:
+        return f"{where}; at all {of}"
+    if verdict == PARTLY:
+        return f"{_cells(_certain(holds, corners)[..., None])}; at all {of}"
+    most = int(corners.sum(axis=-1).max())
+    return f"{where}; at the default level at most at {most or 'none'} {of}"
+
+
+@dataclass(frozen=True)
+class Varied:
+    """A claim on the rotor, by what was taken for the speed and by the load's inertia.
+
+    Attributes
+    ----------
+    id, place : of the claim
+    measured : whether it is about the motor that was measured, which pulls a weight
+    verdicts : what the rule gives for the speed itself of a rotor without a load, and for what is judged (what the
+        encoder reads if ``measured``) at each value of ``LOAD_INERTIA``
+    verdict : the claim's own
+    cells : by (start, phase lead), one letter for each of ``verdicts``: ``+`` where it holds in all switching phases,
+        levels and corners, ``-`` where in none, ``o`` where in some
+    """
+
+    id: str
+    place: str
+    measured: bool
+    verdicts: tuple[str, ...]
+    verdict: str
+    cells: tuple[tuple[str, ...], ...]
+
+    @property
+    def by_encoder(self) -> bool:
+        """Whether what the encoder reads changes where it holds."""
+        return any(cell[0] != cell[1] for row in self.cells for cell in row)
+
+    @property
+    def by_inertia(self) -> bool:
+        """Whether the load's inertia does."""
+        return any(len(set(cell[1:])) > 1 for row in self.cells for cell in row)
+
+    @property
+    def decided(self) -> int:
+        """In how many of the starts and phase leads it surely holds or fails over what is plausible."""
+        ends = slice(2, None) if self.measured else slice(1, 2)
+        return sum(len(set(cell[ends])) == 1 and "o" not in cell[ends] for row in self.cells for cell in row)
+
+
+def varied(judged_claims: list[Claim]) -> list[Varied]:
+    """The claims on the rotor at each load's inertia, in the paper's order."""
+    found = []
+    for claim in judged_claims:
+        if claim.rotor is None:
+            continue
+        by = claim.rotor
+        holds = [by.speed_holds, *by.holds]
+        corners = [by.speed_corners, *(by.corners if by.corners is not None else [None] * len(by.holds))]
+        cells = tuple(
+            tuple(
+                "".join(_letter(h[i, j], None if k is None else k[i, j]) for h, k in zip(holds, corners, strict=True))
+                for j in range(len(LEADS))
+            )
+            for i in range(len(STARTS))
+        )
+        verdicts = tuple(_verdict(h, k) for h, k in zip(holds, corners, strict=True))
+        found.append(Varied(claim.id, claim.place, by.measured, verdicts, claim.verdict, cells))
+    return found
+
+
+def _letter(holds: Truth, corners: Truth | None) -> str:
+    every = [holds] if corners is None else [holds, corners]
+    return "+" if all(part.all() for part in every) else "o" if any(part.any() for part in every) else "-"
 
 
 def _cells(holds: Truth) -> str:
@@ -157,7 +239,7 @@ def _of_levels(holds: Truth, levels: tuple[int, ...]) -> str:
     for axis, name in enumerate(AXES[3:]):
         counts: dict[str, list[bool]] = {}
         for truth, level in zip(holds, levels, strict=True):
-            counts.setdefault(LEVELS[level][axis], []).append(bool(truth))
+            counts.setdefault(COMBINATIONS[level][axis], []).append(bool(truth))
         pure = sum(len(found) for found in counts.values() if all(found) or not any(found))
         parts = [
             f"{name} {word}" + ("" if all(found) else f" ({sum(found)} of {len(found)})")
@@ -181,7 +263,7 @@ def claims(motor: Motor, found: Readings | None = None, progress: bool = False) 
         Whether to show bars on the standard error.
     """
     context = Context(motor, found or readings(motor, progress))
-    checks = {**section_5.CHECKS, **section_6.CHECKS, **sections_7_to_9.CHECKS}
+    checks = {**sections_1_to_4.CHECKS, **section_5.CHECKS, **section_6.CHECKS, **sections_7_to_9.CHECKS}
     return [judged(statement, checks[statement.id](context)) for statement in statements()]
 
 

@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import itertools
 import math
+import os
 import warnings
 from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -27,20 +29,24 @@ from trum_sym.model.kernels import call
 from trum_sym.model.levels import AMPLITUDES, CONTACTS, FOUNDATIONS, RESONANCES, Levels
 from trum_sym.model.rotor import encoder_deviation, history, orbit_values, solve_orbit
 from trum_sym.model.stator import solve_stator
+from trum_sym.paper.cycle import weight_inertia
 from trum_sym.paper.published import ENCODER, TABLE_5
 
 __all__ = [
     "AXES",
+    "COMBINATIONS",
     "DEFAULT",
     "LEADS",
-    "LEVELS",
+    "LOAD_INERTIA",
     "PHASES",
     "POINTS",
+    "RIG",
     "ROTOR_LEVELS",
     "TABLE_4",
     "Points",
     "Readings",
     "axis_words",
+    "encoder_deviations",
     "published",
     "readings",
 ]
@@ -50,7 +56,7 @@ LEADS = (1.0, -1.0)
 PHASES = {"A at its crest at t1 (eqs. 18, 23)": 0.0, "B at its crest at t1 (eq. 10)": math.pi / 2}
 """Switching phases that the text writes down; half a turn more changes the sign of both phases and nothing else."""
 
-LEVELS = tuple(
+COMBINATIONS = tuple(
     (contact, resonance, foundation, amplitude)
     for contact in CONTACTS
     for resonance in (*RESONANCES, MEASURED)
@@ -58,14 +64,23 @@ LEVELS = tuple(
     for amplitude in AMPLITUDES
 )
 AXES = ("start", "phase lead", "switching phase", "contact", "resonance", "foundation", "amplitude")
-ROTOR_LEVELS = tuple(i for i, level in enumerate(LEVELS) if level[1:3] in (("quartic", "harmonic"), (MEASURED, "any")))
+ROTOR_LEVELS = tuple(
+    i for i, level in enumerate(COMBINATIONS) if level[1:3] in (("quartic", "harmonic"), (MEASURED, "any"))
+)
 """The levels at which the rotor is computed at every drive; at Table 3's it is at all levels."""
-DEFAULT = LEVELS.index(("winkler", "quartic", "harmonic", "measured"))
+DEFAULT = COMBINATIONS.index(("winkler", "quartic", "harmonic", "measured"))
 TABLE_4 = ("q_average", "q_volatility", "mean_speed", "speed_volatility")
 
 _DIFFERENCES = np.arange(2800.0, 3301.0, 100.0)
 _FORCES = np.arange(160.0, 211.0, 10.0)
+LOAD_INERTIA = np.array([0.0, weight_inertia(0.3, 0.030), 4e-3])
+"""What the load adds to the rotor's moment of inertia, kg m^2: nothing; a weight that pulls Table 3's 0.3 N m by a
+string (Sect. 8.1) at the stator's radius of 30 mm; and 4e-3, the same at 131 mm, or nearer with the torque plate."""
+RIG = slice(1, None)
+"""The values of ``LOAD_INERTIA`` between which the measured motor's lies."""
 _SAMPLES = 64  # of a drive period, of the path that the encoder differences
+_BLOCK = 128  # paths at a time, which bounds the memory
+_OF_ROTOR = ("mean_speed", "speed_volatility", "encoder_volatility")
 _TOLERANCE = 1e-4
 
 
@@ -116,8 +131,8 @@ def published(motor: Motor) -> dict[str, float]:
 
 
 def axis_words() -> dict[str, tuple[str, ...]]:
-    """The conventions by axis, in words; the last four come in the combinations of ``LEVELS``."""
-    of_levels = {name: tuple(dict.fromkeys(level[i] for level in LEVELS)) for i, name in enumerate(AXES[3:])}
+    """The conventions by axis, in words; the last four come in the combinations of ``COMBINATIONS``."""
+    of_levels = {name: tuple(dict.fromkeys(level[i] for level in COMBINATIONS)) for i, name in enumerate(AXES[3:])}
     return {
         "start": STARTS,
         "phase lead": tuple(f"{s:+.0f}" for s in LEADS),
@@ -128,29 +143,34 @@ def axis_words() -> dict[str, tuple[str, ...]]:
 
 @dataclass(frozen=True)
 class Readings:
-    """Figures of all readings by start, phase lead, switching phase, level of ``LEVELS`` and point of ``POINTS``.
+    """Figures of all readings by start, phase lead, switching phase, level of ``COMBINATIONS`` and point of ``POINTS``.
 
     Attributes
     ----------
     paper : Table 4 and the measured resonance, SI units
     resonance_frequency, amplitude : (level, point), Hz and m
-    figures : q_average, q_volatility (1/s), q_plus, q_minus (m^2, integrals of Q over a cycle), q_square_ratio,
-        mean_speed (rad/s), speed_volatility (1, continuous)
-        speeds are NaN at other drives than Table 3's unless the level is one of ``ROTOR_LEVELS``
-    encoder_volatility : (start, phase lead, switching phase, level), sigma_s of Table 3's drive with the encoder's 2 ms
+    figures : q_average, q_volatility (1/s), q_plus, q_minus (m^2, integrals of Q over a cycle), q_square_ratio
+    loaded : mean_speed (rad/s), speed_volatility (1, of the speed itself), encoder_volatility (1, of what the encoder
+        reads that averages over 2 ms), with the load's inertia of ``LOAD_INERTIA`` as another first axis
+        NaN at other drives than Table 3's unless the level is one of ``ROTOR_LEVELS``
     """
 
     paper: Mapping[str, float]
     resonance_frequency: Array
     amplitude: Array
     figures: Mapping[str, Array]
-    encoder_volatility: Array
+    loaded: Mapping[str, Array]
 
     @cached_property
     def off(self) -> dict[str, Array]:
-        """Differences from Table 4 over its values, (start, phase lead, switching phase, level)."""
-        table = {name: self.figures[name][..., POINTS.table_3] for name in TABLE_4}
-        table["speed_volatility"] = self.encoder_volatility
+        """Differences from Table 4 over its values.
+
+        Determinants by (start, phase lead, switching phase, level); mean speed and volatility, as the encoder reads
+        them, by the load's inertia before that.
+        """
+        table = {name: self.figures[name][..., POINTS.table_3] for name in ("q_average", "q_volatility")}
+        table["mean_speed"] = self.loaded["mean_speed"][..., POINTS.table_3]
+        table["speed_volatility"] = self.loaded["encoder_volatility"][..., POINTS.table_3]
         return {name: table[name] / self.paper[name] - 1 for name in TABLE_4}
 
     @cached_property
@@ -164,10 +184,13 @@ class Readings:
         start, lead, phase, level = index
         words = axis_words()
         outer = [words[name][i] for name, i in zip(AXES, (start, lead, phase), strict=False)]
-        return dict(zip(AXES, [*outer, *LEVELS[level]], strict=True))
+        return dict(zip(AXES, [*outer, *COMBINATIONS[level]], strict=True))
 
     def rows(self) -> list[dict[str, Any]]:
-        """One record a reading: its conventions, Table 4's figures and their differences in percent, nearest first."""
+        """One record a reading, nearest first: its conventions, Table 4's figures, their differences in percent.
+
+        Mean speed and volatility are lists, one value for each load's inertia.
+        """
         order = np.argsort(self.distance, axis=None, kind="stable")
         found = []
         for flat in order:
@@ -175,8 +198,9 @@ class Readings:
             row: dict[str, Any] = dict(self.conventions(index))
             row["f_n Hz"] = float(self.resonance_frequency[index[-1], POINTS.table_3])
             for name in TABLE_4:
-                row[name] = float((1 + self.off[name][index]) * self.paper[name])
-                row[f"{name} off %"] = 100 * float(self.off[name][index])
+                off = self.off[name][..., index[0], index[1], index[2], index[3]]
+                row[name] = ((1 + off) * self.paper[name]).tolist()
+                row[f"{name} off %"] = (100 * off).tolist()
             row["distance %"] = 100 * float(self.distance[index])
             row["index"] = index
             found.append(row)
@@ -190,9 +214,9 @@ def _levels(motor: Motor, measured: float) -> tuple[Array, Array, Mapping[str, A
     prepressures it moves as the default model does.
     """
     drive = Drive(prepressure=POINTS.prepressure, frequency_difference=POINTS.difference)
-    resonance, amplitude = np.empty((2, len(LEVELS), POINTS.prepressure.size))
+    resonance, amplitude = np.empty((2, len(COMBINATIONS), POINTS.prepressure.size))
     values: Mapping[str, Any] = {}
-    for i, (contact, level, foundation, size) in enumerate(LEVELS):
+    for i, (contact, level, foundation, size) in enumerate(COMBINATIONS):
         model = ("quartic", "harmonic") if level == MEASURED else (level, foundation)
         stator = solve_stator(motor, drive, Levels(contact, *model, size))  # type: ignore[arg-type]
         resonance[i], amplitude[i] = np.asarray(stator.omega_n) / (2 * np.pi), stator.W
@@ -223,9 +247,9 @@ def readings(motor: Motor, progress: bool = False) -> Readings:
         resonance, amplitude, section = _levels(motor, paper["resonance_frequency"])
     symbols = {**section, **motor.symbols(), "F_c": POINTS.prepressure}
     parts = [_of_start(motor, start, resonance, amplitude, symbols, progress) for start in STARTS]
-    figures = {name: np.stack([part[name] for part in parts]) for name in parts[0]}
-    encoder = figures.pop("encoder")
-    return Readings(paper, resonance, amplitude, figures, encoder)
+    figures = {name: np.stack([part[name] for part in parts]) for name in parts[0] if name not in _OF_ROTOR}
+    loaded = {name: np.stack([part[name] for part in parts], axis=1) for name in _OF_ROTOR}
+    return Readings(paper, resonance, amplitude, figures, loaded)
 
 
 def _of_start(
@@ -247,28 +271,49 @@ def _of_start(
 
 
 def _rotor(values: dict[str, Any], symbols: Mapping[str, Any], cycle_time: Array, progress: bool) -> dict[str, Array]:
-    """Speeds where they are wanted, NaN elsewhere, and what the encoder makes of them at Table 3's drive."""
-    by_law = {law: orbit_values(values, symbols, law, _TOLERANCE) for law in CONTACTS}
-    hertz = np.array([level[0] == "hertz" for level in LEVELS])[:, None]
+    """Speed and volatility by (load's inertia, ...) where they are wanted, NaN elsewhere."""
+    inner = np.broadcast_shapes(*(np.shape(value) for value in values.values()))
+    shape = (LOAD_INERTIA.size, *inner)
+    inertia = {**symbols, "J": symbols["J"] + LOAD_INERTIA.reshape(-1, *(1,) * len(inner))}
+    by_law = {law: orbit_values(values, inertia, law, _TOLERANCE) for law in CONTACTS}
+    hertz = np.array([level[0] == "hertz" for level in COMBINATIONS])[:, None]
     mixed = {name: np.where(hertz, by_law["hertz"][name], by_law["winkler"][name]) for name in ("W_full", "hertz")}
-    arguments = {**by_law["winkler"], **mixed}
-    shape = np.broadcast_shapes(*(np.shape(value) for value in values.values()))
+    arguments = {**by_law["winkler"], **mixed, "held": 0.0}
     wanted = np.zeros(shape, bool)
     wanted[..., POINTS.table_3] = True
     wanted[..., ROTOR_LEVELS, :] = True
-    chosen = {name: np.broadcast_to(value, shape)[wanted] for name, value in {**symbols, **arguments}.items()}
+    chosen = {name: np.broadcast_to(value, shape)[wanted] for name, value in {**inertia, **arguments}.items()}
     orbit = solve_orbit(chosen, chosen, progress)
-    speed, deviation = np.full((2, *shape), np.nan)
-    speed[wanted], deviation[wanted] = orbit.mean_speed, np.sqrt(orbit.variance)
-    at = {name: np.broadcast_to(value, shape)[..., POINTS.table_3] for name, value in arguments.items()}
-    for name, found in orbit.raw.items():
-        full = np.full(shape, np.nan)
-        full[wanted] = found
-        at[name] = full[..., POINTS.table_3]
-    path = history(at, at, int(_SAMPLES * at["m"].flat[0]))["distance"]
-    time = np.broadcast_to(cycle_time, shape)[..., POINTS.table_3]
-    read = np.empty(shape[:-1])
-    for index in np.ndindex(read.shape):
-        read[index] = encoder_deviation(path[index], float(time[index]), ENCODER)
-    read /= np.asarray(symbols["r_c"]) * np.abs(speed[..., POINTS.table_3])
-    return {"mean_speed": speed, "speed_volatility": deviation / np.abs(speed), "encoder": read}
+    time = np.broadcast_to(cycle_time, shape)[wanted]
+    read = encoder_deviations(chosen, orbit.raw, time) / np.asarray(symbols["r_c"])
+    found = {name: np.full(shape, np.nan) for name in _OF_ROTOR}
+    size = np.abs(orbit.mean_speed)
+    for name, column in zip(_OF_ROTOR, (orbit.mean_speed, np.sqrt(orbit.variance) / size, read / size), strict=True):
+        found[name][wanted] = column
+    return found
+
+
+def encoder_deviations(arguments: Mapping[str, Array], raw: Mapping[str, Array], cycle_time: Array) -> Array:
+    """Standard deviation of what an encoder of 2 ms reads, m/s at the rim, of many orbits.
+
+    Parameters
+    ----------
+    arguments, raw : mappings of arrays of one shape
+        Of the orbits, from :func:`orbit_values` and :func:`solve_orbit`.
+    cycle_time : array, s
+        Of that shape.
+    """
+    of_path = {**arguments, **{name: raw[name] for name in ("low", "high", "start", "level")}}
+    shape = np.shape(cycle_time)
+    columns = {name: np.broadcast_to(value, shape).ravel() for name, value in of_path.items()}
+    times, result = np.ravel(cycle_time), np.empty(np.size(cycle_time))
+    count = int(_SAMPLES * columns["m"][0])
+
+    def run(begin: int) -> None:
+        block = {name: column[begin : begin + _BLOCK] for name, column in columns.items()}
+        for i, path in enumerate(history(block, block, count)["distance"], begin):
+            result[i] = encoder_deviation(path, float(times[i]), ENCODER)
+
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        list(pool.map(run, range(0, result.size, _BLOCK)))
+    return result.reshape(shape)

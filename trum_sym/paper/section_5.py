@@ -11,7 +11,7 @@ from trum_sym.model.kernels import call
 from trum_sym.paper.findings import Beat, Check, Context, Finding, rank_correlation
 from trum_sym.paper.readings import DEFAULT, POINTS
 
-__all__ = ["CHECKS"]
+__all__ = ["ADD", "ADDREDU", "CHECKS", "REDU", "half_angles"]
 
 _M, _N, _N_ADD = 100, 55, 75  # Sects. 5.2.1, 5.2.3
 _DIFFERENCE = 3000.0
@@ -170,23 +170,30 @@ def _forward(c: Context) -> Finding:
     return Finding(back == 0, f"share of T_add (n = {_N_ADD}) in which the particle turns backward: {'; '.join(cells)}")
 
 
+def half_angles(c: Context) -> Array:
+    """Contact half-angle over the cycle of Table 3, rad, by (start, phase lead, switching phase, 1, time)."""
+    symbols = c.motor.symbols()
+    touching = {
+        **call("trum_layer_stiffness", symbols), **call("trum_wavenumber", symbols), "F_c": 180.0,
+        "n_j": c.motor.crests.value, "W": _heights(c),
+    }  # fmt: skip
+    return np.asarray(call("contact_half_angle", touching)["theta"])
+
+
+def _heights(c: Context) -> Array:
+    """Height of the crest over the cycle of Table 3, m."""
+    beats = (c.beat((20, 14), region, np.inf, 64) for region in (REDU, ADDREDU, ADD))
+    size = float(c.readings.amplitude[DEFAULT, POINTS.table_3])
+    return size * np.concatenate([np.hypot(beat.w_A, beat.w_B) for beat in beats], axis=-1)
+
+
 def _contact(c: Context) -> Finding:
     """Contact half-angle over the cycle of Table 3."""
-    motor, section = c.motor, c.readings
-    smallest, largest, height = np.inf, 0.0, np.inf
-    stiffness = call("trum_layer_stiffness", motor.symbols())["k_N"]
-    wavenumber = call("trum_wavenumber", motor.symbols())["k_c"]
-    amplitude = float(section.amplitude[DEFAULT, POINTS.table_3])
-    for region in (REDU, ADDREDU, ADD):
-        beat = c.beat((20, 14), region, np.inf, 64)
-        W_c = amplitude * np.hypot(beat.w_A, beat.w_B)
-        touching = {"F_c": 180.0, "k_N": stiffness, "W": W_c, "k_c": wavenumber, "n_j": motor.crests.value}
-        theta = np.asarray(call("contact_half_angle", touching)["theta"]) / np.pi
-        smallest, largest, height = min(smallest, theta.min()), max(largest, theta.max()), min(height, W_c.min())
+    share = half_angles(c) / np.pi
     return Finding(
-        np.full((1, 1, 1, 1), smallest > 0),
-        f"over Table 3's cycle, all starts and leads, the contact's half-angle is {_percent(smallest)} to "
-        f"{_percent(largest)} of half a wave; the crest is never lower than {1e9 * height:.2g} nm",
+        np.full((1, 1, 1, 1), share.min() > 0),
+        f"over Table 3's cycle, all starts and leads, the contact's half-angle is {_percent(share.min())} to "
+        f"{_percent(share.max())} of half a wave; the crest is never lower than {1e9 * _heights(c).min():.2g} nm",
         levels=(DEFAULT,),
     )
 

@@ -9,7 +9,22 @@ import numpy as np
 from trum_sym.inputs.checks import Array
 from trum_sym.inputs.drive import Drive
 from trum_sym.model.operating_point import evaluate
-from trum_sym.paper.findings import Check, Context, Finding, Truth, falls, rank_correlation, rises, together
+from trum_sym.paper.findings import (
+    LOADS,
+    SAMPLED,
+    ByInertia,
+    Check,
+    Context,
+    Finding,
+    Truth,
+    by_load,
+    falls,
+    of_rotor,
+    rank_correlation,
+    rises,
+    spans,
+    together,
+)
 from trum_sym.paper.readings import DEFAULT, POINTS, ROTOR_LEVELS
 
 __all__ = ["CHECKS", "consistent", "predicts"]
@@ -58,47 +73,53 @@ def _cycle_time(by: str) -> Check:
     return check
 
 
-def consistent(speed: str, determinant: str, part: slice, span: str) -> Check:
-    """Whether two curves go up and down together, step by step."""
+def consistent(speed: str, determinant: str, part: slice, span: str, *, measured: bool) -> Check:
+    """Whether two curves go up and down together, step by step; ``measured`` is as for :class:`ByInertia`."""
 
     def check(c: Context) -> Finding:
-        figures = c.readings.figures
-        a, b = (figures[name][..., ROTOR_LEVELS, part] for name in (speed, determinant))
-        found = c.ranges
-        corners = together(found[speed][..., part], found[determinant][..., part])
-        correlation = rank_correlation(a, b)
-        default = ROTOR_LEVELS.index(DEFAULT)
-        cells = [
-            f"{start} {lead}: {correlation[i, j, 0, default]:+.2f}"
-            for i, start in enumerate(("periodic", "steady", "rest"))
-            for j, lead in enumerate(("+1", "-1"))
-        ]
-        return Finding(
-            together(a, b),
-            f"do both step the same way over {span}? rank correlation: {'; '.join(cells)}",
-            levels=ROTOR_LEVELS, assumed=corners,
-        )  # fmt: skip
+        read = SAMPLED[speed] if measured else speed
+        of = {name: _steps(c, name, determinant, part) for name in (read, speed)}
+        (holds, corners, correlation), (own_holds, own_corners, own) = of[read], of[speed]
+        found = ByInertia(holds, corners, own_holds[0], own_corners[0], measured, correlation, own)
+        return of_rotor(found, f"do both step the same way over {span}? {_words(found, speed)}", ROTOR_LEVELS)
 
     return check
 
 
+def _steps(c: Context, speed: str, determinant: str, part: slice) -> tuple[Truth, Truth, Array]:
+    """Whether both step the same way by load's inertia and reading, the same at the corners, rank correlations."""
+    a, b = c.readings.loaded[speed][..., ROTOR_LEVELS, part], c.readings.figures[determinant][..., ROTOR_LEVELS, part]
+    corners = together(c.ranges[speed][..., part], c.ranges[determinant][..., part])
+    return together(a, b), corners, rank_correlation(a, b)[:, :, :, 0, ROTOR_LEVELS.index(DEFAULT)]
+
+
+def _words(found: ByInertia, speed: str) -> str:
+    """Rank correlations by reading and load's inertia, and with the speed itself where that is not what was read."""
+    assert found.correlation is not None
+    assert found.speed_correlation is not None
+    words = f"rank correlation {LOADS}: {by_load(found.correlation, '+.2f')}"
+    if found.measured and speed == "speed_volatility":
+        words += f"; of the speed itself, not of what the encoder reads: {by_load(found.speed_correlation, '+.2f')}"
+    return words
+
+
 def predicts(speed: str, determinant: str, where: str) -> Check:
-    """Whether a determinant orders the speeds over a whole box of drives."""
+    """Whether a determinant orders the measured speeds over a whole box of drives."""
 
     def check(c: Context) -> Finding:
-        found = getattr(c, where)
-        correlation = rank_correlation(found[speed], found[determinant])
-        cells = [
-            f"{start} {lead}: {correlation[i, j, 0, 0]:+.2f}"
-            for i, start in enumerate(("periodic", "steady", "rest"))
-            for j, lead in enumerate(("+1", "-1"))
-        ]
+        figures = getattr(c, where)
+        drives = figures[speed].shape[-1]
+        own, read = (rank_correlation(figures[name], figures[determinant]) for name in (speed, SAMPLED[speed]))
+        found = ByInertia(
+            read[..., None] >= _FOLLOWS, None, own[0, ..., None] >= _FOLLOWS, None, measured=True,
+            correlation=read[:, :, :, 0], speed_correlation=own[:, :, :, 0],
+        )  # fmt: skip
         box = "160 to 210 N, 2800 to 3300 Hz" if where == "box" else "100 to 220 N, -5000 to 5000 Hz"
-        return Finding(
-            correlation >= _FOLLOWS,
-            f"rank correlation over {found[speed].shape[-1]} drives, {box}: {'; '.join(cells)}; said to predict from "
+        return of_rotor(
+            found,
+            f"over {drives} drives, {box}: {_words(found, speed)}; said to predict from "
             f"{_FOLLOWS}; friction and contact radius at their assumed values",
-            levels=(DEFAULT,),
+            (DEFAULT,),
         )
 
     return check
@@ -116,26 +137,27 @@ def _proportional(c: Context) -> Finding:
             return np.asarray(np.log(speed[..., 1] / speed[..., 0]) / power)
 
     continuous = evaluate(motor, Drive(on_periods=20, load_torque=0.0), tolerance=1e-6)
-    pulsed = exponent(c.evaluated(motor, POINTS.prepressure[:1], POINTS.difference[:1], load_torque=0.0)["mean_speed"])
+    speeds = c.loaded(motor, np.full(2, 180.0), np.full(2, 3000.0), load_torque=0.0)["mean_speed"]
+    pulsed = exponent(speeds)[..., None]
     steady = float(exponent(np.asarray(continuous.mean_speed)))
     holds = (np.abs(pulsed - 1) < 0.05) & (abs(steady - 1) < 0.05)
-    return Finding(
-        holds,
-        f"without load the speed grows as the amplitude to the power {steady:.3f} under a continuous drive, "
-        f"{np.nanmin(pulsed):.2f} to {np.nanmax(pulsed):.2f} with 14 of 20 pulses over starts, leads and switching "
-        "phases; Q, the product of both, grows as the square; friction and contact radius assumed",
-        levels=(DEFAULT,),
+    return of_rotor(
+        ByInertia(holds, None, holds[0], None, measured=False),
+        f"without load torque the speed grows as the amplitude to the power {steady:.3f} under a continuous drive, "
+        f"with 14 of 20 pulses over starts, leads and switching phases {LOADS} {spans(pulsed, '.2f')}; Q, the product "
+        "of both, grows as the square; friction and contact radius assumed",
+        (DEFAULT,),
     )
 
 
 def _larger_ratio(c: Context) -> Finding:
-    found = c.box
-    correlation = rank_correlation(found["q_ratio"], found["mean_speed"])
-    return Finding(
-        correlation >= _FOLLOWS,
-        f"rank correlation of sum Q+ / sum |Q-| with the mean speed over the box: {correlation.min():+.2f} to "
-        f"{correlation.max():+.2f} over starts, leads and switching phases; friction and contact radius assumed",
-        levels=(DEFAULT,),
+    correlation = rank_correlation(c.box["q_ratio"], c.box["mean_speed"])
+    holds = correlation[..., None] >= _FOLLOWS
+    return of_rotor(
+        ByInertia(holds, None, holds[0], None, False, correlation[:, :, :, 0], correlation[:, :, :, 0]),
+        f"rank correlation of sum Q+ / sum |Q-| with the mean speed over the box, over starts, leads and switching "
+        f"phases, {LOADS}: {spans(correlation, '+.2f')}; friction and contact radius assumed",
+        (DEFAULT,),
     )
 
 
@@ -147,13 +169,13 @@ CHECKS: Mapping[str, Check] = {
     "time-difference": _cycle_time("frequency difference"),
     "average-difference": _trend("q_average", "frequency difference", falls),
     "volatility-difference": _trend("q_volatility", "frequency difference", rises, beyond_one=True),
-    "speed-difference": consistent("mean_speed", "q_average", *BY["frequency difference"]),
-    "sigma-difference": consistent("speed_volatility", "q_volatility", *BY["frequency difference"]),
+    "speed-difference": consistent("mean_speed", "q_average", *BY["frequency difference"], measured=False),
+    "sigma-difference": consistent("speed_volatility", "q_volatility", *BY["frequency difference"], measured=False),
     "plus-prepressure": _trend("q_plus", "prepressure", falls),
     "minus-prepressure": _trend("q_minus", "prepressure", falls),
     "time-prepressure": _cycle_time("prepressure"),
     "average-prepressure": _trend("q_average", "prepressure", rises),
     "volatility-prepressure": _trend("q_volatility", "prepressure", falls, beyond_one=True),
-    "speed-prepressure": consistent("mean_speed", "q_average", *BY["prepressure"]),
-    "sigma-prepressure": consistent("speed_volatility", "q_volatility", *BY["prepressure"]),
+    "speed-prepressure": consistent("mean_speed", "q_average", *BY["prepressure"], measured=False),
+    "sigma-prepressure": consistent("speed_volatility", "q_volatility", *BY["prepressure"], measured=False),
 }

@@ -34,13 +34,19 @@ def rank_correlation(first: Array, second: Array) -> float:
 
 
 def _grid(
-    motor: Motor | None, drive: Drive, ranges: Mapping[str, tuple[float, float]], across: int, up: int
+    motor: Motor | None,
+    drive: Drive,
+    ranges: Mapping[str, tuple[float, float]],
+    across: int,
+    up: int,
+    sampling_period: float | None = None,
 ) -> tuple[Array, Array, dict[str, Array]]:
     """Frequency differences, prepressures, and the figures on their grid, shape (up, across)."""
     difference = np.linspace(*ranges["frequency_difference"], across)
     force = np.linspace(*ranges["prepressure"], up)
     at = replace(drive, frequency_difference=difference[None, :], prepressure=force[:, None])
-    return difference, force, measures(evaluate(load_motor("trum60") if motor is None else motor, at))
+    machine = load_motor("trum60") if motor is None else motor
+    return difference, force, measures(evaluate(machine, at, sampling_period=sampling_period))
 
 
 @styled
@@ -85,13 +91,18 @@ def _span(values: Array) -> dict[str, Any]:
 
 
 @styled
-def prediction(motor: Motor | None = None, drive: Drive | None = None, *, axes: Panels = None) -> Figure:
+def prediction(
+    motor: Motor | None = None, drive: Drive | None = None, *, sampling_period: float | None = None,
+    axes: Panels = None,
+) -> Figure:  # fmt: skip
     """Does Q_aver predict v_s, and Q_vib sigma_s?  Over the box and around it, with rank correlations.
 
     Parameters
     ----------
     motor, drive
         TRUM-60 and the paper's Table 3 if not given, but for the two variables.
+    sampling_period : float, s, optional
+        Of the encoder behind the volatility; continuous if not given.
     axes : four Axes, optional
         v_s over the box and beyond, then sigma_s.
     """
@@ -100,7 +111,7 @@ def prediction(motor: Motor | None = None, drive: Drive | None = None, *, axes: 
     ranges = (BOX, BEYOND)
     for column, (spans, title) in enumerate(zip(ranges, ("the paper's box", "around it"), strict=True)):
         for reading, colour, mark in zip(READINGS, COLOURS, "osD", strict=False):
-            _, _, found = _grid(motor, reading.of(drive), spans, 12, 12)
+            _, _, found = _grid(motor, reading.of(drive), spans, 12, 12, sampling_period)
             for ax, x, y in (
                 (four[column], "q_average", "mean_speed"),
                 (four[2 + column], "q_volatility", "speed_volatility"),

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from trum_sym import plots
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
-from trum_sym.paper.cycle import READINGS
+from trum_sym.paper.cycle import READINGS, pulling
 from trum_sym.paper.published import ENCODER
 
 if TYPE_CHECKING:
@@ -62,6 +62,10 @@ _MORE = "What the paper does not show"
 _LEADS = (
     "Each start is drawn with the phase lead that makes Q_aver positive at Table 3; the other lead mirrors the "
     "determinants and the speed without load."
+)
+_WEIGHT = (
+    "The motor as it was measured: with the inertia of a weight on a string at the stator's radius, and the volatility "
+    "that the encoder of 2 ms reads."
 )
 _REGIONS = (
     ("A off", "the region T_reduT: A decays freely, B is driven; m = 100, n = 55"),
@@ -140,8 +144,8 @@ PICTURES: tuple[Picture, ...] = (
         "figure-18",
         _OUTPUT,
         "Instantaneous speed, its mean and deviation",
-        "Two cycles at Table 3's drive on the periodic orbit. v_s is the mean over time (eq. 39), S_k the standard "
-        "deviation (eq. 41); sigma_s is their ratio (eq. 40).",
+        "Two cycles at Table 3's drive on the periodic orbit, the rotor without a load's inertia. v_s is the mean over "
+        "time (eq. 39), S_k the standard deviation (eq. 41); sigma_s is their ratio (eq. 40).",
         "Rotor speed over two cycles with its mean as a dashed line and a band of one standard deviation.",
         plots.instantaneous_speed,
     ),
@@ -157,7 +161,8 @@ PICTURES: tuple[Picture, ...] = (
         "figure-20",
         _OUTPUT,
         "Speed and determinant over a cycle, by frequency difference",
-        "180 N, load 0.3 N m. Left as the motor keeps running, right as if every cycle began from rest with the other "
+        "180 N, load 0.3 N m without inertia, as in eq. 38. Left as the motor keeps running, right as if every cycle "
+        "began from rest with the other "
         "phase leading, which is the reading closest to Table 4.",
         "Rotor speed and determinant over a cycle for six frequency differences, two readings side by side.",
         plots.cycles,
@@ -166,7 +171,7 @@ PICTURES: tuple[Picture, ...] = (
         "figure-21",
         _OUTPUT,
         "Trends with the frequency difference",
-        f"180 N, load 0.3 N m. {_LEADS} Stars: what Table 4 prints.",
+        f"180 N, load 0.3 N m without inertia, as in eq. 38. {_LEADS} Stars: what Table 4 prints.",
         "Mean speed, Q_aver, volatility and Q_vib against the frequency difference for three starts.",
         plots.trends,
     ),
@@ -174,7 +179,7 @@ PICTURES: tuple[Picture, ...] = (
         "figure-22",
         _OUTPUT,
         "Speed and determinant over a cycle, by prepressure",
-        "3000 Hz, load 0.3 N m; left and right as in Figure 20.",
+        "3000 Hz, load 0.3 N m without inertia; left and right as in Figure 20.",
         "Rotor speed and determinant over a cycle for six prepressures, two readings side by side.",
         partial(plots.cycles, variable="prepressure"),
     ),
@@ -182,7 +187,7 @@ PICTURES: tuple[Picture, ...] = (
         "figure-23",
         _OUTPUT,
         "Trends with the prepressure",
-        f"3000 Hz, load 0.3 N m. {_LEADS} Stars: what Table 4 prints.",
+        f"3000 Hz, load 0.3 N m without inertia, as in eq. 38. {_LEADS} Stars: what Table 4 prints.",
         "Mean speed, Q_aver, volatility and Q_vib against the prepressure for three starts.",
         partial(plots.trends, variable="prepressure"),
     ),
@@ -216,43 +221,43 @@ PICTURES: tuple[Picture, ...] = (
         "figure-29",
         _MOTOR,
         "Speed as the encoder reads it",
-        "Sixty readings of 2 ms at Table 3's drive, for each start. Table 4 prints a mean of 633 arcsec/s and a "
-        "volatility of 17.3 %.",
+        f"Sixty readings of 2 ms at Table 3's drive, for each start. {_WEIGHT} Table 4 prints a mean of 633 arcsec/s "
+        "and a volatility of 17.3 %.",
         "Deviation of sixty encoder readings from their mean for three starts.",
-        plots.measured_speed,
+        lambda motor: plots.measured_speed(pulling(motor)),
     ),
     Picture(
         "figure-30",
         _MOTOR,
         "Trends with the frequency difference, as measured",
-        f"As Figure 21, with the volatility that the encoder of 2 ms reads. {_LEADS}",
+        f"As Figure 21. {_WEIGHT} {_LEADS} Stars: what Table 4 prints.",
         "Mean speed, Q_aver, volatility of a 2 ms encoder and Q_vib against the frequency difference.",
-        partial(plots.trends, sampling_period=ENCODER),
+        lambda motor: plots.trends(pulling(motor), sampling_period=ENCODER),
     ),
     Picture(
         "figure-31",
         _MOTOR,
         "Trends with the prepressure, as measured",
-        f"At 3300 Hz, as the paper's experiment, with the volatility that the encoder of 2 ms reads. {_LEADS}",
+        f"At 3300 Hz, as the paper's experiment. {_WEIGHT} {_LEADS}",
         "Mean speed, Q_aver, volatility of a 2 ms encoder and Q_vib against the prepressure at 3300 Hz.",
         lambda motor: plots.trends(
-            motor, Drive(frequency_difference=3300.0), variable="prepressure", sampling_period=ENCODER
+            pulling(motor), Drive(frequency_difference=3300.0), variable="prepressure", sampling_period=ENCODER
         ),
     ),
     Picture(
         "figure-32",
         _MOTOR,
         "The six points of Table 5",
-        f"Prepressure and frequency difference change together. {_LEADS}",
+        f"Prepressure and frequency difference change together. {_WEIGHT} {_LEADS}",
         "Mean speed, Q_aver, volatility and Q_vib at the six numbered points of Table 5.",
-        plots.multivariable,
+        lambda motor: plots.multivariable(pulling(motor)),
     ),
     Picture(
         "map-periodic",
         _MORE,
         "The box as the motor keeps running",
-        "Above the paper's box, below its surroundings with the box outlined; start periodic, lead +1, load 0.3 N m. "
-        "The orange line is zero speed, where the volatility has no bound.",
+        "Above the paper's box, below its surroundings with the box outlined; start periodic, lead +1, load 0.3 N m "
+        "without inertia. The orange line is zero speed, where the volatility has no bound.",
         "Maps of mean speed, volatility and Q_aver over frequency difference and prepressure, periodic start.",
         plots.maps,
     ),
@@ -268,10 +273,10 @@ PICTURES: tuple[Picture, ...] = (
         "speed-determinant",
         _MORE,
         "Do the determinants predict speed and volatility?",
-        "Each dot is an operating point at 0.3 N m. The paper concludes that Q_aver and Q_vib follow v_s and sigma_s; "
+        f"Each dot is an operating point at 0.3 N m. {_WEIGHT} The paper concludes that v_s and sigma_s follow them; "
         "the legend gives the rank correlation in each reading (+1: always; 0: not at all).",
         "Scatter of mean speed against Q_aver and of volatility against Q_vib, over the box and around it.",
-        plots.prediction,
+        lambda motor: plots.prediction(pulling(motor), sampling_period=ENCODER),
     ),
     Picture(
         "torque-speed",

@@ -1,0 +1,340 @@
+"""Headers of the hand-written driver: calls of kernels on named structs, and the one list of the orbit's fields.
+
+A kernel takes pointers by position.  What the driver calls are the functions written here, which take the driver's
+structs and pass their members by the names that the kernel's arguments have; a name that no struct has, or two have,
+stops the generation.
+"""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from derivations.codegen.kernels import Kernel
+from derivations.nomenclature import NOMENCLATURE
+
+__all__ = ["Call", "Struct", "called", "headers", "orbit_fields"]
+
+
+@dataclass(frozen=True)
+class Struct:
+    """A C struct whose members are named as the kernels' arguments and results.
+
+    Attributes
+    ----------
+    name : str
+        The C type.
+    role : str
+        Its parameter's name in the calls.
+    members : tuple of str
+        Symbols of the kernels.
+    meaning : str
+        A comment.
+    """
+
+    name: str
+    role: str
+    members: tuple[str, ...]
+    meaning: str
+
+
+@dataclass(frozen=True)
+class Call:
+    """A kernel, the structs that its arguments and results are members of, and arguments by themselves.
+
+    With ``array`` the results go into an array in the kernel's order.
+    """
+
+    kernel: str
+    structs: tuple[str, ...]
+    alone: str = ""
+    array: bool = False
+
+
+def _struct(name: str, role: str, members: str, meaning: str) -> Struct:
+    return Struct(name, role, tuple(members.split()), meaning)
+
+
+_FREQUENCIES = ("omega_n", "Delta_omega")
+_PHASORS = "f_A_re f_A_im f_B_re f_B_im"
+
+
+def _along(names: str, directions: Iterable[str] = _FREQUENCIES) -> str:
+    return " ".join(f"{name}_{direction}" for direction in directions for name in names.split())
+
+
+# Structs of the lanes: members are `real`, one number for each lane
+_LANE_STRUCTS = (
+    _struct(
+        "trum_constants",
+        "constants",
+        "omega_n Delta_omega xi s W D k_c p_re p_im engagement_per_height W_full",
+        "what all steps of a point share: frequencies, damping, geometry, drive phasor p, contact",
+    ),
+    _struct("trum_region", "region", f"{_PHASORS} g_A g_B", "free motion's phasors at a region's start; the gates"),
+    _struct("trum_region_slopes", "region_slopes", _along(_PHASORS), "the phasors' derivatives by the two frequencies"),
+    _struct("trum_phasors", "phasors", "e_re e_im d_re d_im", "free motion's and drive's rotation since then"),
+    _struct(
+        "trum_surface",
+        "surface",
+        "R_v phi cos_phi sin_phi engagement theta sin_theta share W_c",
+        "surface speed and its phase, contact and wave height at an instant",
+    ),
+    _struct("trum_filling_state", "filling", "fullness fullness_root", "how far the wave fills the Winkler layer"),
+    _struct(
+        "trum_friction_state",
+        "friction",
+        "f f_v p_1 p_2",
+        "friction fraction, its derivative by v, pressure at the two points as fast as the rotor",
+    ),
+    _struct(
+        "trum_friction_derivatives",
+        "derivatives",
+        "f_phi f_E theta_E E_height",
+        "by the phase phi and by the logarithm of the engagement E; E's by the logarithm of the height",
+    ),
+    _struct(
+        "trum_saturation",
+        "saturation",
+        "R_v R_v_rate v v_rate p_larger p_smaller step",
+        "the rotor as fast as the fastest point of the surface, at the end of a step",
+    ),
+    _struct("trum_full_contact_state", "full", "W_c_rate step", "the whole wave in contact, at the end of a step"),
+)
+_LANE_CALLS = (
+    Call("trum_rotation", ("trum_constants", "trum_phasors"), "tau"),
+    Call("trum_wave", ("trum_constants", "trum_region", "trum_phasors", "trum_surface")),
+    Call("trum_filling", ("trum_constants", "trum_surface", "trum_filling_state")),
+    Call("trum_contact_winkler", ("trum_filling_state", "trum_surface")),
+    Call("trum_contact_hertz", ("trum_constants", "trum_surface")),
+    Call("trum_friction", ("trum_surface", "trum_friction_state"), "v"),
+    Call("trum_friction_slopes", ("trum_surface", "trum_friction_derivatives"), "v"),
+    Call("trum_wave_slopes", ("trum_constants", "trum_region", "trum_region_slopes"), "tau", array=True),
+    Call("trum_friction_limit", ("trum_saturation",), "T_f_v"),
+    Call("trum_contact_limit", ("trum_constants", "trum_full_contact_state"), "T_theta_E"),
+)
+# Structs of plain numbers, of a point or a drive cycle
+_PLAIN_STRUCTS = (
+    _struct("trum_balance", "balance", "F_c k_N W k_c n_j", "what the Winkler layer's load balance depends on"),
+    _struct("trum_balance_values", "values", "residual slope", "the balance at a half-angle, and its slope"),
+    _struct(
+        "trum_cycle_constants",
+        "constants",
+        "omega_n Delta_omega xi psi s m n W D k_c",
+        "a drive cycle: frequencies, damping, switching, pulses, amplitude, geometry",
+    ),
+    _struct("trum_free_motion", "motion", "a_A b_A a_B b_B", "both phases' free motion at an instant"),
+    _struct(
+        "trum_free_motion_slopes",
+        "motion_slopes",
+        _along("a_A b_A a_B b_B"),
+        "its derivatives by the two frequencies",
+    ),
+    _struct("trum_gates", "gates", "g_A g_B", "which of the phases is driven, 1 or 0"),
+    _struct("trum_phases", "phases", "w_A w_B v_A v_B Q Q_rate", "displacement and velocity of both, determinant"),
+    _struct("trum_phasor_in", "in", "a b omega_n xi", "a phase's free motion"),
+    _struct("trum_phasor_out", "out", "re im", "the same as a phasor"),
+)
+_PLAIN_CALLS = (
+    Call("trum_winkler_balance", ("trum_balance", "trum_balance_values"), "theta"),
+    Call("trum_regions", ("trum_cycle_constants", "trum_free_motion"), array=True),
+    Call("trum_regions_slopes", ("trum_cycle_constants", "trum_free_motion", "trum_free_motion_slopes"), array=True),
+    Call("trum_response", ("trum_cycle_constants", "trum_free_motion", "trum_gates", "trum_phases"), "tau"),
+    Call("trum_phasor", ("trum_phasor_in", "trum_phasor_out")),
+)
+
+
+def _wrapped(line: str) -> list[str]:
+    """A statement on lines of at most 120 characters."""
+    return textwrap.wrap(line, 120, initial_indent="  ", subsequent_indent="      ", break_long_words=False)
+
+
+def _declared(struct: Struct, number: str) -> list[str]:
+    members = _wrapped(f"{number} {', '.join(struct.members)};")
+    return [f"/* {struct.meaning} */", "typedef struct {", *members, f"}} {struct.name};"]
+
+
+def called(call: Call, kernel: Kernel, structs: Sequence[Struct], prefix: str, number: str, function: str) -> list[str]:
+    """The C function that calls a kernel on structs."""
+    inputs, outputs = [symbol.name for symbol in kernel.inputs], list(kernel.results)
+    used = [struct for struct in structs if struct.name in call.structs]
+    used.sort(key=lambda struct: call.structs.index(struct.name))
+
+    def place(name: str) -> str:
+        holders = [struct for struct in used if name in struct.members]
+        if name == call.alone and not holders:
+            return name if name in outputs else f"&{name}"
+        if len(holders) != 1 or name == call.alone:
+            raise ValueError(f"{kernel.name}: {name} is in {len(holders)} of the structs {', '.join(call.structs)}")
+        return f"&{holders[0].role}->{name}"
+
+    arguments, results = [place(name) for name in inputs], [] if call.array else [place(name) for name in outputs]
+    written = set() if call.array else set(outputs)
+    parameters = [f"{'' if written & set(struct.members) else 'const '}{struct.name}* {struct.role}" for struct in used]
+    if call.alone:
+        parameters.append(f"{number}* {call.alone}" if call.alone in outputs else f"{number} {call.alone}")
+    if call.array:
+        parameters.append(f"{number}* results")
+    head = f"static inline void {prefix}{kernel.name.removeprefix('trum_')}({', '.join(parameters)}) {{"
+    lines = textwrap.wrap(head, 120, break_on_hyphens=False, subsequent_indent="    ")
+    lines += _wrapped(f"const {number}* arg[{kernel.name}_n_arg] = {{{', '.join(arguments)}}};")
+    if call.array:
+        lines += [f"  {number}* res[{kernel.name}_n_res];", "  int k;"]
+        lines.append(f"  for (k = 0; k < {kernel.name}_n_res; ++k) res[k] = &results[k];")
+    else:
+        lines += _wrapped(f"{number}* res[{kernel.name}_n_res] = {{{', '.join(results)}}};")
+    return [*lines, f"  {function.format(kernel.name)}(arg, res, 0, 0, 0);", "}"]
+
+
+def _calls(
+    guard: str, comment: str, structs: Sequence[Struct], calls: Iterable[Call], known: dict[str, Kernel], *how: str
+) -> list[str]:
+    prefix, number, function = how
+    lines = [f"/* {comment} */", f"#ifndef {guard}", f"#define {guard}", ""]
+    for struct in structs:
+        lines += [*_declared(struct, number), ""]
+    for call in calls:
+        kernel = known[call.kernel]
+        lines += [f"/* {kernel.title} */", *called(call, kernel, structs, prefix, number, function), ""]
+    return [*lines, "#endif"]
+
+
+@dataclass(frozen=True)
+class Field:
+    """A number that the orbit's driver takes or gives."""
+
+    name: str
+    unit: str
+    meaning: str
+
+
+def _named(names: str) -> tuple[Field, ...]:
+    return tuple(Field(n, NOMENCLATURE[n].unit, NOMENCLATURE[n].meaning) for n in names.split())
+
+
+_CYCLE = _named("omega_n Delta_omega xi psi s m n a_A b_A a_B b_B")
+_SIZE = _named("W D k_c")
+_ROTOR = (
+    *_named("engagement_per_height W_full"),
+    Field("hertz", "1", "whether the contact has the paper's Hertz width (1) or is the Winkler layer's (0)"),
+    Field("push", "m/s^2", "mu F_c r_c^2 / J, the rim's acceleration by full friction (eq. 38)"),
+    Field("drag", "m/s^2", "the load's T_load r_c / J (eq. 38)"),
+    Field("tolerance", "1", "of mean and extremes, relative to the largest speed"),
+    Field("held", "1", "whether (1 or 0) contact and stall torque of a rotor that is held are wanted"),
+)
+_OUT = (
+    Field("mean", "m/s", "mean speed of the rim"),
+    Field("low", "m/s", "its lowest"),
+    Field("high", "m/s", "its highest"),
+    Field("variance", "m^2/s^2", "its variance"),
+    Field("contact", "1", "mean of theta/pi with the rotor held; NaN unless wanted"),
+    Field("held", "1", "mean friction fraction with the rotor held; NaN unless wanted"),
+    Field("start", "m/s", "speed at the start of the cycle"),
+    Field("level", "1", "error that a step of the last lap was allowed, per drive period"),
+    Field("error", "1", "bound of the speeds' error, over the largest speed"),
+    Field("flags", "1", "sum of trum_converged, trum_full_contact, trum_runaway"),
+)
+_SLOPES_IN = _named(_along("a_A b_A a_B b_B"))
+_SLOPE_FIGURES = _OUT[:6]
+_SLOPE_PARAMETERS = (
+    Field("prepressure", "1", "by the logarithm of the prepressure"),
+    Field("difference", "rad/s", "by the frequency difference Delta_omega"),
+    Field("drag", "m/s^2", "by the drag, the load's share of the rotor's equation"),
+    Field("friction", "1", "by the logarithm of the friction coefficient"),
+    Field("amplitude", "1", "by the logarithm of the amplitude"),
+    Field("resonance", "rad/s", "by the resonance omega_n"),
+)
+_SUMS = (
+    Field("q_plus", "m^2", "integral of Q's positive part over a cycle"),
+    Field("q_minus", "m^2", "of its negative part's magnitude"),
+    Field("p_plus", "m^4/s", "of the positive part's square"),
+    Field("p_minus", "m^4/s", "of the negative part's square"),
+)
+_PHASES = (
+    Field("w_A", "m", "displacement of phase A"),
+    Field("w_B", "m", "displacement of phase B"),
+    Field("v_A", "m/s", "velocity of phase A"),
+    Field("v_B", "m/s", "velocity of phase B"),
+    Field("Q", "m^2/s", "direction determinant (eq. 24)"),
+)
+_PANELS = Field("panels", "1", "panels of the quadrature in a period of the faster of drive and resonance")
+_FLAGS = ("converged", "full_contact", "runaway")  # bits of `flags`, lowest first
+_LISTS = {
+    "TRUM_CYCLE_IN": ("a drive cycle", _CYCLE),
+    "TRUM_SIZE_IN": ("amplitude and geometry of its waves", _SIZE),
+    "TRUM_HALF_ANGLE_IN": ("what the Winkler layer's half-angle depends on", _named("F_c k_N W k_c n_j")),
+    "TRUM_CYCLE_SUMS_IN": ("what the determinant's sums over a cycle need", (*_CYCLE, _PANELS)),
+    "TRUM_CYCLE_SUMS_OUT": ("what a cycle's determinant sums to", _SUMS),
+    "TRUM_CYCLE_RESPONSE_IN": ("an instant of a cycle", (*_named("t"), *_CYCLE, *_SIZE)),
+    "TRUM_CYCLE_RESPONSE_OUT": ("both phases and their determinant there", _PHASES),
+    "TRUM_ORBIT_IN": ("what an orbit needs of a point; angles in rad", (*_CYCLE, *_SIZE, *_ROTOR)),
+    "TRUM_ORBIT_OUT": ("an orbit's figures", _OUT),
+    "TRUM_SLOPES_IN": ("derivatives of the free motion before t1 by resonance and difference", _SLOPES_IN),
+    "TRUM_SLOPE_FIGURES": ("figures that have slopes, the rows of the slopes' matrix", _SLOPE_FIGURES),
+    "TRUM_SLOPE_PARAMETERS": ("what slopes are by, each with the others held: its columns", _SLOPE_PARAMETERS),
+    "TRUM_HISTORY_IN": (
+        "what a history needs of an orbit beside the point",
+        tuple(field for field in _OUT if field.name in ("low", "high", "start", "level")),
+    ),
+}
+# Lists that are structs as well
+_STRUCTS = (
+    "TRUM_CYCLE_SUMS_IN",
+    "TRUM_CYCLE_SUMS_OUT",
+    "TRUM_CYCLE_RESPONSE_IN",
+    "TRUM_CYCLE_RESPONSE_OUT",
+    "TRUM_ORBIT_IN",
+    "TRUM_ORBIT_OUT",
+    "TRUM_SLOPES_IN",
+)
+
+
+def orbit_fields() -> dict[str, list[dict[str, str]]]:
+    """The lists for the manifest."""
+    return {
+        name.removeprefix("TRUM_").lower(): [vars(field) for field in fields] for name, (_, fields) in _LISTS.items()
+    }
+
+
+def _fields() -> list[str]:
+    lines = ["/* What goes into the orbit's driver and comes out, each list once. */", "#ifndef TRUM_ORBIT_FIELDS_H"]
+    lines += ["#define TRUM_ORBIT_FIELDS_H", "", "/* name, SI unit */"]
+    for name, (meaning, fields) in _LISTS.items():
+        rows = " \\\n".join(f'  X({field.name}, "{field.unit}")' for field in fields)
+        lines += [f"/* {meaning} */", f"#define {name}(X) \\", rows, ""]
+    for name in _STRUCTS:
+        meaning, fields = _LISTS[name]
+        members = [f"  double {field.name}; /* {field.unit}: {field.meaning} */" for field in fields]
+        lines += [f"/* {meaning} */", "typedef struct {", *members, f"}} {name.lower()};", ""]
+    for prefix, name in (("OF", "TRUM_SLOPE_FIGURES"), ("BY", "TRUM_SLOPE_PARAMETERS")):
+        names = [f"  TRUM_{prefix}_{field.name},".upper() for field in _LISTS[name][1]]
+        lines += [f"/* {_LISTS[name][0]} */", "enum {", *names, f"  {name}_COUNT", "};", ""]
+    slopes = "double of[TRUM_SLOPE_FIGURES_COUNT][TRUM_SLOPE_PARAMETERS_COUNT];"
+    lines += ["typedef struct {", f"  {slopes}", "} trum_slopes_out;"]
+    bits = ", ".join(f"trum_{name} = {1 << bit}" for bit, name in enumerate(_FLAGS))
+    lines += ["", "/* bits of an orbit's flags, and their names */", f"enum {{ {bits} }};"]
+    return [*lines, f'#define TRUM_ORBIT_FLAGS "{" ".join(_FLAGS)}"', "", "#endif"]
+
+
+def headers(kernels: Iterable[Kernel], note: str) -> dict[str, str]:
+    """The three headers by file name; ``note`` opens each.
+
+    Raises
+    ------
+    ValueError
+        If a kernel's argument or result is in none, or in more than one, of its call's structs.
+    """
+    known = {kernel.name: kernel for kernel in kernels}
+    lanes = "Kernels on structs of lanes; include where `real` is a lane's number and TRUM_KERNEL names its kernels."
+    plain = "Kernels on structs of plain numbers."
+    texts = {
+        "trum_lane_calls.h": _calls(
+            "TRUM_LANE_CALLS_H", lanes, _LANE_STRUCTS, _LANE_CALLS, known, "trum_lanes_", "real", "TRUM_KERNEL({})"
+        ),
+        "trum_plain_calls.h": _calls(
+            "TRUM_PLAIN_CALLS_H", plain, _PLAIN_STRUCTS, _PLAIN_CALLS, known, "trum_plain_", "trum_real", "{}"
+        ),
+        "trum_orbit_fields.h": _fields(),
+    }
+    return {name: "\n".join([f"/* {note} */", *lines, ""]) for name, lines in texts.items()}

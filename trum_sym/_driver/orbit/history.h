@@ -1,0 +1,41 @@
+/* Speed and distance at equal times, read off the polynomial of each step. */
+#ifndef TRUM_ORBIT_HISTORY_H
+#define TRUM_ORBIT_HISTORY_H
+
+/* Writes the times that fall into lane 0's step; speed and distance are polynomials in the step's parameter. */
+static void trum_record_step(trum_record* r, const trum_lanes* lanes, const real* rate) {
+  static const double P[NODES][NODES] = TRUM_COLLOCATION_POWERS;
+  const double h = lane_value(&lanes->step.h, 0), curvature = lane_value(&lanes->step.curvature, 0);
+  const double v0 = lane_value(&lanes->equation.v0, 0);
+  double q[NODES + 1], travelled = 0.0;
+  int k, j;
+  q[0] = v0 + lane_value(&lanes->start.x, 0);
+  for (k = 0; k < NODES; ++k) {
+    q[k + 1] = 0.0;
+    for (j = 0; j < NODES; ++j) q[k + 1] += P[k][j] * lane_value(&rate[j], 0) / (k + 1);
+  }
+  for (;;) {
+    const double time = r->spacing * (double)(r->written + 1);
+    const int last = r->written + 1 == r->count;
+    double z = (time - r->since) / h, at = 1.0, power = 1.0, speed = 0.0, distance = 0.0;
+    const int beyond = r->written == r->count || (z > 1.0 && !(last && time <= (r->since + h) * (1.0 + 1e-12)));
+    if (!beyond) {
+      z = z < 0.0 ? 0.0 : z > 1.0 ? 1.0 : z;
+      at = curvature > 0.0 ? 1.0 - sqrt(1.0 - z) : curvature < 0.0 ? sqrt(z) : z;
+    }
+    for (k = 0; k <= NODES; ++k) {
+      speed += q[k] * power;
+      distance += h * q[k] * power * at * ((1.0 + curvature) / (k + 1) - 2.0 * curvature * at / (k + 2));
+      power *= at;
+    }
+    if (beyond) {
+      travelled = distance;
+      break;
+    }
+    r->speed[r->written] = speed, r->distance[r->written] = r->travelled + distance;
+    ++r->written;
+  }
+  r->travelled += travelled, r->since += h;
+}
+
+#endif

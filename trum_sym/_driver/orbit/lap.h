@@ -1,0 +1,152 @@
+/* Laps: one drive cycle from a start speed, region by region (eqs. 9, 10: the phases' gates change between regions). */
+#ifndef TRUM_ORBIT_LAP_H
+#define TRUM_ORBIT_LAP_H
+
+/* A drive cycle: its regions' start phasors and lengths in drive periods, and the phasors' derivatives by resonance and
+ * frequency difference. */
+typedef struct {
+  double start[TRUM_REGIONS][4], pulses[TRUM_REGIONS], slopes[2][TRUM_REGIONS][4];
+} trum_cycle_phasors;
+
+/* Start speeds that are too low and too high, and the gain of speed of the laps from there. */
+typedef struct {
+  double low, high, gain_low, gain_high;
+  int bisect_next;
+} trum_bracket;
+
+/* The last change of the start speed, that lap's error, and the share of a change that the next one has left. */
+typedef struct {
+  double last_step, last_error, contraction;
+} trum_newton_record;
+
+/* What errors are measured by: a speed; with slopes the sums of the lap before. */
+typedef struct {
+  double speed, growth, friction[PARAMETERS], angle[PARAMETERS];
+} trum_scales;
+
+/* A lap of the held rotor; laps far from the orbit; laps whose steps meet the tolerance. */
+enum { STAGE_HELD, STAGE_ROUGH, STAGE_FINE };
+
+/* The search for a point's orbit: shooting, in laps from a start speed. */
+typedef struct {
+  const trum_orbit_in* in;
+  trum_orbit_out* out;
+  const trum_slopes_in* slopes_in; /* or none */
+  trum_slopes_out* slopes_out;
+  trum_cycle_phasors cycle;
+  trum_bracket bracket;
+  trum_newton_record newton;
+  trum_scales scales;
+  double start_speed;    /* of the lap */
+  double level;          /* the error that its steps may have, per drive period, over the speed's scale */
+  int stage, region;     /* of the lap */
+  int laps, refinements; /* so far; those that were repeated with shorter steps */
+  int held_laps;         /* with slopes, of the held rotor */
+} trum_search;
+
+/* Puts the next region of non-zero length into the lane; returns 0 at the lap's end. */
+static int trum_enter_next_region(trum_lanes* lanes, int i, trum_search* search) {
+  static const double gates_A[] = TRUM_GATES_A, gates_B[] = TRUM_GATES_B;
+  const double* start;
+  do {
+    if (++search->region == TRUM_REGIONS) return 0;
+  } while (search->cycle.pulses[search->region] < 0.5);
+  start = search->cycle.start[search->region];
+  set_lane(&lanes->region.f_A_re, i, start[0]), set_lane(&lanes->region.f_A_im, i, start[1]);
+  set_lane(&lanes->region.f_B_re, i, start[2]), set_lane(&lanes->region.f_B_im, i, start[3]);
+  set_lane(&lanes->region.g_A, i, gates_A[search->region]), set_lane(&lanes->region.g_B, i, gates_B[search->region]);
+  if (lanes->slopes) {
+    const double* by_resonance = search->cycle.slopes[0][search->region];
+    const double* by_difference = search->cycle.slopes[1][search->region];
+    trum_region_slopes* slopes = &lanes->region_slopes;
+    set_lane(&slopes->f_A_re_omega_n, i, by_resonance[0]), set_lane(&slopes->f_A_im_omega_n, i, by_resonance[1]);
+    set_lane(&slopes->f_B_re_omega_n, i, by_resonance[2]), set_lane(&slopes->f_B_im_omega_n, i, by_resonance[3]);
+    set_lane(&slopes->f_A_re_Delta_omega, i, by_difference[0]);
+    set_lane(&slopes->f_A_im_Delta_omega, i, by_difference[1]);
+    set_lane(&slopes->f_B_re_Delta_omega, i, by_difference[2]);
+    set_lane(&slopes->f_B_im_Delta_omega, i, by_difference[3]);
+  }
+  set_lane(&lanes->step.tau, i, 0.0);
+  set_lane(&lanes->step.time_left, i, search->cycle.pulses[search->region] * lane_value(&lanes->equation.period, i));
+  set_lane(&lanes->step.h, i, lane_value(&lanes->step.free_h, i));
+  set_lane(&lanes->step.curvature, i, 0.0), set_lane(&lanes->step.target_event, i, -1.0);
+  set_lane(&lanes->step.retries, i, 0.0);
+  return 1;
+}
+
+/* The tolerances of a lap's steps, from the level of its search. */
+static void trum_set_tolerances(trum_lanes* lanes, int i, const trum_search* search) {
+  const trum_orbit_in* in = search->in;
+  const double period = lane_value(&lanes->equation.period, i);
+  const double cycle_time = lane_value(&lanes->equation.cycle_time, i);
+  const int held = search->stage == STAGE_HELD, of_friction = held && search->held_laps == 1;
+  const int of_contact = held && search->held_laps == 2;
+  const int close = lanes->slopes && (held ? search->held_laps > 0 : search->stage == STAGE_FINE);
+  trum_tolerances* t = &lanes->tolerances;
+  double reach = held ? cycle_time : search->scales.speed / in->push, allowed;
+  int k;
+  if (reach > cycle_time) reach = cycle_time;
+  allowed = search->level * reach / in->m;
+  set_lane(&t->inverse_step, i, 1.0 / allowed);
+  set_lane(&t->inverse_growth, i, in->m / (in->tolerance * search->scales.growth));
+  for (k = 0; lanes->slopes && k < PARAMETERS; ++k) {
+    set_lane(&t->inverse_friction[k], i, of_contact ? 0.0 : in->m / (in->tolerance * search->scales.friction[k]));
+    set_lane(&t->inverse_angle[k], i, of_friction ? 0.0 : in->m / (in->tolerance * search->scales.angle[k]));
+  }
+  set_lane(&t->root, i, trum_root_share * cbrt(allowed * allowed * period));
+  set_lane(&t->kink, i, trum_kink_share * allowed);
+  set_lane(&t->newton, i, held ? 0.0 : allowed * in->push * sqrt(trum_newton_share * in->m / search->level));
+  set_lane(&t->slope_start, i, close ? trum_slope_start_tolerance * period : HUGE_VAL);
+  set_lane(&t->slope_end, i, close ? trum_slope_end_tolerance * period : HUGE_VAL);
+  if (close) set_lane(&t->newton, i, trum_slope_newton_factor * lane_value(&t->newton, i));
+}
+
+/* Sets a lap's sums to those of no time. */
+static void trum_clear_lap(trum_lap* lap, int i, int slopes) {
+  int k;
+  set_lane(&lap->x, i, 0.0), set_lane(&lap->xx, i, 0.0), set_lane(&lap->S, i, 0.0), set_lane(&lap->xS, i, 0.0);
+  set_lane(&lap->low, i, 0.0), set_lane(&lap->high, i, 0.0);
+  set_lane(&lap->S_low, i, 1.0), set_lane(&lap->S_high, i, 1.0);
+  set_lane(&lap->friction, i, 0.0), set_lane(&lap->angle, i, 0.0);
+  set_lane(&lap->full_contact, i, 0.0), set_lane(&lap->fastest, i, 0.0), set_lane(&lap->error, i, 0.0);
+  for (k = 0; slopes && k < PARAMETERS; ++k) {
+    set_lane(&lap->sum_abs_friction[k], i, 0.0), set_lane(&lap->sum_abs_angle[k], i, 0.0);
+    set_lane(&lap->d_x[k], i, 0.0), set_lane(&lap->d_xx[k], i, 0.0);
+    set_lane(&lap->d_low[k], i, 0.0), set_lane(&lap->d_high[k], i, 0.0);
+    set_lane(&lap->d_friction[k], i, 0.0), set_lane(&lap->d_angle[k], i, 0.0);
+  }
+}
+
+/* Sets the sensitivities to those of a lap's start: none. */
+static void trum_clear_sensitivity(trum_sensitivity* sensitivity, int i, int slopes) {
+  trum_derivatives* d = &sensitivity->derivatives;
+  int k;
+  for (k = 0; slopes && k < PARAMETERS; ++k) {
+    set_lane(&sensitivity->x[k], i, 0.0);
+    set_lane(&d->f[k], i, 0.0), set_lane(&d->ln_E[k], i, 0.0), set_lane(&d->ln_R_v[k], i, 0.0);
+  }
+  set_lane(&d->theta_E, i, 0.0), set_lane(&d->R_v_rate, i, 0.0), set_lane(&d->W_c_rate, i, 0.0);
+}
+
+/* Starts a lap in a lane: of the held rotor, which has no equation of motion, or from the search's start speed. */
+static void trum_start_lap(trum_lanes* lanes, int i, trum_search* search) {
+  const trum_orbit_in* in = search->in;
+  const int held = search->stage == STAGE_HELD;
+  trum_step_start* start = &lanes->start;
+  set_lane(&lanes->equation.push, i, held ? 0.0 : in->push), set_lane(&lanes->equation.drag, i, held ? 0.0 : in->drag);
+  set_lane(&lanes->equation.v0, i, search->start_speed);
+  trum_set_tolerances(lanes, i, search);
+  set_lane(&lanes->step.steps_left, i, trum_max_steps_per_period * in->m);
+  set_lane(&lanes->step.free_h, i, trum_first_step * lane_value(&lanes->equation.period, i));
+  set_lane(&start->x, i, 0.0), set_lane(&start->S, i, 1.0);
+  set_lane(&start->f, i, 0.0), set_lane(&start->f_v, i, 0.0), set_lane(&start->theta, i, 0.0);
+  trum_clear_lap(&lanes->lap, i, lanes->slopes);
+  trum_clear_sensitivity(&lanes->sensitivity, i, lanes->slopes);
+  set_lane_mask(&lanes->status.at_lap_start, i, 1), set_lane_mask(&lanes->status.failed, i, 0);
+  set_lane_mask(&lanes->status.active, i, 1);
+  set_lane_mask(&lanes->status.contact_only, i, held && search->held_laps == 2);
+  search->region = -1;
+  trum_enter_next_region(lanes, i, search);
+}
+
+#endif

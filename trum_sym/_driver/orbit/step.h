@@ -1,0 +1,96 @@
+/* A step by collocation at Lobatto's four nodes (order 6), solved by Newton with the friction's own derivative. */
+#ifndef TRUM_ORBIT_STEP_H
+#define TRUM_ORBIT_STEP_H
+
+/* An estimate of a step's quadrature error, from the decay of its integrand's Legendre coefficients. */
+static real trum_quadrature_error(const real* G) {
+  static const double L[NODES][NODES] = TRUM_COLLOCATION_LEGENDRE;
+  real size[NODES], whole, second, third;
+  int k, j;
+  for (k = 0; k < NODES; ++k) {
+    size[k] = REAL(L[k][0]) * G[0];
+    for (j = 1; j < NODES; ++j) size[k] = size[k] + REAL(L[k][j]) * G[j];
+    size[k] = absolute(size[k]);
+  }
+  whole = size[0] + size[1] + REAL(1e-37);
+  second = size[2] / whole, third = cube_root(size[3] / whole + REAL(1e-37));
+  return REAL(trum_quadrature_share) * maximum(size[2] * second * square_root(second), size[3] * third * third);
+}
+
+/* An attempt at a step: location z and rate of time T of the nodes, and the solution there. */
+typedef struct {
+  trum_surface at[NODES]; /* from the second node on */
+  real z[NODES], T[NODES], x[NODES], f[NODES], f_v[NODES], events[NODES][EVENT_COUNT];
+  trum_derivatives derivatives[NODES]; /* if slopes are wanted */
+  mask not_converged;                  /* Newton has not converged */
+} trum_trial_step;
+
+/* Whether two event numbers are the same. */
+static mask trum_is_event(real a, real b) { return at_most(absolute(a - b), REAL(0.25)); }
+
+/* Solves x_i = x_0 + sum_j A_ij T_j (push f(x_j) - drag) for the three nodes after the first. */
+static void trum_solve_collocation(const trum_lanes* lanes, trum_trial_step* trial) {
+  static const double A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS, c[NODES] = TRUM_COLLOCATION_POINTS;
+  trum_factors equations;
+  real G[NODES], right[NODES], y[NODES];
+  int i, j, k, tries;
+  for (j = 0; j < NODES; ++j) {
+    const real sigma = REAL(c[j]);
+    trial->z[j] = sigma * (REAL(1) + lanes->step.curvature * (REAL(1) - sigma));
+    trial->T[j] = lanes->step.h * (REAL(1) + lanes->step.curvature * (REAL(1) - REAL(2) * sigma));
+  }
+  trial->not_converged = lanes->status.active;
+  trial->x[0] = lanes->start.x, trial->f[0] = lanes->start.f, trial->f_v[0] = lanes->start.f_v;
+  for (k = 0; k < EVENT_COUNT; ++k) trial->events[0][k] = lanes->start.events[k];
+  G[0] = trial->T[0] * (lanes->equation.push * trial->f[0] - lanes->equation.drag);
+  for (j = 1; j < NODES; ++j) {
+    trum_evaluate_surface(lanes, lanes->step.tau + lanes->step.h * trial->z[j], &trial->at[j]);
+    trial->x[j] =
+        lanes->start.x + lanes->step.h * trial->z[j] * (lanes->equation.push * lanes->start.f - lanes->equation.drag);
+    trial->f[j] = lanes->start.f, trial->f_v[j] = REAL(0), trial->events[j][EVENT_LARGER_PRESSURE] = REAL(0);
+    trial->events[j][EVENT_SMALLER_PRESSURE] = REAL(0);
+  }
+  for (tries = 0; tries < 12 && any_lane(trial->not_converged); ++tries) {
+    real change = REAL(0), slope[NODES];
+    slope[0] = REAL(0);
+    for (j = 1; j < NODES; ++j) {
+      real f, f_v, larger, smaller;
+      trum_evaluate_friction(&trial->at[j], lanes->equation.v0 + trial->x[j], &f, &f_v, &larger, &smaller);
+      trial->f[j] = where(trial->not_converged, f, trial->f[j]);
+      trial->f_v[j] = where(trial->not_converged, f_v, trial->f_v[j]);
+      trial->events[j][EVENT_LARGER_PRESSURE] =
+          where(trial->not_converged, larger, trial->events[j][EVENT_LARGER_PRESSURE]);
+      trial->events[j][EVENT_SMALLER_PRESSURE] =
+          where(trial->not_converged, smaller, trial->events[j][EVENT_SMALLER_PRESSURE]);
+      G[j] = trial->T[j] * (lanes->equation.push * trial->f[j] - lanes->equation.drag);
+      slope[j] = trial->T[j] * (lanes->equation.push * trial->f_v[j]);
+    }
+    for (i = 1; i < NODES; ++i) {
+      right[i] = lanes->start.x - trial->x[i];
+      for (j = 0; j < NODES; ++j) right[i] = right[i] + REAL(A[i][j]) * G[j];
+    }
+    equations = trum_factorise(slope);
+    trum_substitute(&equations, right, y);
+    for (j = 1; j < NODES; ++j) { /* |f| <= 1 bounds the change of speed */
+      const real drift = lanes->start.x - lanes->step.h * trial->z[j] * lanes->equation.drag;
+      const real reach = lanes->step.h * trial->z[j] * lanes->equation.push;
+      const real next = maximum(drift - reach, minimum(drift + reach, trial->x[j] + y[j]));
+      change = maximum(change, absolute(next - trial->x[j]));
+      trial->f[j] = where(trial->not_converged, trial->f[j] + trial->f_v[j] * (next - trial->x[j]), trial->f[j]);
+      trial->x[j] = where(trial->not_converged, next, trial->x[j]);
+    }
+    trial->not_converged = trial->not_converged & mask_not(at_most(change, lanes->tolerances.newton));
+  }
+  for (j = 1; j < NODES; ++j) {
+    const real v = lanes->equation.v0 + trial->x[j];
+    trial->events[j][EVENT_SATURATION] = trial->at[j].R_v * trial->at[j].R_v - v * v;
+    trial->events[j][EVENT_FULL_CONTACT] =
+        trial->at[j].W_c * trial->at[j].W_c - lanes->constants.W_full * lanes->constants.W_full;
+    if (lanes->slopes)
+      trum_evaluate_derivatives(lanes, lanes->step.tau + lanes->step.h * trial->z[j], &trial->at[j], v,
+                                &trial->derivatives[j]);
+  }
+  if (lanes->slopes) trial->derivatives[0] = lanes->sensitivity.derivatives;
+}
+
+#endif
