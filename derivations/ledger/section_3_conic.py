@@ -152,7 +152,8 @@ def _effect_23() -> str:
     printed = ((a / (q["D"] * q["k_c"])) ** 2 + b**2) * (q["D"] * q["k_c"] * a) ** 2
     right = (a**2 + b**2) ** 2
     return (
-        f"At x = 0, a seventh into T_redu, the printed left side is {figure(100 * printed / right - 100, 3)} % off "
+        "At Table 3, from a steady start, x = 0 and a seventh into T_redu, the printed left side is "
+        f"{figure(100 * printed / right - 100, 3)} % off "
         "the right side. Even put right, the conic is a pair of parallel lines, so it cannot give Figs. 9, 12 and 15, "
         "which need (11)."
     )

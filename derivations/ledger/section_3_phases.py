@@ -228,7 +228,8 @@ def _effect_10() -> str:
     cycle = at_table_3()
     ratio = cycle["omega_q"] / cycle["omega_n"] - 1
     return (
-        "Row 1 as printed puts B in phase with A: the determinant would be 0 at t_1 instead of D k_c W^2 omega_q. Row "
+        "At Table 3, from a steady start: row 1 as printed puts B in phase with A, and the determinant would be 0 at "
+        "t_1 instead of D k_c W^2 omega_q. Row "
         f"2 starts with an amplitude and a velocity from which {figure(100 * ratio, 3)} % of W are missing, "
         f"{figure(10**6 * cycle['W'] * ratio, 3)} um."
     )

@@ -183,7 +183,10 @@ def _effect(region: str) -> Callable[[], str]:
         _, radius, theta, psi, amplitude, slow = _NAMES[region]
         length = cycle.durations()[("redu", "addredu", "add").index(region)]
         first, last = (values(supplement_forms(region), cycle, u) for u in (mp.mpf(0), length))
-        text = f"Free motion: {figure(10**6 * first[radius], 5)} um at phase {figure(first[theta], 5)} rad"
+        text = (
+            f"At Table 3, from a steady start, the free motion: {figure(10**6 * first[radius], 5)} um at phase "
+            f"{figure(first[theta], 5)} rad"
+        )
         if psi:
             text += (
                 f"; the amplitude runs from {figure(10**6 * first[amplitude], 5)} to "
