@@ -30,12 +30,14 @@ __all__ = [
     "identical",
     "largest",
     "points",
+    "rounded",
     "usual",
     "vanishes",
     "worse",
 ]
 
 DIGITS = 30
+_ROUNDING = 1e-12  # of numbers of the size of one, in double precision
 Point = dict[sp.Symbol, mp.mpf]
 Range = tuple[float, float]
 
@@ -110,6 +112,11 @@ def evaluate(expr: sp.Basic, point: Mapping[sp.Symbol, object]) -> mp.mpf | mp.m
     function = compiled(symbols, sp.sympify(expr))
     with mp.workdps(max(WORKING_DIGITS, mp.mp.dps)):  # numerical derivatives ask for more
         return mp.mpmathify(function(*(mp.mpmathify(point[s]) for s in symbols)))
+
+
+def rounded(difference: float) -> str:
+    """A difference to two digits; of one that is rounding only that it is, since its digits are the processor's."""
+    return f"{difference:.1e}" if difference >= _ROUNDING else f"below {_ROUNDING:.0e}"
 
 
 def identical(forms: Forms, derived: Forms, kind: Kind = "identity") -> Evidence:

@@ -11,7 +11,7 @@ import sympy as sp
 
 from derivations import contact, phases, transfer
 from derivations.ledger.history import numeric
-from derivations.ledger.judge import Point, agrees, evaluate, figure, identical, points, worse
+from derivations.ledger.judge import Point, agrees, evaluate, figure, identical, points, rounded, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
 from derivations.ledger.operating import operating_point
 from derivations.nomenclature import sym
@@ -333,7 +333,7 @@ def _judge_32(forms: Forms) -> Iterator[Evidence]:
         worst = worse(worst, abs(crests * float((pressed * widths).sum()) / load - 1))
         beyond = worse(beyond, float(np.abs(pressed[outside]).max()) / k / load)
         least = -worse(-least, -float(pressed.min()))
-    yield evidence("numeric", worst < 1e-6, f"carries F_c on all crests in every region, to {worst:.1e}")
+    yield evidence("numeric", worst < 1e-6, f"carries F_c on all crests in every region, to {rounded(worst)}")
     yield evidence("limit", beyond < 1e-12, "is 0 outside the ends of the contact")
     yield evidence("domain", least >= 0, "never pulls")
 

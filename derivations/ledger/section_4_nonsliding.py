@@ -15,7 +15,7 @@ from derivations.ledger.contact_cycle import contact_motion, table_4_speed
 from derivations.ledger.course import Lap, Quantity, share, shares
 from derivations.ledger.friction_states import K, State, states
 from derivations.ledger.history import Array, History, values
-from derivations.ledger.judge import evaluate, figure, worse
+from derivations.ledger.judge import evaluate, figure, rounded, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
 from derivations.nomenclature import sym
 
@@ -74,7 +74,7 @@ def _judge_33(forms: Forms) -> Iterator[Evidence]:
             found = complex(evaluate(form.rhs, {M_a: a, M_b: b, k_c: K}))
             worst = worse(worst, abs(K * found - at))
     yield evidence("numeric", worst < 1e-6, "the extrema in (-pi/2, 3 pi/2)/k_c, in order, by scanning v_x for all "
-                                            f"signs of M_a, M_b: off by {worst:.1e} rad at most")  # fmt: skip
+                                            f"signs of M_a, M_b: off by {rounded(worst)} rad at most")  # fmt: skip
     slopes = [(M_a * sp.cos(k_c * f.rhs) - M_b * sp.sin(k_c * f.rhs)) for f in forms.values()]
     yield evidence("identity", all(s.simplify() == 0 for s in slopes), "the slope of v_x vanishes in both rows")
 

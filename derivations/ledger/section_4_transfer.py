@@ -21,7 +21,7 @@ from derivations.ledger.friction_states import (
     states,
 )
 from derivations.ledger.history import Array, History, history, numeric, values
-from derivations.ledger.judge import figure, largest, worse
+from derivations.ledger.judge import figure, largest, rounded, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, Picture, evidence, step
 from derivations.nomenclature import sym
 from trum_sym.inputs.units import parse_unit
@@ -142,7 +142,7 @@ def _judge_36(forms: Forms) -> Iterator[Evidence]:
                                             "of mu F_c at most")  # fmt: skip
     fractions = [float(closed(s.phi, s.c, s.theta)) for s in chosen]
     exact = float(np.max(np.abs(np.subtract(found, fractions))))
-    yield evidence("derivation", exact < 1e-10, f"the closed form of the friction fraction: off by {exact:.1e}")
+    yield evidence("derivation", exact < 1e-10, f"the closed form of the friction fraction: off by {rounded(exact)}")
     outrun = State(0.3, 1.5, 0.5, 0.2)
     ahead = float(integrals_done(form, _concrete(outrun))) / scale
     yield evidence("limit", abs(ahead + 1) < 1e-12, "a rotor that outruns the surface is braked by mu F_c")
@@ -277,7 +277,9 @@ def _judge_cases(forms: Forms) -> Iterator[Evidence]:
         found = complex(numeric(forms[key], (phi, c, theta))(s.phi, s.c, s.theta))
         brute, exact = worse(brute, abs(found - by_force)), worse(exact, abs(found - by_form))
     yield evidence("numeric", brute < 1e-3, f"sign(v_x - v) p summed over the half zone: off by {brute:.1e} at most")
-    yield evidence("derivation", exact < 1e-12, f"the closed form, which needs no cases: off by {exact:.1e} at most")
+    yield evidence(
+        "derivation", exact < 1e-12, f"the closed form, which needs no cases: off by {rounded(exact)} at most"
+    )
 
 
 def _effect_cases() -> str:
@@ -345,7 +347,7 @@ def _judge_38(forms: Forms) -> Iterator[Evidence]:
         worst = worse(worst, abs(float(residual)))
         arc = 0.3 + 0.1 * i  # surface speed of a rotor that turns by arc/radius in a second
         worst = worse(worst, abs(float(forms["omega_p"].subs({v_xp: arc, r_c: radius})) - arc / radius))
-    yield evidence("numeric", worst < 1e-9, f"eight point masses pushed along the rim: off by {worst:.1e}")
+    yield evidence("numeric", worst < 1e-9, f"eight point masses pushed along the rim: off by {rounded(worst)}")
     energy, power = J * _omega**2 / 2, f_nall * r_c * _omega - T_load * _omega
     residual = (forms["balance"].lhs - forms["balance"].rhs).subs(M_n, forms["M_n"])
     yield evidence("identity", sp.expand(energy.diff(t) - power - _omega * residual) == 0, "balances power")

@@ -15,7 +15,7 @@ import sympy as sp
 from derivations import determinant, transfer
 from derivations.ledger.course import Lap, Quantity, extremes, integral, share
 from derivations.ledger.history import STARTS, Array, History, Start, history, values
-from derivations.ledger.judge import Point, agrees, figure, identical, worse
+from derivations.ledger.judge import Point, agrees, figure, identical, rounded, worse
 from derivations.ledger.model import Derivation, Entry, Evidence, Forms, evidence, step
 from derivations.nomenclature import sym
 from trum_sym.inputs.units import parse_unit
@@ -64,7 +64,7 @@ def _judge_39(forms: Forms) -> Iterator[Evidence]:
     for count in (1, 2, 7, 12):
         samples = _speeds(count, f"39 {count}")
         worst = worse(worst, abs(_of_samples(forms["v_s"], samples) - statistics.fmean(samples)))
-    yield evidence("numeric", worst < 1e-12, f"the mean of random samples: off by {worst:.1e} at most")
+    yield evidence("numeric", worst < 1e-12, f"the mean of random samples: off by {rounded(worst)} at most")
     yield evidence("limit", abs(_of_samples(forms["v_s"], [1.7] * 5) - 1.7) < 1e-12, "a constant speed is its own mean")
 
 
@@ -102,7 +102,7 @@ def _judge_40(forms: Forms) -> Iterator[Evidence]:
             mean, spread = statistics.fmean(samples), statistics.pstdev(samples)
             found = float(forms["sigma_s"].subs({S_k: spread, v_s: mean}))
             worst = worse(worst, abs(found - spread / abs(mean)))
-    yield evidence("numeric", worst < 1e-12, f"spread over mean of random samples: off by {worst:.1e} at most")
+    yield evidence("numeric", worst < 1e-12, f"spread over mean of random samples: off by {rounded(worst)} at most")
     yield evidence("limit", forms["sigma_s"].subs(S_k, 0) == 0, "a constant speed has no volatility")
 
 
@@ -140,7 +140,7 @@ def _judge_41(forms: Forms) -> Iterator[Evidence]:
         worst = worse(worst, abs(found - statistics.pvariance(samples)))
         spread = float(form.lhs.subs({S_k: statistics.pstdev(samples), S_s: statistics.pstdev(samples)}))
         worst = worse(worst, abs(spread - statistics.pvariance(samples)))
-    yield evidence("numeric", worst < 1e-12, f"the variance of random samples: off by {worst:.1e} at most")
+    yield evidence("numeric", worst < 1e-12, f"the variance of random samples: off by {rounded(worst)} at most")
     yield evidence("limit", abs(_of_samples(form.rhs, [1.7] * 5, v_s=1.7)) < 1e-12, "a constant speed has none")
 
 
@@ -302,7 +302,7 @@ def _judge_43(forms: Forms) -> Iterator[Evidence]:
         off = abs(float(found) - Q.sum() / np.abs(Q).sum() / 4.7e-4) * 4.7e-4 if found.is_extended_real else math.inf
         worst = worse(worst, off)
     yield evidence(
-        "numeric", worst < 1e-9, f"mean of Q over mean of |Q|, per cycle time, for sampled Q: off by {worst:.1e}"
+        "numeric", worst < 1e-9, f"mean of Q over mean of |Q|, per cycle time, for sampled Q: off by {rounded(worst)}"
     )
     ahead = sp.simplify(forms["Q_aver"].subs(q_minus, 0)), sp.simplify(forms["Q_aver"].subs(q_plus, 0))
     yield evidence("limit", ahead == (1 / T, -1 / T), "between -1/T (all backward) and 1/T (all forward)")
@@ -367,7 +367,7 @@ def _judge_44(forms: Forms) -> Iterator[Evidence]:
     note = f", but for Y = {', '.join(complex_for)}" if complex_for else ""
     yield evidence("domain", not complex_for, f"real for forward and backward cycles{note}")
     yield evidence(
-        "numeric", worst < 1e-9, f"root of summed squares over signed ones, for sampled Q: off by {worst:.1e}"
+        "numeric", worst < 1e-9, f"root of summed squares over signed ones, for sampled Q: off by {rounded(worst)}"
     )
 
 
