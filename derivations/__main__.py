@@ -64,9 +64,14 @@ def main(arguments: list[str] | None = None) -> int:
     if options.command == "transcription":
         return transcription(mutants=options.mutants)
     return verify(
-        options.equation, json_=options.json, mutants=options.mutants, write=options.write, check=options.check,
-        effects=options.effects, circular=options.circular,
-    )  # fmt: skip
+        options.equation,
+        json_=options.json,
+        mutants=options.mutants,
+        write=options.write,
+        check=options.check,
+        effects=options.effects,
+        circular=options.circular,
+    )
 
 
 if __name__ == "__main__":

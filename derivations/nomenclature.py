@@ -260,7 +260,7 @@ CLASHES: dict[str, tuple[str, ...]] = {
     "f": ("friction f_t, f_b, f_n, f_nall (eqs. 36, 38)", "factor f(Y) of Q_vib (eqs. A16, A17)"),
     "x": ("place along the circumference", "place of the contact's end, x_xm in eq. 27, x_vm in eq. 28"),
     "T": ("beat periods T_redu ... (eq. 15)", "regions T_reduT ... (Sect. 3.2)", "torque T_load (eq. 38)"),
-}  # fmt: skip
+}
 
 
 def _table_row(line: str, table: dict[str, SymbolEntry]) -> tuple[str, SymbolEntry]:

@@ -43,9 +43,10 @@ def forced_phase(phase: str) -> sp.Expr:
     start = w.subs(tau, 0).subs(s, 1), v.subs(tau, 0).subs(s, 1)
     candidate = psi + sp.pi / 2 if phase == "A" else psi + sp.pi
     rate = phases.drive_frequency()
-    if sp.expand_trig(start[0] - W * sp.sin(candidate)) != 0 or sp.expand_trig(
-        start[1] - W * rate * sp.cos(candidate)
-    ).expand() != 0:  # fmt: skip
+    if (
+        sp.expand_trig(start[0] - W * sp.sin(candidate)) != 0
+        or sp.expand_trig(start[1] - W * rate * sp.cos(candidate)).expand() != 0
+    ):
         raise ArithmeticError(f"the forced phase of {phase} does not give the steady response")
     return candidate
 

@@ -49,9 +49,23 @@ w_A, w_B, v_A, v_B = sp.symbols("w_A w_B v_A v_B", real=True)
 omega_p, T_load, f_net = sp.symbols("omega_p T_load f_net", real=True)
 
 _UNITS = {
-    u: "rad", phi: "rad", c: "1", v: "m/s", W_c: "m", R_v: "m/s", epsilon: "1", W_c_rate: "m/s", q: "m^2/s",
-    w_A: "m", w_B: "m", v_A: "m/s", v_B: "m/s", omega_p: "rad/s", T_load: "N*m", f_net: "1",
-}  # fmt: skip
+    u: "rad",
+    phi: "rad",
+    c: "1",
+    v: "m/s",
+    W_c: "m",
+    R_v: "m/s",
+    epsilon: "1",
+    W_c_rate: "m/s",
+    q: "m^2/s",
+    w_A: "m",
+    w_B: "m",
+    v_A: "m/s",
+    v_B: "m/s",
+    omega_p: "rad/s",
+    T_load: "N*m",
+    f_net: "1",
+}
 DIMENSIONS: dict[sp.Basic, Dimension] = {symbol: parse_unit(unit).dimension for symbol, unit in _UNITS.items()}
 
 

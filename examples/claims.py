@@ -58,9 +58,18 @@ def summary(found: Readings, judged: list[Claim]) -> str:
         and (row["resonance"], row["foundation"]) in (("quartic", "harmonic"), ("39703 Hz", "any"))
     ]
     headers = (
-        "start", "lead", "crest", "f_n", "Q_aver off %", "Q_vib off %", "v_s arcsec/s", "with load", "sigma_s %",
-        "with load", "claims met",
-    )  # fmt: skip
+        "start",
+        "lead",
+        "crest",
+        "f_n",
+        "Q_aver off %",
+        "Q_vib off %",
+        "v_s arcsec/s",
+        "with load",
+        "sigma_s %",
+        "with load",
+        "claims met",
+    )
     loaded = f"with load: with its inertia of {LOAD_INERTIA[1]:.1e} kg m^2, a weight on a string at 30 mm"
     formats = ("", "", "", "", "+.2f", "+.2f", ".3g", ".3g", ".3g", ".3g")
     return "\n".join([*lines, "", tabulate(table, headers, floatfmt=formats), "", loaded])
@@ -85,10 +94,15 @@ def by_inertia(judged: list[Claim]) -> str:
     found = varied(judged)
     names = [f"{start} {lead}" for start in ("periodic", "steady", "rest") for lead in ("+1", "-1")]
     table = [
-        (row.id, *(cell for cells in row.cells for cell in cells), *(SHORT[v] for v in row.verdicts[:2]),
-         SHORT[row.verdict], f"{row.decided} of 6")
+        (
+            row.id,
+            *(cell for cells in row.cells for cell in cells),
+            *(SHORT[v] for v in row.verdicts[:2]),
+            SHORT[row.verdict],
+            f"{row.decided} of 6",
+        )
         for row in found
-    ]  # fmt: skip
+    ]
     measured = [row for row in found if row.measured]
     cells = [cell for row in found for cells in row.cells for cell in cells]
     loads = ", ".join(f"{value:.1e}" for value in LOAD_INERTIA[1:])
@@ -169,9 +183,13 @@ def listed(judged: list[Claim]) -> str:
 def text(motor: ts.Motor, found: Readings, judged: list[Claim], followed_from: list[Trend]) -> str:
     """All of it."""
     parts = (
-        summary(found, judged), phases(motor), by_inertia(judged), followed(followed_from), possible(motor),
+        summary(found, judged),
+        phases(motor),
+        by_inertia(judged),
+        followed(followed_from),
+        possible(motor),
         listed(judged),
-    )  # fmt: skip
+    )
     return "\n\n".join(parts)
 
 

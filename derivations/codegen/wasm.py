@@ -25,9 +25,20 @@ RECORD = FOLDER / "motor.json"
 
 _COMPILER = "clang"
 _FLAGS = (
-    "--target=wasm32-wasi", "-std=c99", "-O2", "-ffp-contract=off", "-Wall", "-Wextra", "-Wno-unused-function",
-    "-Igenerated", "-Itrum_sym/_driver", "-nostartfiles", "-Wl,--no-entry", "-Wl,--strip-all", "-Wl,--gc-sections",
-)  # fmt: skip
+    "--target=wasm32-wasi",
+    "-std=c99",
+    "-O2",
+    "-ffp-contract=off",
+    "-Wall",
+    "-Wextra",
+    "-Wno-unused-function",
+    "-Igenerated",
+    "-Itrum_sym/_driver",
+    "-nostartfiles",
+    "-Wl,--no-entry",
+    "-Wl,--strip-all",
+    "-Wl,--gc-sections",
+)
 _ENTRY = "trum_sym/_driver/trum_browser.c"
 
 
@@ -69,8 +80,9 @@ def _compile() -> tuple[bytes, str, list[str]]:
     """
     compiler = shutil.which(_COMPILER)
     if compiler is None:
-        raise FileNotFoundError(f"{_COMPILER} is not here; on Debian: apt-get install clang lld wasi-libc "
-                                "libclang-rt-dev-wasm32")  # fmt: skip
+        raise FileNotFoundError(
+            f"{_COMPILER} is not here; on Debian: apt-get install clang lld wasi-libc libclang-rt-dev-wasm32"
+        )
     version = _first_line(compiler, "--version")
     with tempfile.TemporaryDirectory() as folder:
         target = Path(folder) / MODULE.name

@@ -28,9 +28,13 @@ phi_q = sp.Function("phi_q", real=True)(t)
 _METRE = parse_unit("m").dimension
 _KNOWN = {xi_z: _METRE, xi_x: _METRE, phi_q: Dimension()}
 _RANGES = {
-    "W_a": (2e-6, 9e-6), "W_b": (2e-6, 9e-6), "omega_a": (2.3e5, 2.6e5), "omega_b": (2.6e5, 2.8e5),
-    "varphi_a": (-3.0, 3.0), "varphi_b": (-3.0, 3.0),
-}  # fmt: skip
+    "W_a": (2e-6, 9e-6),
+    "W_b": (2e-6, 9e-6),
+    "omega_a": (2.3e5, 2.6e5),
+    "omega_b": (2.6e5, 2.8e5),
+    "varphi_a": (-3.0, 3.0),
+    "varphi_b": (-3.0, 3.0),
+}
 _SYMBOLS = sym("x t D k_c W_a W_b omega_a omega_b varphi_a varphi_b")
 _MOTION = {xi_x: W_a * sp.cos(omega_a * t), xi_z: W_b * sp.sin(omega_b * t + varphi_b)}
 
@@ -55,21 +59,24 @@ _A1: Forms = {
 _A2: Forms = {
     "zeta_z": W_a * sp.sin(k_c * x) * sp.cos(omega_a * t + varphi_a)
     + W_b * sp.cos(k_c * x) * sp.cos(omega_b * t + varphi_b),
-    "zeta_x": D * k_c * (
-        W_a * sp.cos(k_c * x) * sp.cos(omega_a * t + varphi_a) - W_b * sp.sin(k_c * x) * sp.cos(omega_b * t + varphi_b)
-    ),
-}  # fmt: skip
+    "zeta_x": D
+    * k_c
+    * (W_a * sp.cos(k_c * x) * sp.cos(omega_a * t + varphi_a) - W_b * sp.sin(k_c * x) * sp.cos(omega_b * t + varphi_b)),
+}
 
 
 def _derive_a1() -> Derivation:
     return Derivation(
         (
             step("Every phase is its mode shape times a response of its own frequency, amplitude and phase:", P_A, P_B),
-            step("The shapes are a quarter wave apart, each a solution of the wave's equation in x:",
-                 *_A1.values(), zero=[form.diff(x, 2) + k_c**2 * form for form in _A1.values()]),
+            step(
+                "The shapes are a quarter wave apart, each a solution of the wave's equation in x:",
+                *_A1.values(),
+                zero=[form.diff(x, 2) + k_c**2 * form for form in _A1.values()],
+            ),
         ),
         {"w_A": P_A * sp.sin(k_c * x), "w_B": P_B * sp.cos(k_c * x)},
-    )  # fmt: skip
+    )
 
 
 def _judge_a1(forms: Forms) -> Iterator[Evidence]:
@@ -92,11 +99,14 @@ def _derive_a2() -> Derivation:
     return Derivation(
         (
             step("Displacements add:", vertical),
-            step("The tangential one is D times the slope, as in (11):", along,
-                 zero=along - sp.expand(D * k_c * (P_A * sp.cos(k_c * x) - P_B * sp.sin(k_c * x)))),
+            step(
+                "The tangential one is D times the slope, as in (11):",
+                along,
+                zero=along - sp.expand(D * k_c * (P_A * sp.cos(k_c * x) - P_B * sp.sin(k_c * x))),
+            ),
         ),
         {"zeta_z": vertical, "zeta_x": along},
-    )  # fmt: skip
+    )
 
 
 def _judge_a2(forms: Forms) -> Iterator[Evidence]:
@@ -126,10 +136,15 @@ def _derive_a3() -> Derivation:
     radius = sp.Symbol("r", positive=True)
     polar = {xi_x: radius * sp.cos(phi_q), xi_z: radius * sp.sin(phi_q)}
     return Derivation(
-        (step("In polar coordinates of the particle's path, xi_x = r cos(phi_q) and xi_z = r sin(phi_q):",
-              _A3["angle"], zero=sp.simplify((_A3["angle"].lhs - _A3["angle"].rhs).subs(polar))),),
+        (
+            step(
+                "In polar coordinates of the particle's path, xi_x = r cos(phi_q) and xi_z = r sin(phi_q):",
+                _A3["angle"],
+                zero=sp.simplify((_A3["angle"].lhs - _A3["angle"].rhs).subs(polar)),
+            ),
+        ),
         _A3,
-    )  # fmt: skip
+    )
 
 
 def _judge_a3(forms: Forms) -> Iterator[Evidence]:
@@ -139,8 +154,11 @@ def _judge_a3(forms: Forms) -> Iterator[Evidence]:
     worst = mp.mpf(0)
     for point in points(sym("W_a W_b omega_a omega_b varphi_b t"), 8, "A3", _RANGES):
         worst = worse(worst, abs(evaluate(plain["angle"].subs(_MOTION), point)))
-    yield evidence("numeric", worst < mp.mpf(10) ** -20,
-                   f"holds for the direction of the path's point in all quadrants, to {mp.nstr(worst, 2)}")  # fmt: skip
+    yield evidence(
+        "numeric",
+        worst < mp.mpf(10) ** -20,
+        f"holds for the direction of the path's point in all quadrants, to {mp.nstr(worst, 2)}",
+    )
     flat = form.subs({xi_z: 0, phi_q: 0})
     yield evidence("limit", flat == sp.true, "angle 0 along the surface")
 
@@ -155,16 +173,25 @@ def _derive_a4() -> Derivation:
     square = 1 / (1 + (xi_z / xi_x) ** 2)
     return Derivation(
         (
-            step("The left side of (A3), differentiated, is the angle's rate over cos(phi_q)^2; the right side by the "
-                 "quotient rule:", slope, zero=sp.expand(slope + _RATE)),
+            step(
+                "The left side of (A3), differentiated, is the angle's rate over cos(phi_q)^2; the right side by the "
+                "quotient rule:",
+                slope,
+                zero=sp.expand(slope + _RATE),
+            ),
             step("So the rate is", forms["rate"], zero=sp.simplify(forms["rate"] - slope * sp.cos(phi_q) ** 2)),
-            step("With cos^2 = 1/(1 + tan^2):", forms["reduced"],
-                 zero=sp.simplify((forms["rate"]).subs(sp.cos(phi_q) ** 2, square) - forms["reduced"])),
-            step("The print has both differences the other way round: it is minus the angle's rate, positive for a "
-                 "clockwise turn (x to the right, z up). That suits (A5), which takes clockwise as positive."),
+            step(
+                "With cos^2 = 1/(1 + tan^2):",
+                forms["reduced"],
+                zero=sp.simplify((forms["rate"]).subs(sp.cos(phi_q) ** 2, square) - forms["reduced"]),
+            ),
+            step(
+                "The print has both differences the other way round: it is minus the angle's rate, positive for a "
+                "clockwise turn (x to the right, z up). That suits (A5), which takes clockwise as positive."
+            ),
         ),
         forms,
-    )  # fmt: skip
+    )
 
 
 def _path(v: dict[str, mp.mpf], time: mp.mpf) -> mp.mpc:
@@ -186,9 +213,11 @@ def _judge_a4(forms: Forms) -> Iterator[Evidence]:
         for form in forms.values():
             put = form.subs(phi_q, sp.atan2(xi_z, xi_x)).subs(_MOTION).doit()
             worst = worse(worst, abs(evaluate(put, point) / rate - 1))
-    yield evidence("numeric", worst < mp.mpf(10) ** -12,
-                   f"off the rate of the path's direction, taken numerically, by {mp.nstr(worst, 3)} "
-                   "relative")  # fmt: skip
+    yield evidence(
+        "numeric",
+        worst < mp.mpf(10) ** -12,
+        f"off the rate of the path's direction, taken numerically, by {mp.nstr(worst, 3)} relative",
+    )
     circle = {xi_x: sp.cos(omega_a * t), xi_z: sp.sin(omega_a * t)}
     value = sp.simplify(forms["reduced"].subs(circle).doit())
     yield evidence("limit", value == omega_a, f"a counterclockwise unit circle turns with {value}")
@@ -205,12 +234,15 @@ def _derive_a5() -> Derivation:
     turning = -(xi_x**2 + xi_z**2) * _corrected_a4()["reduced"]
     return Derivation(
         (
-            step("The denominator of (A4) is positive, so its numerator decides on the sense; clockwise is to be "
-                 "positive:",
-                 _A5["Q_q"], zero=sp.simplify(_A5["Q_q"] - turning)),
+            step(
+                "The denominator of (A4) is positive, so its numerator decides on the sense; clockwise is to be "
+                "positive:",
+                _A5["Q_q"],
+                zero=sp.simplify(_A5["Q_q"] - turning),
+            ),
         ),
         {"Q_q": _A5["Q_q"]},
-    )  # fmt: skip
+    )
 
 
 def _judge_a5(forms: Forms) -> Iterator[Evidence]:
@@ -223,8 +255,14 @@ def _judge_a5(forms: Forms) -> Iterator[Evidence]:
         return -mp.im(mp.conj(place(v["t"])) * mp.diff(place, v["t"]))
 
     symbols = sym("W_a W_b omega_a omega_b varphi_b t")
-    yield agrees({"Q_q": form.subs(_MOTION).doit()}, area, symbols=symbols, ranges=_RANGES, tolerance=1e-18,
-                 against="minus twice the area swept per time")  # fmt: skip
+    yield agrees(
+        {"Q_q": form.subs(_MOTION).doit()},
+        area,
+        symbols=symbols,
+        ranges=_RANGES,
+        tolerance=1e-18,
+        against="minus twice the area swept per time",
+    )
     clockwise = {xi_x: sp.cos(omega_a * t), xi_z: -sp.sin(omega_a * t)}
     value = sp.simplify(form.subs(clockwise).doit())
     yield evidence("limit", value == omega_a, f"a clockwise unit circle has Q = {value}, positive")
@@ -233,9 +271,8 @@ def _judge_a5(forms: Forms) -> Iterator[Evidence]:
 # --- (A6) to (A9) -------------------------------------------------------------------------------------------
 _SUM, _DIFFERENCE = (omega_b + omega_a) * t + (varphi_b + varphi_a), (omega_b - omega_a) * t + (varphi_b - varphi_a)
 _A6: Forms = {
-    "Q_q": D * k_c * W_a * W_b / 2
-    * ((omega_b - omega_a) * sp.sin(_SUM) + (omega_b + omega_a) * sp.sin(_DIFFERENCE))
-}  # fmt: skip
+    "Q_q": D * k_c * W_a * W_b / 2 * ((omega_b - omega_a) * sp.sin(_SUM) + (omega_b + omega_a) * sp.sin(_DIFFERENCE))
+}
 _A7: Forms = {"much_greater": sp.Gt(varphi_b + varphi_a, varphi_b - varphi_a)}
 _A8: Forms = {"Q_q": (omega_b + omega_a) * D * k_c * W_a * W_b / 2 * sp.sin(_DIFFERENCE)}
 _A9: Forms = {"T_q": 2 * sp.pi / sp.Abs(omega_b - omega_a)}
@@ -251,11 +288,14 @@ def _derive_a6() -> Derivation:
         (
             step("The determinant for any two phases, independent of x:", determinant.determinant()),
             step("With the responses of (A1):", exact),
-            step("Products of a sine and a cosine as sums; all four signs are as printed:", _A6["Q_q"],
-                 zero=sp.expand(sp.expand_trig(exact - _A6["Q_q"]))),
+            step(
+                "Products of a sine and a cosine as sums; all four signs are as printed:",
+                _A6["Q_q"],
+                zero=sp.expand(sp.expand_trig(exact - _A6["Q_q"])),
+            ),
         ),
         {"Q_q": exact},
-    )  # fmt: skip
+    )
 
 
 def _judge_a6(forms: Forms) -> Iterator[Evidence]:
@@ -269,8 +309,14 @@ def _judge_a6(forms: Forms) -> Iterator[Evidence]:
 
         return -mp.im(mp.conj(place(v["t"])) * mp.diff(place, v["t"]))
 
-    yield agrees(forms, swept, symbols=_SYMBOLS, ranges=_RANGES, tolerance=1e-18,
-                 against="minus twice the area that the particle of (A2) sweeps per time")  # fmt: skip
+    yield agrees(
+        forms,
+        swept,
+        symbols=_SYMBOLS,
+        ranges=_RANGES,
+        tolerance=1e-18,
+        against="minus twice the area that the particle of (A2) sweeps per time",
+    )
     same = forms["Q_q"].subs({omega_b: omega_a, varphi_b: varphi_a + sp.pi / 2})
     yield evidence(
         "limit", vanishes(same - D * k_c * W_a * W_b * omega_a), "steady wave: constant, D k_c W_a W_b omega"
@@ -281,14 +327,19 @@ def _judge_a6(forms: Forms) -> Iterator[Evidence]:
 def _derive_a7() -> Derivation:
     return Derivation(
         (
-            step("(A6) has one term of the size omega_b - omega_a and one of the size omega_b + omega_a. The first "
-                 "may be dropped because", sp.Gt(omega_b + omega_a, sp.Abs(omega_b - omega_a)),
-                 zero=(omega_b + omega_a) ** 2 - (omega_b - omega_a) ** 2 - 4 * omega_a * omega_b),
-            step("which holds by far at 40 kHz with differences of 3 kHz. Phases are known up to whole turns, so no "
-                 "comparison of their sizes can say anything."),
+            step(
+                "(A6) has one term of the size omega_b - omega_a and one of the size omega_b + omega_a. The first "
+                "may be dropped because",
+                sp.Gt(omega_b + omega_a, sp.Abs(omega_b - omega_a)),
+                zero=(omega_b + omega_a) ** 2 - (omega_b - omega_a) ** 2 - 4 * omega_a * omega_b,
+            ),
+            step(
+                "which holds by far at 40 kHz with differences of 3 kHz. Phases are known up to whole turns, so no "
+                "comparison of their sizes can say anything."
+            ),
         ),
         {"much_greater": sp.Gt(omega_b + omega_a, sp.Abs(omega_b - omega_a))},
-    )  # fmt: skip
+    )
 
 
 def _judge_a7(forms: Forms) -> Iterator[Evidence]:
@@ -325,12 +376,15 @@ def _derive_a8() -> Derivation:
     return Derivation(
         (
             step("Of (A6) only the slow term stays:", _A8["Q_q"]),
-            step("What is dropped has the share |omega_b - omega_a|/(omega_b + omega_a) of it and averages to zero "
-                 "over a period of the sum frequency:", dropped,
-                 zero=dropped - sp.expand(D * k_c * W_a * W_b / 2 * (omega_b - omega_a) * sp.sin(_SUM))),
+            step(
+                "What is dropped has the share |omega_b - omega_a|/(omega_b + omega_a) of it and averages to zero "
+                "over a period of the sum frequency:",
+                dropped,
+                zero=dropped - sp.expand(D * k_c * W_a * W_b / 2 * (omega_b - omega_a) * sp.sin(_SUM)),
+            ),
         ),
         {"Q_q": _A8["Q_q"]},
-    )  # fmt: skip
+    )
 
 
 def _judge_a8(forms: Forms) -> Iterator[Evidence]:
@@ -341,13 +395,17 @@ def _judge_a8(forms: Forms) -> Iterator[Evidence]:
             most = worse(most, abs(evaluate(forms["Q_q"] - _exact(), point)) / scale)
         return _share(), float(most)
 
-    yield error_size("Q_q, in D k_c W_a W_b times the mean frequency,", sizes, "equal frequencies",
-                     lambda: _share() / 100)  # fmt: skip
+    yield error_size(
+        "Q_q, in D k_c W_a W_b times the mean frequency,", sizes, "equal frequencies", lambda: _share() / 100
+    )
     same = forms["Q_q"].subs({omega_b: omega_a})
     yield evidence("limit", vanishes(same - _exact().subs(omega_b, omega_a)), "exact for equal frequencies")
     average = sp.integrate(sp.expand_trig(sp.sin(omega_a * t)), (t, 0, 2 * sp.pi / omega_a))
-    yield evidence("identity", average == 0 and vanishes(forms["Q_q"] - _A6["Q_q"].subs(sp.sin(_SUM), 0)),
-                   "is (A6) without the sum frequency, which averages to zero")  # fmt: skip
+    yield evidence(
+        "identity",
+        average == 0 and vanishes(forms["Q_q"] - _A6["Q_q"].subs(sp.sin(_SUM), 0)),
+        "is (A6) without the sum frequency, which averages to zero",
+    )
 
 
 def _derive_a9() -> Derivation:
@@ -357,11 +415,14 @@ def _derive_a9() -> Derivation:
     return Derivation(
         (
             step("(A8) repeats when its angle has turned once:", _A9["T_q"], zero=sp.cancel(turned)),
-            step("After half of it the sign changes, so each sense of rotation lasts T_q/2, as the text says:",
-                 _A9["T_q"] / 2, zero=sp.cancel(half)),
+            step(
+                "After half of it the sign changes, so each sense of rotation lasts T_q/2, as the text says:",
+                _A9["T_q"] / 2,
+                zero=sp.cancel(half),
+            ),
         ),
         {"T_q": _A9["T_q"]},
-    )  # fmt: skip
+    )
 
 
 def _judge_a9(forms: Forms) -> Iterator[Evidence]:
@@ -377,8 +438,11 @@ def _judge_a9(forms: Forms) -> Iterator[Evidence]:
         worst = worse(worse(worst, abs(whole)), abs(part))
     yield evidence("numeric", worst < mp.mpf(10) ** -20, "the shortest period: the sign turns after half of it")
     swapped = form.subs({omega_a: omega_b, omega_b: omega_a}, simultaneous=True)
-    yield evidence("domain", vanishes(swapped - form) and bool(form.subs({omega_a: 3, omega_b: 2}) > 0),
-                   "positive, whichever phase is the faster")  # fmt: skip
+    yield evidence(
+        "domain",
+        vanishes(swapped - form) and bool(form.subs({omega_a: 3, omega_b: 2}) > 0),
+        "positive, whichever phase is the faster",
+    )
     yield evidence("limit", sp.limit(form.subs(omega_a, 1), omega_b, 1) == sp.oo, "no beat at equal frequencies")
 
 
@@ -410,59 +474,127 @@ def _effect_a7() -> str:
 
 ENTRIES = (
     Entry(
-        id="A1", section="A", title="Two-phase modal response", place="Appendix A",
-        printed=_A1, units={"w_A": "m", "w_B": "m"}, verdict="definition",
+        id="A1",
+        section="A",
+        title="Two-phase modal response",
+        place="Appendix A",
+        printed=_A1,
+        units={"w_A": "m", "w_B": "m"},
+        verdict="definition",
         reason="Each phase its mode shape times a cosine of its own; here w includes the shape, in (9) and (10) not.",
-        judge=_judge_a1, derive=_derive_a1, effect=_none,
+        judge=_judge_a1,
+        derive=_derive_a1,
+        effect=_none,
     ),
     Entry(
-        id="A2", section="A", title="Vertical and tangential displacement", place="Appendix A",
-        printed=_A2, units={"zeta_z": "m", "zeta_x": "m"}, verdict="verified",
+        id="A2",
+        section="A",
+        title="Vertical and tangential displacement",
+        place="Appendix A",
+        printed=_A2,
+        units={"zeta_z": "m", "zeta_x": "m"},
+        verdict="verified",
         reason="(11) for the phases of (A1), with xi for zeta; shares (11)'s slope for the rotation.",
-        judge=_judge_a2, derive=_derive_a2, effect=_none,
+        judge=_judge_a2,
+        derive=_derive_a2,
+        effect=_none,
     ),
     Entry(
-        id="A3", section="A", title="Direction of the path's point", place="Appendix A",
-        printed=_A3, units={}, known=_KNOWN, verdict="definition",
+        id="A3",
+        section="A",
+        title="Direction of the path's point",
+        place="Appendix A",
+        printed=_A3,
+        units={},
+        known=_KNOWN,
+        verdict="definition",
         reason="The polar angle of the displacement; the tangent leaves it open by half turns.",
-        judge=_judge_a3, derive=_derive_a3, effect=_none,
+        judge=_judge_a3,
+        derive=_derive_a3,
+        effect=_none,
     ),
     Entry(
-        id="A4", section="A", title="Rate of the direction", place="Appendix A",
-        printed=_A4, units={"rate": "1/s", "reduced": "1/s"}, known=_KNOWN, verdict="erratum",
+        id="A4",
+        section="A",
+        title="Rate of the direction",
+        place="Appendix A",
+        printed=_A4,
+        units={"rate": "1/s", "reduced": "1/s"},
+        known=_KNOWN,
+        verdict="erratum",
         reason="The quotient rule gives both differences the other way round: the print is minus the angle's rate.",
-        judge=_judge_a4, derive=_derive_a4, effect=_effect_a4,
-        repair=lambda forms: {name: -form for name, form in forms.items()}, found_by=("numeric", "limit"),
+        judge=_judge_a4,
+        derive=_derive_a4,
+        effect=_effect_a4,
+        repair=lambda forms: {name: -form for name, form in forms.items()},
+        found_by=("numeric", "limit"),
     ),
     Entry(
-        id="A5", section="A", title="Direction determinant", place="Appendix A",
-        printed=_A5, units={"Q_q": "m^2/s"}, known=_KNOWN, verdict="definition",
+        id="A5",
+        section="A",
+        title="Direction determinant",
+        place="Appendix A",
+        printed=_A5,
+        units={"Q_q": "m^2/s"},
+        known=_KNOWN,
+        verdict="definition",
         reason="Minus twice the area swept per time, so clockwise is positive, as Section 5 has it.",
-        judge=_judge_a5, derive=_derive_a5, effect=_none,
+        judge=_judge_a5,
+        derive=_derive_a5,
+        effect=_none,
     ),
     Entry(
-        id="A6", section="A", title="Determinant of two phases", place="Appendix A",
-        printed=_A6, units={"Q_q": "m^2/s"}, verdict="verified",
+        id="A6",
+        section="A",
+        title="Determinant of two phases",
+        place="Appendix A",
+        printed=_A6,
+        units={"Q_q": "m^2/s"},
+        verdict="verified",
         reason="Exact for constant amplitudes, sign by sign, and independent of x.",
-        judge=_judge_a6, derive=_derive_a6, effect=_none,
+        judge=_judge_a6,
+        derive=_derive_a6,
+        effect=_none,
     ),
     Entry(
-        id="A7", section="A", title="Why the sum frequency may be dropped", place="Appendix A",
-        printed=_A7, units={}, verdict="erratum",
+        id="A7",
+        section="A",
+        title="Why the sum frequency may be dropped",
+        place="Appendix A",
+        printed=_A7,
+        units={},
+        verdict="erratum",
         reason="Compares the phases where the frequencies are meant; phases are only known up to whole turns.",
-        judge=_judge_a7, derive=_derive_a7, effect=_effect_a7, repair=_repair_a7,
+        judge=_judge_a7,
+        derive=_derive_a7,
+        effect=_effect_a7,
+        repair=_repair_a7,
         found_by=("numeric", "domain", "identity"),
     ),
     Entry(
-        id="A8", section="A", title="Simplified determinant", place="Appendix A",
-        printed=_A8, units={"Q_q": "m^2/s"}, verdict="approximation",
+        id="A8",
+        section="A",
+        title="Simplified determinant",
+        place="Appendix A",
+        printed=_A8,
+        units={"Q_q": "m^2/s"},
+        verdict="approximation",
         reason="(A6) without its small fast term.",
-        judge=_judge_a8, derive=_derive_a8, effect=_effect_a8,
+        judge=_judge_a8,
+        derive=_derive_a8,
+        effect=_effect_a8,
     ),
     Entry(
-        id="A9", section="A", title="Period of the determinant", place="Appendix A",
-        printed=_A9, units={"T_q": "s"}, verdict="verified",
+        id="A9",
+        section="A",
+        title="Period of the determinant",
+        place="Appendix A",
+        printed=_A9,
+        units={"T_q": "s"},
+        verdict="verified",
         reason="The period of (A8), each sense of rotation half of it; of (A6) only nearly.",
-        judge=_judge_a9, derive=_derive_a9, effect=_effect_a9,
+        judge=_judge_a9,
+        derive=_derive_a9,
+        effect=_effect_a9,
     ),
-)  # fmt: skip
+)

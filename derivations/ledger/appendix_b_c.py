@@ -26,11 +26,23 @@ W_a, W_b, omega_a, omega_b, varphi_a, varphi_b = sym("W_a W_b omega_a omega_b va
 P_A, P_B, zeta_x, zeta_z, X, Y, Q_aver = sym("P_A P_B zeta_x zeta_z X Y Q_aver")
 
 _RANGES = {
-    "W_a": (3e-6, 9e-6), "W_b": (3e-6, 9e-6), "omega_a": (2.3e5, 2.6e5), "omega_b": (2.4e5, 2.8e5),
-    "varphi_a": (-3.0, 3.0), "varphi_b": (-3.0, 3.0), "P_A": (-8e-6, 8e-6), "P_B": (-8e-6, 8e-6), "X": (0.1, 6.0),
-    "Y": (0.1, 6.0), "Q_aver": (500.0, 2000.0), "q_plus": (0.1, 3.0), "q_minus": (0.1, 3.0), "p_plus": (0.1, 3.0),
-    "p_minus": (0.1, 3.0), "delta": (-3.0, 3.0),
-}  # fmt: skip
+    "W_a": (3e-6, 9e-6),
+    "W_b": (3e-6, 9e-6),
+    "omega_a": (2.3e5, 2.6e5),
+    "omega_b": (2.4e5, 2.8e5),
+    "varphi_a": (-3.0, 3.0),
+    "varphi_b": (-3.0, 3.0),
+    "P_A": (-8e-6, 8e-6),
+    "P_B": (-8e-6, 8e-6),
+    "X": (0.1, 6.0),
+    "Y": (0.1, 6.0),
+    "Q_aver": (500.0, 2000.0),
+    "q_plus": (0.1, 3.0),
+    "q_minus": (0.1, 3.0),
+    "p_plus": (0.1, 3.0),
+    "p_minus": (0.1, 3.0),
+    "delta": (-3.0, 3.0),
+}
 _MOTION = (W_a, W_b, omega_a, omega_b, varphi_a, varphi_b, k_c, x, t)
 _sine, _cosine = sp.sin(k_c * x), sp.cos(k_c * x)
 _in_a, _in_b = sp.cos(omega_a * t + varphi_a), sp.cos(omega_b * t + varphi_b)
@@ -38,8 +50,10 @@ _in_a, _in_b = sp.cos(omega_a * t + varphi_a), sp.cos(omega_b * t + varphi_b)
 
 def _phasors(q: Point) -> tuple[mp.mpf, mp.mpf]:
     """The two responses in time as real parts of turning phasors."""
-    return (q[W_a] * mp.re(mp.expj(q[omega_a] * q[t] + q[varphi_a])),
-            q[W_b] * mp.re(mp.expj(q[omega_b] * q[t] + q[varphi_b])))  # fmt: skip
+    return (
+        q[W_a] * mp.re(mp.expj(q[omega_a] * q[t] + q[varphi_a])),
+        q[W_b] * mp.re(mp.expj(q[omega_b] * q[t] + q[varphi_b])),
+    )
 
 
 # --- (A10) --------------------------------------------------------------------------------------------------
@@ -50,12 +64,15 @@ def _derive_a10() -> Derivation:
     pairs = ((_A10["w_A"], omega_a), (_A10["w_B"], omega_b))
     return Derivation(
         (
-            step("Standing waves of wavenumber k_c at the frequency of each phase:", *_A10.values(),
-                 zero=[z for w, omega in pairs for z in (w.diff(x, 2) + k_c**2 * w, w.diff(t, 2) + omega**2 * w)]),
+            step(
+                "Standing waves of wavenumber k_c at the frequency of each phase:",
+                *_A10.values(),
+                zero=[z for w, omega in pairs for z in (w.diff(x, 2) + k_c**2 * w, w.diff(t, 2) + omega**2 * w)],
+            ),
             step("a quarter wave apart, as the electrodes are:", zero=_sine.subs(x, x + sp.pi / (2 * k_c)) - _cosine),
         ),
         _A10,
-    )  # fmt: skip
+    )
 
 
 def _judge_a10(forms: Forms) -> Iterator[Evidence]:
@@ -65,8 +82,10 @@ def _judge_a10(forms: Forms) -> Iterator[Evidence]:
         return mp.im(wave) * A if label == "w_A" else mp.re(wave) * B
 
     yield agrees(forms, standing, symbols=_MOTION, ranges=_RANGES, against="phasors in space and time")
-    free = all(sp.expand(w.diff(x, 2) + k_c**2 * w) == 0 == sp.expand(w.diff(t, 2) + omega**2 * w)
-               for w, omega in zip(forms.values(), (omega_a, omega_b), strict=True))  # fmt: skip
+    free = all(
+        sp.expand(w.diff(x, 2) + k_c**2 * w) == 0 == sp.expand(w.diff(t, 2) + omega**2 * w)
+        for w, omega in zip(forms.values(), (omega_a, omega_b), strict=True)
+    )
     yield evidence("identity", free, "standing waves of wavenumber k_c, harmonic at omega_a and omega_b")
 
 
@@ -88,12 +107,16 @@ def _derive_a11() -> Derivation:
     forms = {"zeta_z": up, "zeta_x": sp.expand(D * up.diff(x)), "P_A": W_a * _in_a, "P_B": W_b * _in_b}
     return Derivation(
         (
-            step("Superposition, and the section's rotation at the distance D from the neutral axis (eq. 11):",
-                 forms["zeta_z"], forms["zeta_x"], zero=forms["zeta_x"] - _A11["zeta_x"]),
+            step(
+                "Superposition, and the section's rotation at the distance D from the neutral axis (eq. 11):",
+                forms["zeta_z"],
+                forms["zeta_x"],
+                zero=forms["zeta_x"] - _A11["zeta_x"],
+            ),
             step("with the responses in time", forms["P_A"], forms["P_B"]),
         ),
         forms,
-    )  # fmt: skip
+    )
 
 
 def _judge_a11(forms: Forms) -> Iterator[Evidence]:
@@ -108,8 +131,14 @@ def _judge_a11(forms: Forms) -> Iterator[Evidence]:
         slope = (8 * (wave(q[x] + h) - wave(q[x] - h)) - wave(q[x] + 2 * h) + wave(q[x] - 2 * h)) / (12 * h)
         return known[label] if label in known else q[D] * slope
 
-    yield agrees(forms, by_differences, symbols=(*_MOTION, D), ranges=_RANGES, tolerance=1e-6,
-                 against="the sum, and D times its slope by differences")  # fmt: skip
+    yield agrees(
+        forms,
+        by_differences,
+        symbols=(*_MOTION, D),
+        ranges=_RANGES,
+        tolerance=1e-6,
+        against="the sum, and D times its slope by differences",
+    )
     yield identical({k: sp.expand(f) for k, f in forms.items()}, _derive_a11().forms)
 
 
@@ -127,8 +156,9 @@ _A12: Forms = {
     "(2)": sp.Eq(zeta_x / (D * k_c) * P_A, (P_A * _cosine - P_B * _sine) * P_A),
 }
 _ON_MOTION: dict[sp.Basic, sp.Basic] = {
-    zeta_z: P_A * _sine + P_B * _cosine, zeta_x: D * k_c * (P_A * _cosine - P_B * _sine),
-}  # fmt: skip
+    zeta_z: P_A * _sine + P_B * _cosine,
+    zeta_x: D * k_c * (P_A * _cosine - P_B * _sine),
+}
 
 
 def _residual_numbers(forms: Forms) -> mp.mpf:
@@ -181,21 +211,36 @@ def _derive_a13() -> Derivation:
     round_ = ellipse.discriminant(conic, P_A, P_B)
     return Derivation(
         (
-            step("((1) + (2))^2 of (A12) is the printed equation, an identity at every instant:", printed,
-                 zero=[sp.expand((printed.lhs - printed.rhs).subs(_ON_MOTION)), sp.expand(total**2 - printed.lhs)]),
-            step("Its left side is a perfect square, so its discriminant B^2 - 4 A C is 0: at every instant it is a "
-                 "pair of parallel lines through the point, and these turn with P_A and P_B at the drive's frequency. "
-                 "It is not the path.", zero=flat),
-            step("What stays is the conic in the responses, delta their phase difference at that instant, "
-                 "omega_b t + varphi_b - omega_a t - varphi_a:", sp.Eq(conic, 0)),
-            step("Its discriminant is negative, so it is an ellipse unless sin(delta) = 0:", round_,
-                 zero=sp.expand(round_ * W_a**2 * W_b**2 - 4 * sp.cos(delta) ** 2 + 4)),
-            step("The displacements are the responses turned by k_c x, so the path is the same ellipse, turned. Its "
-                 "area is pi D k_c W_a W_b |sin delta|, and Q = D k_c omega W_a W_b sin(delta) for equal frequencies: "
-                 "Q's sign is the sense of turning.", form),
+            step(
+                "((1) + (2))^2 of (A12) is the printed equation, an identity at every instant:",
+                printed,
+                zero=[sp.expand((printed.lhs - printed.rhs).subs(_ON_MOTION)), sp.expand(total**2 - printed.lhs)],
+            ),
+            step(
+                "Its left side is a perfect square, so its discriminant B^2 - 4 A C is 0: at every instant it is a "
+                "pair of parallel lines through the point, and these turn with P_A and P_B at the drive's frequency. "
+                "It is not the path.",
+                zero=flat,
+            ),
+            step(
+                "What stays is the conic in the responses, delta their phase difference at that instant, "
+                "omega_b t + varphi_b - omega_a t - varphi_a:",
+                sp.Eq(conic, 0),
+            ),
+            step(
+                "Its discriminant is negative, so it is an ellipse unless sin(delta) = 0:",
+                round_,
+                zero=sp.expand(round_ * W_a**2 * W_b**2 - 4 * sp.cos(delta) ** 2 + 4),
+            ),
+            step(
+                "The displacements are the responses turned by k_c x, so the path is the same ellipse, turned. Its "
+                "area is pi D k_c W_a W_b |sin delta|, and Q = D k_c omega W_a W_b sin(delta) for equal frequencies: "
+                "Q's sign is the sense of turning.",
+                form,
+            ),
         ),
         {"conic": form},
-    )  # fmt: skip
+    )
 
 
 def _judge_a13(forms: Forms) -> Iterator[Evidence]:
@@ -259,10 +304,15 @@ def _derive_a14() -> Derivation:
     average, _ = determinant.measures()
     ratio, _ = determinant.ratios()
     return Derivation(
-        (step("Eq. 43, numerator and denominator over the backward sum:", *_A14.values(),
-              zero=_A14["Q_aver"].subs(X, ratio) - average),),
+        (
+            step(
+                "Eq. 43, numerator and denominator over the backward sum:",
+                *_A14.values(),
+                zero=_A14["Q_aver"].subs(X, ratio) - average,
+            ),
+        ),
         {"Q_aver": _A14["Q_aver"], "X": ratio},
-    )  # fmt: skip
+    )
 
 
 def _judge_a14(forms: Forms) -> Iterator[Evidence]:
@@ -290,11 +340,15 @@ def _effect_a14() -> str:
 def _derive_a15() -> Derivation:
     form = sp.factor(_A14["Q_aver"].diff(X))
     return Derivation(
-        (step("The derivative of (A14); a positive number over a square:",
-              sp.Eq(sp.Derivative(_A14["Q_aver"], X), form),
-              zero=form - _A15["dQ_aver/dX"]),),
+        (
+            step(
+                "The derivative of (A14); a positive number over a square:",
+                sp.Eq(sp.Derivative(_A14["Q_aver"], X), form),
+                zero=form - _A15["dQ_aver/dX"],
+            ),
+        ),
         {"dQ_aver/dX": form},
-    )  # fmt: skip
+    )
 
 
 def _judge_a15(forms: Forms) -> Iterator[Evidence]:
@@ -342,12 +396,17 @@ def _derive_a16() -> Derivation:
     volatility = sp.sqrt((p_plus + p_minus) / sp.Abs(p_plus - p_minus)) / (T**2 * Q_aver)
     return Derivation(
         (
-            step("Eq. 44 put right, with the backward sum of squares taken out:", form,
-                 zero=[(form.subs(Y, p_plus / p_minus) - volatility).subs({p_plus: a, p_minus: b}).simplify()
-                       for a, b in ((3, 2), (1, 4))]),
+            step(
+                "Eq. 44 put right, with the backward sum of squares taken out:",
+                form,
+                zero=[
+                    (form.subs(Y, p_plus / p_minus) - volatility).subs({p_plus: a, p_minus: b}).simplify()
+                    for a, b in ((3, 2), (1, 4))
+                ],
+            ),
         ),
         {"Q_vib": form, "Y": p_plus / p_minus},
-    )  # fmt: skip
+    )
 
 
 def _judge_a16(forms: Forms) -> Iterator[Evidence]:
@@ -361,8 +420,15 @@ def _judge_a16(forms: Forms) -> Iterator[Evidence]:
         squares = (q[p_plus] + q[p_minus]) / abs(q[p_plus] - q[p_minus])
         return mp.sqrt(squares) / (q[T] ** 2 * q[Q_aver])
 
-    yield agrees(whole, direct, symbols=(p_plus, p_minus, T, Q_aver), ranges=_RANGES, count=8, tolerance=1e-20,
-                 against="eq. 44 put right, in the sums, for Y below and above 1")  # fmt: skip
+    yield agrees(
+        whole,
+        direct,
+        symbols=(p_plus, p_minus, T, Q_aver),
+        ranges=_RANGES,
+        count=8,
+        tolerance=1e-20,
+        against="eq. 44 put right, in the sums, for Y below and above 1",
+    )
     unit = forms["Q_vib"].subs({T: 1, Q_aver: 1})
     yield evidence("limit", sp.limit(unit, Y, sp.oo) == 1, "tends to 1/(T^2 Q_aver) when nothing turns back")
 
@@ -404,16 +470,25 @@ def _derive_a17() -> Derivation:
     branch_below = sp.sqrt((2 - below) / below)  # Y = 1 - e
     return Derivation(
         (
-            step("Above 1, with Y = 1 + g:", sp.Eq(sp.Symbol("f"), branch_above),
-                 zero=sp.simplify(branch_above.diff(above) ** 2 - 1 / (above**2 * ((1 + above) ** 2 - 1)))),
-            step("Below 1, with Y = 1 - e and so df/dY = -df/de:", sp.Eq(sp.Symbol("f"), branch_below),
-                 zero=sp.simplify(branch_below.diff(below) ** 2 - 1 / (below**2 * (1 - (1 - below) ** 2)))),
-            step("Both have the sign of 1 - Y. The printed -2/(Y - 1) is the derivative of (Y + 1)/(Y - 1) short of "
-                 "its square, and without the root's:", form,
-                 zero=sp.simplify(((Y + 1) / (Y - 1)).diff(Y) + 2 / (Y - 1) ** 2)),
+            step(
+                "Above 1, with Y = 1 + g:",
+                sp.Eq(sp.Symbol("f"), branch_above),
+                zero=sp.simplify(branch_above.diff(above) ** 2 - 1 / (above**2 * ((1 + above) ** 2 - 1))),
+            ),
+            step(
+                "Below 1, with Y = 1 - e and so df/dY = -df/de:",
+                sp.Eq(sp.Symbol("f"), branch_below),
+                zero=sp.simplify(branch_below.diff(below) ** 2 - 1 / (below**2 * (1 - (1 - below) ** 2))),
+            ),
+            step(
+                "Both have the sign of 1 - Y. The printed -2/(Y - 1) is the derivative of (Y + 1)/(Y - 1) short of "
+                "its square, and without the root's:",
+                form,
+                zero=sp.simplify(((Y + 1) / (Y - 1)).diff(Y) + 2 / (Y - 1) ** 2),
+            ),
         ),
         {"df/dY": form},
-    )  # fmt: skip
+    )
 
 
 def _judge_a17(forms: Forms) -> Iterator[Evidence]:
@@ -425,8 +500,15 @@ def _judge_a17(forms: Forms) -> Iterator[Evidence]:
 
         return (8 * (f(q[Y] + h) - f(q[Y] - h)) - f(q[Y] + 2 * h) + f(q[Y] - 2 * h)) / (12 * h)
 
-    yield agrees(forms, differences, symbols=(Y,), ranges=_RANGES, count=8, tolerance=1e-6,
-                 against="differences of f, for Y below and above 1")  # fmt: skip
+    yield agrees(
+        forms,
+        differences,
+        symbols=(Y,),
+        ranges=_RANGES,
+        count=8,
+        tolerance=1e-6,
+        against="differences of f, for Y below and above 1",
+    )
     squared = forms["df/dY"].subs(Y, 3) ** 2 - sp.sqrt((Y + 1) / (Y - 1)).diff(Y).subs(Y, 3) ** 2
     yield evidence("identity", sp.simplify(squared) == 0, "the derivative of f at Y = 3, in closed form")
 
@@ -444,49 +526,117 @@ def _effect_a17() -> str:
 _B, _C1, _C2 = "Appendix B", "Appendix C.1", "Appendix C.2"
 ENTRIES = (
     Entry(
-        id="A10", section="B", title="Responses of the two phases", place=_B, printed=_A10,
-        units={"w_A": "m", "w_B": "m"}, verdict="definition", judge=_judge_a10, derive=_derive_a10, effect=_effect_a10,
+        id="A10",
+        section="B",
+        title="Responses of the two phases",
+        place=_B,
+        printed=_A10,
+        units={"w_A": "m", "w_B": "m"},
+        verdict="definition",
+        judge=_judge_a10,
+        derive=_derive_a10,
+        effect=_effect_a10,
         reason="Two standing waves a quarter wave apart, of constant amplitude.",
     ),
     Entry(
-        id="A11", section="B", title="Displacements of a surface point, P_A and P_B", place=_B, printed=_A11,
-        units={"zeta_z": "m", "zeta_x": "m", "P_A": "m", "P_B": "m"}, verdict="verified", judge=_judge_a11,
-        derive=_derive_a11, effect=_effect_a11, reason="Superposition, and D times the slope.",
+        id="A11",
+        section="B",
+        title="Displacements of a surface point, P_A and P_B",
+        place=_B,
+        printed=_A11,
+        units={"zeta_z": "m", "zeta_x": "m", "P_A": "m", "P_B": "m"},
+        verdict="verified",
+        judge=_judge_a11,
+        derive=_derive_a11,
+        effect=_effect_a11,
+        reason="Superposition, and D times the slope.",
     ),
     Entry(
-        id="A12", section="B", title="Displacements times P_A and P_B", place=_B, printed=_A12, units={},
-        verdict="verified", judge=_judge_a12, derive=_derive_a12, effect=_effect_a12,
+        id="A12",
+        section="B",
+        title="Displacements times P_A and P_B",
+        place=_B,
+        printed=_A12,
+        units={},
+        verdict="verified",
+        judge=_judge_a12,
+        derive=_derive_a12,
+        effect=_effect_a12,
         reason="Holds for any responses.",
     ),
     Entry(
-        id="A13", section="B", title="General equation of the ellipse", place=_B, printed=_A13, units={},
-        verdict="erratum", judge=_judge_a13, derive=_derive_a13, effect=_effect_a13, known={delta: Dimension()},
-        repair=lambda _: _derive_a13().forms, found_by=("domain",), picture=_picture_a13,
+        id="A13",
+        section="B",
+        title="General equation of the ellipse",
+        place=_B,
+        printed=_A13,
+        units={},
+        verdict="erratum",
+        judge=_judge_a13,
+        derive=_derive_a13,
+        effect=_effect_a13,
+        known={delta: Dimension()},
+        repair=lambda _: _derive_a13().forms,
+        found_by=("domain",),
+        picture=_picture_a13,
         reason="An identity, but no ellipse: a perfect square whose coefficients turn with the vibration. The path's "
-               "conic has the amplitudes and the slow phase difference for coefficients.",
+        "conic has the amplitudes and the slow phase difference for coefficients.",
     ),
     Entry(
-        id="A14", section="C.1", title="Speed determinant in X", place=_C1, printed=_A14,
-        units={"Q_aver": "1/s", "X": "1"}, verdict="verified", judge=_judge_a14, derive=_derive_a14, effect=_effect_a14,
+        id="A14",
+        section="C.1",
+        title="Speed determinant in X",
+        place=_C1,
+        printed=_A14,
+        units={"Q_aver": "1/s", "X": "1"},
+        verdict="verified",
+        judge=_judge_a14,
+        derive=_derive_a14,
+        effect=_effect_a14,
         reason="Eq. 43 in the ratio of the sums.",
     ),
     Entry(
-        id="A15", section="C.1", title="Its derivative", place=_C1, printed=_A15, units={"dQ_aver/dX": "1/s"},
-        verdict="verified", judge=_judge_a15, derive=_derive_a15, effect=_effect_a15,
+        id="A15",
+        section="C.1",
+        title="Its derivative",
+        place=_C1,
+        printed=_A15,
+        units={"dQ_aver/dX": "1/s"},
+        verdict="verified",
+        judge=_judge_a15,
+        derive=_derive_a15,
+        effect=_effect_a15,
         reason="Positive for every X > 0, at constant T.",
     ),
     Entry(
-        id="A16", section="C.2", title="Volatility determinant in Y", place=_C2, printed=_A16,
-        units={"Q_vib": "1/s", "Y": "1"}, verdict="erratum", judge=_judge_a16, derive=_derive_a16, effect=_effect_a16,
+        id="A16",
+        section="C.2",
+        title="Volatility determinant in Y",
+        place=_C2,
+        printed=_A16,
+        units={"Q_vib": "1/s", "Y": "1"},
+        verdict="erratum",
+        judge=_judge_a16,
+        derive=_derive_a16,
+        effect=_effect_a16,
         repair=lambda forms: {**forms, "Q_vib": forms["Q_vib"].subs(_f_printed, _f)},
         found_by=("domain", "numeric"),
         reason="f(Y) is imaginary for Y < 1, for which the text states a monotonicity; needs |Y - 1|.",
     ),
     Entry(
-        id="A17", section="C.2", title="Derivative of f", place=_C2, printed=_A17, units={"df/dY": "1"},
-        verdict="erratum", judge=_judge_a17, derive=_derive_a17, effect=_effect_a17,
+        id="A17",
+        section="C.2",
+        title="Derivative of f",
+        place=_C2,
+        printed=_A17,
+        units={"df/dY": "1"},
+        verdict="erratum",
+        judge=_judge_a17,
+        derive=_derive_a17,
+        effect=_effect_a17,
         repair=lambda forms: {"df/dY": forms["df/dY"] / (2 * sp.sqrt(sp.Abs(Y**2 - 1)))},
-        found_by=("numeric", "identity"), picture=_picture_a17,
+        found_by=("numeric", "identity"),
+        picture=_picture_a17,
         reason="Not the derivative of f: short of a square, and of the root's inner derivative. The sign is right.",
     ),
-)  # fmt: skip
+)

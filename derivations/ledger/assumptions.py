@@ -97,10 +97,11 @@ def _wavenumber() -> tuple[Alternative, ...]:
     p = _point()
     at_contact = p["n_j"] / p["r_c"]
     return (
-        Alternative(f"k_c = n_j/r_c = {at_contact:.1f} 1/m for the surface, same resonance",
-                    _held(wavenumber=at_contact)),
+        Alternative(
+            f"k_c = n_j/r_c = {at_contact:.1f} 1/m for the surface, same resonance", _held(wavenumber=at_contact)
+        ),
         Alternative("contact radius 30 mm, where k_c is", {"contact_radius": 0.03}),
-    )  # fmt: skip
+    )
 
 
 def _wavenumber_estimate() -> str:
@@ -129,10 +130,12 @@ def _frequency() -> tuple[Alternative, ...]:
         difference = 3000 + _own_hertz() - hertz
         if difference > 100:
             found.append(
-                Alternative(f"{hertz / 1000:.1f} kHz, as at a height of {1e6 * height:g} um, same drive frequency",
-                            {"resonance_frequency": hertz, "amplitude": _point()["W"]},
-                            {"frequency_difference": difference})
-            )  # fmt: skip
+                Alternative(
+                    f"{hertz / 1000:.1f} kHz, as at a height of {1e6 * height:g} um, same drive frequency",
+                    {"resonance_frequency": hertz, "amplitude": _point()["W"]},
+                    {"frequency_difference": difference},
+                )
+            )
     return tuple(found)
 
 
@@ -157,11 +160,13 @@ def _off_resonance() -> float:
 
 def _amplitude() -> tuple[Alternative, ...]:
     return (
-        Alternative(f"{1e6 * _off_resonance() * 12.6e-6:.2f} um free, what the resonator leaves of 12.6 um",
-                    _held(amplitude=_off_resonance() * _point()["W"])),
+        Alternative(
+            f"{1e6 * _off_resonance() * 12.6e-6:.2f} um free, what the resonator leaves of 12.6 um",
+            _held(amplitude=_off_resonance() * _point()["W"]),
+        ),
         Alternative("amplitude forced by the ceramic (7), put right", levels={"amplitude": "forced"}),
         Alternative("that of two phases, each on half of the ring", _held(amplitude=_forced() / 2)),
-    )  # fmt: skip
+    )
 
 
 def _forced() -> float:
@@ -195,9 +200,12 @@ def _open_hertz() -> float:
 def _electrodes() -> tuple[Alternative, ...]:
     shift = _open_hertz() - _own_hertz()
     return (
-        Alternative(f"open, {shift:+.0f} Hz, same drive frequency", {"resonance_frequency": _open_hertz()},
-                    {"frequency_difference": 3000 - shift}),
-    )  # fmt: skip
+        Alternative(
+            f"open, {shift:+.0f} Hz, same drive frequency",
+            {"resonance_frequency": _open_hertz()},
+            {"frequency_difference": 3000 - shift},
+        ),
+    )
 
 
 def _electrodes_estimate() -> str:
@@ -234,14 +242,18 @@ def _axis() -> tuple[Alternative, ...]:
     turned, both = p["D"] * p["beta"] / p["k_c"], layers["D"] * layers["beta"] / p["k_c"]
     own = layers["omega_n"] / (2 * math.pi)
     return (
-        Alternative(f"axis of the layers, D = {1000 * layers['D']:.3f} mm, same resonance",
-                    _held(neutral_axis=layers["D"])),
-        Alternative(f"rotation for slope, D beta/k_c = {1000 * turned:.3f} mm, same resonance",
-                    _held(neutral_axis=turned)),
+        Alternative(
+            f"axis of the layers, D = {1000 * layers['D']:.3f} mm, same resonance", _held(neutral_axis=layers["D"])
+        ),
+        Alternative(
+            f"rotation for slope, D beta/k_c = {1000 * turned:.3f} mm, same resonance", _held(neutral_axis=turned)
+        ),
         Alternative(f"both, {1000 * both:.3f} mm, same resonance", _held(neutral_axis=both)),
-        Alternative(f"both, at the layers' resonance of {own / 1000:.2f} kHz",
-                    {"neutral_axis": both, "resonance_frequency": own}),
-    )  # fmt: skip
+        Alternative(
+            f"both, at the layers' resonance of {own / 1000:.2f} kHz",
+            {"neutral_axis": both, "resonance_frequency": own},
+        ),
+    )
 
 
 def _axis_estimate() -> str:
@@ -255,38 +267,87 @@ def _axis_estimate() -> str:
 
 
 ASSUMPTIONS: tuple[Assumption, ...] = (
-    Assumption("inertia", ("table-1-J", "38"), "The rotor's inertia",
-               "J = 4.5e-6 kg m^2: Table 1 prints no unit, and nothing else turns with the rotor.",
-               _inertia, _inertia_estimate),
-    Assumption("ring", ("4", "table-1-R"), "The radius of the beam",
-               "R = 30 mm, which Table 1's perimeter gives. It is the outer radius: the ring is 8 mm wide, its middle "
-               "at 26 mm.", _radius),
-    Assumption("contact-radius", ("11", "25"), "Where the rotor touches",
-               "k_c is that of 30 mm, but the rotor's speed is the surface's over a contact radius of 26.5 mm, itself "
-               "assumed.", _wavenumber, _wavenumber_estimate),
-    Assumption("constant-resonance", ("6", "9"), "One resonance all cycle",
-               "f_n is that of the amplitude W_maxf under the prepressure, all through the cycle.",
-               _frequency, _frequency_estimate),
-    Assumption("amplitude", ("8", "7"), "The measured amplitude off resonance",
-               "W_maxf = 12.6 um scaled by the prepressure, whatever the drive frequency (eq. 8).",
-               _amplitude, _amplitude_estimate),
-    Assumption("electrodes", ("10", "decay"), "Electrodes of a phase that is off",
-               "A phase vibrates at the same f_n whether it is driven, shorted or open.",
-               _electrodes, _electrodes_estimate),
-    Assumption("equal-modes", ("4", "9"), "Two equal modes",
-               "Both phases have the same resonance, damping and amplitude.", estimate=_modes_estimate),
-    Assumption("damping", ("decay", "9"), "Damping with and without load",
-               "xi = 0.006, from the decay that Sect. 7.3 measured, is that under prepressure and with the rotor too.",
-               _damping),
-    Assumption("axis-and-rotation", ("1", "11", "layered-section"), "Axis and rotation of the section",
-               "The surface's tangential motion is D times the slope, D from eq. 1.", _axis, _axis_estimate),
-)  # fmt: skip
+    Assumption(
+        "inertia",
+        ("table-1-J", "38"),
+        "The rotor's inertia",
+        "J = 4.5e-6 kg m^2: Table 1 prints no unit, and nothing else turns with the rotor.",
+        _inertia,
+        _inertia_estimate,
+    ),
+    Assumption(
+        "ring",
+        ("4", "table-1-R"),
+        "The radius of the beam",
+        "R = 30 mm, which Table 1's perimeter gives. It is the outer radius: the ring is 8 mm wide, its middle "
+        "at 26 mm.",
+        _radius,
+    ),
+    Assumption(
+        "contact-radius",
+        ("11", "25"),
+        "Where the rotor touches",
+        "k_c is that of 30 mm, but the rotor's speed is the surface's over a contact radius of 26.5 mm, itself "
+        "assumed.",
+        _wavenumber,
+        _wavenumber_estimate,
+    ),
+    Assumption(
+        "constant-resonance",
+        ("6", "9"),
+        "One resonance all cycle",
+        "f_n is that of the amplitude W_maxf under the prepressure, all through the cycle.",
+        _frequency,
+        _frequency_estimate,
+    ),
+    Assumption(
+        "amplitude",
+        ("8", "7"),
+        "The measured amplitude off resonance",
+        "W_maxf = 12.6 um scaled by the prepressure, whatever the drive frequency (eq. 8).",
+        _amplitude,
+        _amplitude_estimate,
+    ),
+    Assumption(
+        "electrodes",
+        ("10", "decay"),
+        "Electrodes of a phase that is off",
+        "A phase vibrates at the same f_n whether it is driven, shorted or open.",
+        _electrodes,
+        _electrodes_estimate,
+    ),
+    Assumption(
+        "equal-modes",
+        ("4", "9"),
+        "Two equal modes",
+        "Both phases have the same resonance, damping and amplitude.",
+        estimate=_modes_estimate,
+    ),
+    Assumption(
+        "damping",
+        ("decay", "9"),
+        "Damping with and without load",
+        "xi = 0.006, from the decay that Sect. 7.3 measured, is that under prepressure and with the rotor too.",
+        _damping,
+    ),
+    Assumption(
+        "axis-and-rotation",
+        ("1", "11", "layered-section"),
+        "Axis and rotation of the section",
+        "The surface's tangential motion is D times the slope, D from eq. 1.",
+        _axis,
+        _axis_estimate,
+    ),
+)
 """Every assumption, in the order of the page."""
 _OUTPUTS = {
-    "resonance_frequency": ("f_n, kHz", 1e-3, ".2f"), "amplitude": ("W, um", 1e6, ".2f"),
-    "q_average": ("Q_aver, 1/s", 1.0, ".0f"), "q_volatility": ("Q_vib, 1/s", 1.0, ".0f"),
-    "mean_speed": ("mean speed, rad/s", 1.0, ".2f"), "speed_volatility": ("volatility, %", 100.0, ".3g"),
-}  # fmt: skip
+    "resonance_frequency": ("f_n, kHz", 1e-3, ".2f"),
+    "amplitude": ("W, um", 1e6, ".2f"),
+    "q_average": ("Q_aver, 1/s", 1.0, ".0f"),
+    "q_volatility": ("Q_vib, 1/s", 1.0, ".0f"),
+    "mean_speed": ("mean speed, rad/s", 1.0, ".2f"),
+    "speed_volatility": ("volatility, %", 100.0, ".3g"),
+}
 
 
 @cache
@@ -317,8 +378,14 @@ def _record(identifier: str) -> dict[str, Any]:
             found = _base(reading) if alternative is None else _outcome(alternative, reading)
             label = "as computed" if alternative is None else alternative.label
             rows.append({"what": label, "reading": reading, **found})
-    return {"id": one.id, "title": one.title, "taken": one.taken, "estimate": one.estimate(), "outcomes": rows,
-            "about": list(one.about)}  # fmt: skip
+    return {
+        "id": one.id,
+        "title": one.title,
+        "taken": one.taken,
+        "estimate": one.estimate(),
+        "outcomes": rows,
+        "about": list(one.about),
+    }
 
 
 def assumptions_of(entry: str) -> list[dict[str, Any]]:

@@ -90,22 +90,34 @@ def _derive_half() -> Derivation:
     found = _slow_share(_difference_hz(), 100 - 55)
     return Derivation(
         (
-            step("With constant amplitudes Q runs as the sine of the phases' difference (A8), which changes sign "
-                 "every half beat: forward and backward take half each.", slow,
-                 zero=sp.expand_trig(slow.subs(step_, step_ + sp.pi) + slow)),
-            step("A decaying amplitude scales Q but does not move its zeros, so over whole beats of T_redu that stays "
-                 "so, up to the ripple of the sum frequency."),
-            step("In T_addredu B is free, i g, where g is the decay since t_2, and A forced and free: at t_2 it is the "
-                 "rest r of T_redu. Against the drive's angle Omega, both over W, Q has the sign of",
-                 sp.cos(step_) - kappa * turn, zero=gap),
-            step("|r| is the decay over T_redu, below 1, so 1 - Re r > 0: Q is positive only where cos Omega > "
-                 "(1 - Re r) g > 0, which is less than half of every beat, whatever the drive. Forward never takes "
-                 "half. How much less depends on where in its beat the drive is at t_2, and on the decay."),
-            step(f"For Sect. 5's m = 100, n = 55 at 3000 Hz that is {found:.3f} of the whole beats; over other "
-                 "drives anything from 0 to below one half."),
+            step(
+                "With constant amplitudes Q runs as the sine of the phases' difference (A8), which changes sign "
+                "every half beat: forward and backward take half each.",
+                slow,
+                zero=sp.expand_trig(slow.subs(step_, step_ + sp.pi) + slow),
+            ),
+            step(
+                "A decaying amplitude scales Q but does not move its zeros, so over whole beats of T_redu that stays "
+                "so, up to the ripple of the sum frequency."
+            ),
+            step(
+                "In T_addredu B is free, i g, where g is the decay since t_2, and A forced and free: at t_2 it is the "
+                "rest r of T_redu. Against the drive's angle Omega, both over W, Q has the sign of",
+                sp.cos(step_) - kappa * turn,
+                zero=gap,
+            ),
+            step(
+                "|r| is the decay over T_redu, below 1, so 1 - Re r > 0: Q is positive only where cos Omega > "
+                "(1 - Re r) g > 0, which is less than half of every beat, whatever the drive. Forward never takes "
+                "half. How much less depends on where in its beat the drive is at t_2, and on the decay."
+            ),
+            step(
+                f"For Sect. 5's m = 100, n = 55 at 3000 Hz that is {found:.3f} of the whole beats; over other "
+                "drives anything from 0 to below one half."
+            ),
         ),
         {"share_redu": _HALF, "share_addredu": sp.Float(f"{found:.3f}")},
-    )  # fmt: skip
+    )
 
 
 def _repair_half(forms: Forms) -> Forms:
@@ -131,12 +143,18 @@ def _most_over_drives() -> tuple[float, float, int]:
 def _judge_half(forms: Forms) -> Iterator[Evidence]:
     exact = _measured_shares()
     listed = ", ".join(f"{key} {value:.3f}" for key, value in exact.items())
-    yield evidence("numeric", all(abs(float(forms[key]) - exact[key]) < 0.01 for key in forms),
-                   f"share of forward turning over whole beats, by the roots of the exact Q: {listed}")  # fmt: skip
+    yield evidence(
+        "numeric",
+        all(abs(float(forms[key]) - exact[key]) < 0.01 for key in forms),
+        f"share of forward turning over whole beats, by the roots of the exact Q: {listed}",
+    )
     low, high, count = _most_over_drives()
-    yield evidence("limit", float(forms["share_addredu"]) < 0.5 and high < 0.5,
-                   "forward takes less than half of the first beat of T_addredu: over "
-                   f"{count} drives, 2000 to 5000 Hz and 30 to 60 pulses, {low:.3f} to {high:.3f} of it")  # fmt: skip
+    yield evidence(
+        "limit",
+        float(forms["share_addredu"]) < 0.5 and high < 0.5,
+        "forward takes less than half of the first beat of T_addredu: over "
+        f"{count} drives, 2000 to 5000 Hz and 30 to 60 pulses, {low:.3f} to {high:.3f} of it",
+    )
 
 
 def _effect_half() -> str:
@@ -167,14 +185,20 @@ def _derive_crest() -> Derivation:
     sine, cosine = A / sp.sqrt(A**2 + B**2), B / sp.sqrt(A**2 + B**2)
     return Derivation(
         (
-            step("The crest is where the slope d(zeta_z)/dx vanishes (eq. 20); the vertical velocity there is "
-                 "w_A' sin(k_c x_max) + w_B' cos(k_c x_max):", vA * sine + vB * cosine,
-                 zero=sp.expand(vA * sine + vB * cosine - rate)),
-            step("the rate of the crest's height, which is 0 only if the height does not change: in a steady wave, "
-                 "not in a beat.", rate),
+            step(
+                "The crest is where the slope d(zeta_z)/dx vanishes (eq. 20); the vertical velocity there is "
+                "w_A' sin(k_c x_max) + w_B' cos(k_c x_max):",
+                vA * sine + vB * cosine,
+                zero=sp.expand(vA * sine + vB * cosine - rate),
+            ),
+            step(
+                "the rate of the crest's height, which is 0 only if the height does not change: in a steady wave, "
+                "not in a beat.",
+                rate,
+            ),
         ),
         {"zeta_z_rate": rate},
-    )  # fmt: skip
+    )
 
 
 def _judge_crest(forms: Forms) -> Iterator[Evidence]:
@@ -227,8 +251,12 @@ def _power_at(height: float, force: float) -> float:
 
 def _derive_power() -> Derivation:
     W, omega, angle = sp.symbols("W Omega alpha", positive=True)
-    steady = {transfer.w_A: W * sp.sin(angle), transfer.w_B: W * sp.cos(angle),
-              transfer.v_A: W * omega * sp.cos(angle), transfer.v_B: -W * omega * sp.sin(angle)}  # fmt: skip
+    steady = {
+        transfer.w_A: W * sp.sin(angle),
+        transfer.w_B: W * sp.cos(angle),
+        transfer.v_A: W * omega * sp.cos(angle),
+        transfer.v_B: -W * omega * sp.sin(angle),
+    }
     states = {key: sp.simplify(value.subs(steady)) for key, value in transfer.wave_states().items()}
     speed = sp.simplify(transfer.surface_speed().subs(transfer.u, 0).subs(states))
     product = sp.simplify(speed * states[transfer.W_c])
@@ -240,21 +268,33 @@ def _derive_power() -> Derivation:
     short = sp.Rational(3, 2) * a - sp.Rational(1, 2) * a**3  # a over theta: share of a parabola's load inside
     return Derivation(
         (
-            step("In a steady wave of amplitude W the crest runs at", speed,
-                 zero=sp.simplify(W * speed.diff(W) - speed)),
-            step("so both parameters are one: v_xmax grows as W. A rotor without load runs at v_xmax cos(a), where the "
-                 "faster stretch |u| < a of the contact carries half of the load:", sp.Eq(half, 0),
-                 zero=sp.simplify(balance * (sp.sin(zone) - zone * sp.cos(zone)) - half)),
-            step("a follows theta, which a higher wave makes smaller under the same prepressure; so the rotor gains a "
-                 "little more than the surface. In a short contact a/theta is the root of", sp.Eq(short, _HALF),
-                 zero=sp.Rational(3, 2) * 2 * sp.sin(sp.pi / 18)
-                 - sp.Rational(1, 2) * (2 * sp.sin(sp.pi / 18)) ** 3 - sp.sin(sp.pi / 6)),
-            step("and cos(a) tends to 1: proportional in the limit, and by how much not is under Evidence. The "
-                 "product of both parameters, Q, goes as W squared, so it grows as the square of that speed; it gives "
-                 "the direction.", product, zero=sp.simplify(W * product.diff(W) - 2 * product)),
+            step(
+                "In a steady wave of amplitude W the crest runs at", speed, zero=sp.simplify(W * speed.diff(W) - speed)
+            ),
+            step(
+                "so both parameters are one: v_xmax grows as W. A rotor without load runs at v_xmax cos(a), where the "
+                "faster stretch |u| < a of the contact carries half of the load:",
+                sp.Eq(half, 0),
+                zero=sp.simplify(balance * (sp.sin(zone) - zone * sp.cos(zone)) - half),
+            ),
+            step(
+                "a follows theta, which a higher wave makes smaller under the same prepressure; so the rotor gains a "
+                "little more than the surface. In a short contact a/theta is the root of",
+                sp.Eq(short, _HALF),
+                zero=sp.Rational(3, 2) * 2 * sp.sin(sp.pi / 18)
+                - sp.Rational(1, 2) * (2 * sp.sin(sp.pi / 18)) ** 3
+                - sp.sin(sp.pi / 6),
+            ),
+            step(
+                "and cos(a) tends to 1: proportional in the limit, and by how much not is under Evidence. The "
+                "product of both parameters, Q, goes as W squared, so it grows as the square of that speed; it gives "
+                "the direction.",
+                product,
+                zero=sp.simplify(W * product.diff(W) - 2 * product),
+            ),
         ),
         _POWERS,
-    )  # fmt: skip
+    )
 
 
 def _free_speed(height: float, force: float) -> float:
@@ -272,9 +312,13 @@ def _judge_power(forms: Forms) -> Iterator[Evidence]:
     heights = p["W"] * math.exp(-h), p["W"] * math.exp(h)
     slope = (math.log(_free_speed(heights[1], p["F_c"]) / _free_speed(heights[0], p["F_c"])) + 2 * h) / (2 * h)
     off = largest(abs(float(form) - slope) for form in forms.values())
-    yield evidence("numeric", off < 0.02, f"on a steady wave twice as high at one percent the speed of a free rotor "
-                   f"grows by the power {slope:.4f} of the height, friction summed over the settled "
-                   "contact")  # fmt: skip
+    yield evidence(
+        "numeric",
+        off < 0.02,
+        f"on a steady wave twice as high at one percent the speed of a free rotor "
+        f"grows by the power {slope:.4f} of the height, friction summed over the settled "
+        "contact",
+    )
     both = sp.simplify(forms["power_of_W"] - forms["power_of_v_xmax"])
     yield evidence("identity", both == 0, "in a steady wave v_xmax grows as W, so both powers are the same")
 
@@ -315,14 +359,20 @@ def _derive_contact() -> Derivation:
     return Derivation(
         (
             step("A layer that carries F_c > 0 touches somewhere, and the crest is highest:", depth, sp.Eq(F_c, load)),
-            step("The load grows with theta, so there is one theta for every W_c, up to theta = pi:",
-                 load.diff(theta), zero=load.diff(theta) - 2 * n_j * k_N * W_c / k_c * theta * sp.sin(theta)),
-            step("Below a height of F_c k_c/(2 pi n_j k_N) even theta = pi cannot carry it, and the whole wave is in "
-                 "contact:", F_c * k_c / (2 * sp.pi * n_j * k_N),
-                 zero=sp.simplify(load.subs(theta, sp.pi).subs(W_c, F_c * k_c / (2 * sp.pi * n_j * k_N)) - F_c)),
+            step(
+                "The load grows with theta, so there is one theta for every W_c, up to theta = pi:",
+                load.diff(theta),
+                zero=load.diff(theta) - 2 * n_j * k_N * W_c / k_c * theta * sp.sin(theta),
+            ),
+            step(
+                "Below a height of F_c k_c/(2 pi n_j k_N) even theta = pi cannot carry it, and the whole wave is in "
+                "contact:",
+                F_c * k_c / (2 * sp.pi * n_j * k_N),
+                zero=sp.simplify(load.subs(theta, sp.pi).subs(W_c, F_c * k_c / (2 * sp.pi * n_j * k_N)) - F_c),
+            ),
         ),
         _CONTACT,
-    )  # fmt: skip
+    )
 
 
 def _threshold() -> float:
@@ -350,14 +400,20 @@ def _judge_contact(forms: Forms) -> Iterator[Evidence]:
     load = values()["F_c"]
     settled = [_settled(float(W_c), load) for start in STARTS for W_c in history(start).W_c[::200]]
     share = float(np.mean([abs(at) < 1e-3 and depth > 0 for at, depth in settled]))
-    yield evidence("numeric", abs(float(forms["share_in_contact"]) - share) < 1e-12,
-                   "the layer lowered until it carries the load stands deepest on the crest at every moment, under "
-                   f"any start: {100 * share:.0f} %")  # fmt: skip
+    yield evidence(
+        "numeric",
+        abs(float(forms["share_in_contact"]) - share) < 1e-12,
+        "the layer lowered until it carries the load stands deepest on the crest at every moment, under "
+        f"any start: {100 * share:.0f} %",
+    )
     depths = [_settled(values()["W"], factor * load)[1] for factor in (0.5, 1.0)]
     power = math.log(depths[1] / depths[0]) / math.log(2)
-    yield evidence("limit", abs(power - 2 / 3) < 0.02,
-                   f"the depth grows as the load to the power {power:.3f}, 2/3 for a short contact: it ends at no "
-                   "load, not before")  # fmt: skip
+    yield evidence(
+        "limit",
+        abs(power - 2 / 3) < 0.02,
+        f"the depth grows as the load to the power {power:.3f}, 2/3 for a short contact: it ends at no "
+        "load, not before",
+    )
 
 
 def _effect_contact() -> str:
@@ -384,11 +440,14 @@ def _derive_constant() -> Derivation:
     return Derivation(
         (
             step("T_Qall is m periods of the drive:", period),
-            step("It changes with Delta omega by its share of the drive's frequency:", change,
-                 zero=change + Delta_omega / (omega_n + Delta_omega)),
+            step(
+                "It changes with Delta omega by its share of the drive's frequency:",
+                change,
+                zero=change + Delta_omega / (omega_n + Delta_omega),
+            ),
         ),
         _CONSTANT,
-    )  # fmt: skip
+    )
 
 
 def _judge_constant(forms: Forms) -> Iterator[Evidence]:
@@ -398,8 +457,10 @@ def _judge_constant(forms: Forms) -> Iterator[Evidence]:
     closer = stated / (_period(180, 2805) / _period(180, 2800)) - 1
     yield error_size(
         f"T (at 3300 over 2800 Hz {over_f:.5f}, at 210 over 160 N {over_p:.5f})",
-        lambda: (float(worst), float(worst)), "a narrow range of frequency differences", lambda: float(closer),
-    )  # fmt: skip
+        lambda: (float(worst), float(worst)),
+        "a narrow range of frequency differences",
+        lambda: float(closer),
+    )
     yield evidence("limit", stated == 1, "no change of the drive, no change of T")
 
 
@@ -420,11 +481,14 @@ def _derive_beats() -> Derivation:
     beats = (m - n) * Delta_omega / omega_q
     return Derivation(
         (
-            step("T_redu lasts m - n drive periods, a beat 2 pi/Delta omega:", beats,
-                 zero=beats - (m - n) * 2 * sp.pi / omega_q / (2 * sp.pi / Delta_omega)),
+            step(
+                "T_redu lasts m - n drive periods, a beat 2 pi/Delta omega:",
+                beats,
+                zero=beats - (m - n) * 2 * sp.pi / omega_q / (2 * sp.pi / Delta_omega),
+            ),
         ),
         {"beats_in_T_redu": beats},
-    )  # fmt: skip
+    )
 
 
 def _judge_beats(forms: Forms) -> Iterator[Evidence]:
@@ -433,9 +497,12 @@ def _judge_beats(forms: Forms) -> Iterator[Evidence]:
     turns = int((np.sign(q[1:]) != np.sign(q[:-1])).sum())
     at = {m: 100, n: 55, Delta_omega: values()["Delta_omega"], omega_q: values()["omega_q"]}
     found = float(forms["beats_in_T_redu"].subs(at))
-    yield evidence("numeric", abs(found - turns / 2) < 0.5,
-                   f"Q changes sign {turns} times in T_redu for m = 100, n = 55 (steady start): {turns / 2:.1f} "
-                   f"beats; stated {found:.2f}")  # fmt: skip
+    yield evidence(
+        "numeric",
+        abs(found - turns / 2) < 0.5,
+        f"Q changes sign {turns} times in T_redu for m = 100, n = 55 (steady start): {turns / 2:.1f} "
+        f"beats; stated {found:.2f}",
+    )
     longer = float(forms["beats_in_T_redu"].subs({**at, m: 145})) / found
     yield evidence("limit", abs(longer - 2) < 1e-12, "twice the pulses, twice the beats")
 
@@ -461,12 +528,15 @@ def _derive_add() -> Derivation:
     form = 2 * sp.pi / (omega_q - omega_n)
     return Derivation(
         (
-            step("Forced and free vibration added are a carrier times an envelope:", sp.Eq(total, product),
-                 zero=sp.expand((total - product).rewrite(sp.exp))),
+            step(
+                "Forced and free vibration added are a carrier times an envelope:",
+                sp.Eq(total, product),
+                zero=sp.expand((total - product).rewrite(sp.exp)),
+            ),
             step("4 pi/(omega_q + omega_n) is the carrier's period; the envelope's magnitude repeats after", form),
         ),
         {"T_beat": form},
-    )  # fmt: skip
+    )
 
 
 def _repair_add(forms: Forms) -> Forms:
@@ -481,10 +551,11 @@ def _judge_add(forms: Forms) -> Iterator[Evidence]:
     nodes = time[1:-1][(size[1:-1] < size[:-2]) & (size[1:-1] <= size[2:])]
     seen = float(np.diff(nodes).mean())
     found = float(forms["T_beat"].subs({omega_q: p["omega_q"], omega_n: p["omega_n"]}))
-    yield evidence("numeric", abs(found / seen - 1) < 1e-4,
-                   f"nodes of two added vibrations follow every "
-                   f"{1e6 * seen:.1f} us; "
-                   f"stated {1e6 * found:.1f} us")  # fmt: skip
+    yield evidence(
+        "numeric",
+        abs(found / seen - 1) < 1e-4,
+        f"nodes of two added vibrations follow every {1e6 * seen:.1f} us; stated {1e6 * found:.1f} us",
+    )
     near = abs(float(forms["T_beat"].subs({omega_q: 1.000001, omega_n: 1})))
     yield evidence("limit", near > 1e6, "grows without bound as the frequencies meet")
 
@@ -505,51 +576,102 @@ def _entry(identifier: str, **fields: Any) -> Entry:  # noqa: ANN401
 
 ENTRIES = (
     _entry(
-        "claim-half-beat", section="3.5", place="Sect. 3.5, Appendix A", printed=_SHARES, verdict="erratum",
+        "claim-half-beat",
+        section="3.5",
+        place="Sect. 3.5, Appendix A",
+        printed=_SHARES,
+        verdict="erratum",
         title="'The time for both phases is half of the beat period'",
-        judge=_judge_half, derive=_derive_half, effect=_effect_half,
+        judge=_judge_half,
+        derive=_derive_half,
+        effect=_effect_half,
         repair=_repair_half,
         found_by=("numeric", "limit"),
         reason="True for constant amplitudes and, over whole beats, in T_redu; in T_addredu forward turning takes less "
-               "than half of every beat, whatever the drive, and how much less depends on the drive.",
+        "than half of every beat, whatever the drive, and how much less depends on the drive.",
     ),
     _entry(
-        "claim-crest", section="3.4", place="Sect. 3.4", title="'At the wave peak the vertical velocity is zero'",
-        printed=_CREST, verdict="erratum", judge=_judge_crest, derive=_derive_crest, effect=_effect_crest,
-        repair=lambda _: _derive_crest().forms, found_by=("numeric",), units={},
+        "claim-crest",
+        section="3.4",
+        place="Sect. 3.4",
+        title="'At the wave peak the vertical velocity is zero'",
+        printed=_CREST,
+        verdict="erratum",
+        judge=_judge_crest,
+        derive=_derive_crest,
+        effect=_effect_crest,
+        repair=lambda _: _derive_crest().forms,
+        found_by=("numeric",),
+        units={},
         known=transfer.DIMENSIONS,
         reason="The slope is zero at the crest; the vertical velocity is the rate of its height, zero all the time "
-               "only where the height does not change, as in a steady wave.",
+        "only where the height does not change, as in a steady wave.",
     ),
     _entry(
-        "claim-proportional", section="6.1", place="below eq. 42", printed=_POWERS, verdict="approximation",
+        "claim-proportional",
+        section="6.1",
+        place="below eq. 42",
+        printed=_POWERS,
+        verdict="approximation",
         title="Amplitude and tangential velocity are 'directly proportional to the rotor speed'",
-        judge=_judge_power, derive=_derive_power, effect=_effect_power,
+        judge=_judge_power,
+        derive=_derive_power,
+        effect=_effect_power,
         reason="Said of the amplitude and of the tangential velocity at the crest, not of their product. On a steady "
-               "wave, without load, each holds nearly; then the product Q grows as the square of the speed.",
+        "wave, without load, each holds nearly; then the product Q grows as the square of the speed.",
     ),
     _entry(
-        "claim-contact", section="5.3", place="Sects. 3.1, 5.3", title="The crest 'is always in contact'",
+        "claim-contact",
+        section="5.3",
+        place="Sects. 3.1, 5.3",
+        title="The crest 'is always in contact'",
         printed=_CONTACT,
-        verdict="verified", judge=_judge_contact, derive=_derive_contact, effect=_effect_contact,
+        verdict="verified",
+        judge=_judge_contact,
+        derive=_derive_contact,
+        effect=_effect_contact,
         reason="Under a constant prepressure the crest always stands in the layer.",
     ),
     _entry(
-        "claim-T_Qall", section="6.2", place="Sects. 6.2.1, 6.2.2", title="T_Qall 'remains almost constant'",
-        printed=_CONSTANT, verdict="approximation", judge=_judge_constant, derive=_derive_constant,
-        effect=_effect_constant, reason="It changes by about one per cent over the range of frequency differences.",
+        "claim-T_Qall",
+        section="6.2",
+        place="Sects. 6.2.1, 6.2.2",
+        title="T_Qall 'remains almost constant'",
+        printed=_CONSTANT,
+        verdict="approximation",
+        judge=_judge_constant,
+        derive=_derive_constant,
+        effect=_effect_constant,
+        reason="It changes by about one per cent over the range of frequency differences.",
     ),
     _entry(
-        "claim-one-beat", section="5.2.1", place="Sect. 5.2.1", title="'One beat period in T_reduT'", printed=_BEATS,
-        verdict="erratum", judge=_judge_beats, derive=_derive_beats, effect=_effect_beats,
-        repair=lambda _: _derive_beats().forms, found_by=("numeric", "limit"),
+        "claim-one-beat",
+        section="5.2.1",
+        place="Sect. 5.2.1",
+        title="'One beat period in T_reduT'",
+        printed=_BEATS,
+        verdict="erratum",
+        judge=_judge_beats,
+        derive=_derive_beats,
+        effect=_effect_beats,
+        repair=lambda _: _derive_beats().forms,
+        found_by=("numeric", "limit"),
         reason="With m = 100 and n = 55 there are more than three.",
     ),
     _entry(
-        "claim-add-beat", section="5.2.3", place="Sect. 5.2.3", title="Beat period in T_addT", printed=_ADD,
-        units={"T_beat": "s"}, verdict="erratum", judge=_judge_add, derive=_derive_add, effect=_effect_add,
-        repair=_repair_add, found_by=("numeric", "limit"),
+        "claim-add-beat",
+        section="5.2.3",
+        place="Sect. 5.2.3",
+        title="Beat period in T_addT",
+        printed=_ADD,
+        units={"T_beat": "s"},
+        verdict="erratum",
+        judge=_judge_add,
+        derive=_derive_add,
+        effect=_effect_add,
+        repair=_repair_add,
+        found_by=("numeric", "limit"),
         reason="4 pi/(omega_q + omega_n) is the period of the vibration itself, not of its envelope, which "
-               "repeats with the whole difference of the frequencies, as (15) put right has it for the two phases.",
+        "repeats with the whole difference of the frequencies, as (15) put right has it for the two phases.",
     ),
-)  # fmt: skip
+)

@@ -34,11 +34,14 @@ def _derive_signs() -> Derivation:
     return Derivation(
         (
             step("By (A14), z = 1/(T^2 Q_aver) in X is", z, zero=z - 1 / (T**2 * ((X - 1) / ((X + 1) * T)))),
-            step("It falls on either side of its pole X = 1; on Y it does not depend:", slope,
-                 zero=sp.simplify(slope + 2 / ((X - 1) ** 2 * T))),
+            step(
+                "It falls on either side of its pole X = 1; on Y it does not depend:",
+                slope,
+                zero=sp.simplify(slope + 2 / ((X - 1) ** 2 * T)),
+            ),
         ),
         {"sign_dz": sp.Integer(-1)},
-    )  # fmt: skip
+    )
 
 
 def _judge_signs(forms: Forms) -> Iterator[Evidence]:
@@ -104,24 +107,39 @@ def _derive_trend() -> Derivation:
     average = sp.sign(Q_aver)
     return Derivation(
         (
-            step("Q_vib = f(Y)/(T^2 Q_aver), with f = ((Y + 1)/|Y - 1|)^(1/2) > 0 (A16 put right). At constant Q_aver "
-                 "and T its trend is that of f, times the sign of Q_aver:", root / (T**2 * Q_aver)),
-            step("Above 1, Y = 1 + g, f falls; below, Y = 1 - e, it rises with Y:",
-                 sp.sqrt((above + 2) / above), sp.sqrt((2 - below) / below),
-                 zero=[sp.simplify(((above + 2) / above).diff(above) + 2 / above**2),
-                       sp.simplify(((2 - below) / below).diff(below) + 2 / below**2)]),
-            step("So both stated trends are right where Q_aver > 0 and both turn round where Q_aver < 0.",
-                 -average, average),
-            step("The sign of Q_aver is that of X - 1 (A14), a ratio of sums, Y one of sums of squares: neither bounds "
-                 "the other's side of 1: any two positive numbers are X and Y of some Q in two steps. A drive of the "
-                 "motor shows it: 55 of 100 pulses, 4000 Hz, phase lead -1, periodic, "
-                 f"has X = {seen[0]:.3f} and Y = {seen[1]:.3f}, forward turning longer and weaker, and with phase lead "
-                 "+1, where Q changes its sign, X and Y are the inverse."),
-            step("X and Y of one cycle change together, so along a change of the drive Q_vib need not follow either "
-                 "trend."),
+            step(
+                "Q_vib = f(Y)/(T^2 Q_aver), with f = ((Y + 1)/|Y - 1|)^(1/2) > 0 (A16 put right). At constant Q_aver "
+                "and T its trend is that of f, times the sign of Q_aver:",
+                root / (T**2 * Q_aver),
+            ),
+            step(
+                "Above 1, Y = 1 + g, f falls; below, Y = 1 - e, it rises with Y:",
+                sp.sqrt((above + 2) / above),
+                sp.sqrt((2 - below) / below),
+                zero=[
+                    sp.simplify(((above + 2) / above).diff(above) + 2 / above**2),
+                    sp.simplify(((2 - below) / below).diff(below) + 2 / below**2),
+                ],
+            ),
+            step(
+                "So both stated trends are right where Q_aver > 0 and both turn round where Q_aver < 0.",
+                -average,
+                average,
+            ),
+            step(
+                "The sign of Q_aver is that of X - 1 (A14), a ratio of sums, Y one of sums of squares: neither bounds "
+                "the other's side of 1: any two positive numbers are X and Y of some Q in two steps. A drive of the "
+                "motor shows it: 55 of 100 pulses, 4000 Hz, phase lead -1, periodic, "
+                f"has X = {seen[0]:.3f} and Y = {seen[1]:.3f}, forward turning longer and weaker, and with phase lead "
+                "+1, where Q changes its sign, X and Y are the inverse."
+            ),
+            step(
+                "X and Y of one cycle change together, so along a change of the drive Q_vib need not follow either "
+                "trend."
+            ),
         ),
         {"trend_above": -average, "trend_below": average},
-    )  # fmt: skip
+    )
 
 
 def _judge_trend(forms: Forms) -> Iterator[Evidence]:
@@ -130,12 +148,18 @@ def _judge_trend(forms: Forms) -> Iterator[Evidence]:
         found = _trends(average)
         listed += [f"{key} {sorted(signs)} for Q_aver {'>' if average > 0 else '<'} 0" for key, signs in found.items()]
         wrong += [key for key, signs in found.items() if signs != {int(forms[key].subs(Q_aver, average))}]
-    yield evidence("numeric", not wrong, "Q_vib over rising Y at constant Q_aver, from the sums of a Q in two steps: "
-                   + ", ".join(listed))  # fmt: skip
+    yield evidence(
+        "numeric",
+        not wrong,
+        "Q_vib over rising Y at constant Q_aver, from the sums of a Q in two steps: " + ", ".join(listed),
+    )
     poles = [sp.limit((Y + 1) / (Y - 1), Y, 1, "+"), sp.limit((Y + 1) / (1 - Y), Y, 1, "-")] == [sp.oo, sp.oo]
     towards = {("trend_above", a): -a for a in (1, -1)} | {("trend_below", a): a for a in (1, -1)}
-    yield evidence("limit", poles and all(forms[key].subs(Q_aver, a) == sign for (key, a), sign in towards.items()),
-                   "towards Y = 1 from either side Q_vib grows without bound in the sense of Q_aver")  # fmt: skip
+    yield evidence(
+        "limit",
+        poles and all(forms[key].subs(Q_aver, a) == sign for (key, a), sign in towards.items()),
+        "towards Y = 1 from either side Q_vib grows without bound in the sense of Q_aver",
+    )
 
 
 def _effect_trend() -> str:
@@ -153,17 +177,32 @@ def _entry(identifier: str, **fields: Any) -> Entry:  # noqa: ANN401
 
 ENTRIES = (
     _entry(
-        "claim-z", section="C.2", place="Appendix C.2", title="'z(Y) is a monotonically increasing function'",
-        printed=_SIGNS, verdict="erratum", judge=_judge_signs, derive=_derive_signs, effect=_effect_signs,
-        repair=lambda forms: {"sign_dz": -forms["sign_dz"]}, found_by=("numeric", "limit"),
+        "claim-z",
+        section="C.2",
+        place="Appendix C.2",
+        title="'z(Y) is a monotonically increasing function'",
+        printed=_SIGNS,
+        verdict="erratum",
+        judge=_judge_signs,
+        derive=_derive_signs,
+        effect=_effect_signs,
+        repair=lambda forms: {"sign_dz": -forms["sign_dz"]},
+        found_by=("numeric", "limit"),
         reason="z depends on X through Q_aver, not on Y, and falls.",
     ),
     _entry(
-        "claim-Q_vib", section="C.2", place="Appendix C.2", title="Trend of Q_vib with Y", printed=_TREND,
-        verdict="erratum", judge=_judge_trend, derive=_derive_trend, effect=_effect_trend,
+        "claim-Q_vib",
+        section="C.2",
+        place="Appendix C.2",
+        title="Trend of Q_vib with Y",
+        printed=_TREND,
+        verdict="erratum",
+        judge=_judge_trend,
+        derive=_derive_trend,
+        effect=_effect_trend,
         repair=lambda forms: {key: form * sp.sign(Q_aver) for key, form in forms.items()},
         found_by=("numeric", "limit"),
         reason="Right where Q_aver > 0, at constant Q_aver and T; where Q_aver < 0 both trends turn round. On which "
-               "side of 1 Y lies does not tell the sign of Q_aver.",
+        "side of 1 Y lies does not tell the sign of Q_aver.",
     ),
-)  # fmt: skip
+)

@@ -8,20 +8,43 @@ __all__ = ["ABOUT_A_CYCLE", "effect_at"]
 
 _DRIVE = {"prepressure": "180 N", "frequency_difference": "3000 Hz", "pulses": "14 of 20"}
 _LEVELS = {
-    "contact": "winkler", "resonance": "quartic", "foundation": "harmonic", "amplitude": "measured",
-    "axis": "eq. 1", "rotation": "slope", "damping_ratio": "0.006 throughout",
-}  # fmt: skip
+    "contact": "winkler",
+    "resonance": "quartic",
+    "foundation": "harmonic",
+    "amplitude": "measured",
+    "axis": "eq. 1",
+    "rotation": "slope",
+    "damping_ratio": "0.006 throughout",
+}
 _EACH = "periodic, steady, rest"
 ABOUT_A_CYCLE = {
     **dict.fromkeys(
-        ("supplement-redu", "supplement-addredu", "supplement-add", "9", "10", "13", "14", "18", "19", "20", "22", "23",
-         "24", "A13"), "steady"),
+        (
+            "supplement-redu",
+            "supplement-addredu",
+            "supplement-add",
+            "9",
+            "10",
+            "13",
+            "14",
+            "18",
+            "19",
+            "20",
+            "22",
+            "23",
+            "24",
+            "A13",
+        ),
+        "steady",
+    ),
     **dict.fromkeys(
         ("33", "35", "36", "37", "38", "transfer-cases", "rotor-orbit", "42", "A14", "A15", "A17", "claim-crest"),
-        "periodic"),
+        "periodic",
+    ),
     **dict.fromkeys(("Q(t)", "43", "44", "A16", "claim-half-beat", "claim-contact", "claim-Q_vib"), _EACH),
-    "A16": "periodic, steady", "claim-contact": "periodic, steady",
-}  # fmt: skip
+    "A16": "periodic, steady",
+    "claim-contact": "periodic, steady",
+}
 """Entries whose figures are of a drive cycle, and what it starts from."""
 _STEADY_WAVE = ("11", "25", "26", "27", "28", "29", "31", "32", "34", "A11", "claim-proportional")
 _OF_A_LATER_TABLE = {"35", "36", "transfer-cases"}

@@ -118,8 +118,9 @@ def _makers(tree: ast.Module) -> list[ast.AST]:
             for node in ast.walk(target):
                 if isinstance(node, ast.Name):
                     top[node.id] = statement
-    todo: list[ast.AST] = [k.value for n in ast.walk(tree) if isinstance(n, ast.Call) for k in n.keywords if
-                           k.arg == "printed"]  # fmt: skip
+    todo: list[ast.AST] = [
+        k.value for n in ast.walk(tree) if isinstance(n, ast.Call) for k in n.keywords if k.arg == "printed"
+    ]
     found: dict[int, ast.AST] = {}
     while todo:
         node = todo.pop()

@@ -94,11 +94,17 @@ def crest_states(count: int, seed: str) -> list[dict[str, mp.mpf]]:
     for index in range(count):
         draw = random.Random(f"{seed} {index}")
         signs = (1 if index & 1 else -1, 1 if index & 2 else -1)
-        found.append({
-            "a": signs[0] * mp.mpf(draw.uniform(1e-6, 9e-6)), "b": signs[1] * mp.mpf(draw.uniform(1e-6, 9e-6)),
-            "da": mp.mpf(draw.uniform(-1, 1)), "db": mp.mpf(draw.uniform(-1, 1)),
-            "x": mp.mpf(draw.uniform(-0.01, 0.01)), "D": q["D"], "k_c": q["k_c"],
-        })  # fmt: skip
+        found.append(
+            {
+                "a": signs[0] * mp.mpf(draw.uniform(1e-6, 9e-6)),
+                "b": signs[1] * mp.mpf(draw.uniform(1e-6, 9e-6)),
+                "da": mp.mpf(draw.uniform(-1, 1)),
+                "db": mp.mpf(draw.uniform(-1, 1)),
+                "x": mp.mpf(draw.uniform(-0.01, 0.01)),
+                "D": q["D"],
+                "k_c": q["k_c"],
+            }
+        )
     return found
 
 
@@ -118,9 +124,19 @@ def random_cycles(count: int, seed: str, psi: bool = False) -> tuple[Cycle, ...]
         omega_q = omega_n + 2 * mp.pi * mp.mpf(draw.uniform(2500, 3500))
         m = draw.randint(16, 30)
         n = draw.randint(m // 2 + 2, m - 3)
-        found.append(Cycle({
-            **operating_point(), "omega_n": omega_n, "omega_q": omega_q, "Delta_omega": omega_q - omega_n,
-            "m": mp.mpf(m), "n": mp.mpf(n), "xi": mp.mpf(draw.uniform(0.004, 0.008)),
-            "W": mp.mpf(draw.uniform(4e-6, 8e-6)), "psi": mp.mpf(draw.uniform(-3, 3) if psi else 0),
-        }))  # fmt: skip
+        found.append(
+            Cycle(
+                {
+                    **operating_point(),
+                    "omega_n": omega_n,
+                    "omega_q": omega_q,
+                    "Delta_omega": omega_q - omega_n,
+                    "m": mp.mpf(m),
+                    "n": mp.mpf(n),
+                    "xi": mp.mpf(draw.uniform(0.004, 0.008)),
+                    "W": mp.mpf(draw.uniform(4e-6, 8e-6)),
+                    "psi": mp.mpf(draw.uniform(-3, 3) if psi else 0),
+                }
+            )
+        )
     return tuple(found)

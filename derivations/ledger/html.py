@@ -87,10 +87,28 @@ refresh(); reveal();
 
 
 _GREEK = {
-    "alpha": "α", "beta": "β", "delta": "δ", "Delta": "Δ", "epsilon": "ε", "zeta": "ζ", "theta": "θ", "Theta": "Θ",
-    "kappa": "κ", "lambda": "λ", "mu": "μ", "xi": "ξ", "pi": "π", "rho": "ρ", "sigma": "σ", "tau": "τ", "phi": "φ",
-    "varphi": "φ", "psi": "ψ", "Psi": "Ψ", "omega": "ω",
-}  # fmt: skip
+    "alpha": "α",
+    "beta": "β",
+    "delta": "δ",
+    "Delta": "Δ",
+    "epsilon": "ε",
+    "zeta": "ζ",
+    "theta": "θ",
+    "Theta": "Θ",
+    "kappa": "κ",
+    "lambda": "λ",
+    "mu": "μ",
+    "xi": "ξ",
+    "pi": "π",
+    "rho": "ρ",
+    "sigma": "σ",
+    "tau": "τ",
+    "phi": "φ",
+    "varphi": "φ",
+    "psi": "ψ",
+    "Psi": "Ψ",
+    "omega": "ω",
+}
 _SYMBOL = re.compile(rf"\b(?:({'|'.join(_GREEK)}|[A-Za-z])((?:_[A-Za-z0-9]+)+)|({'|'.join(_GREEK)}))(?![A-Za-z])")
 
 

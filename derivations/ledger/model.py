@@ -22,9 +22,20 @@ from derivations.ledger.figures import Figure, recorded
 from trum_sym.inputs.units import Dimension, parse_unit
 
 __all__ = [
-    "APPROXIMATION_LIMIT", "Derivation", "Entry", "Evidence", "Forms", "Kind", "Picture", "Result", "Step", "Verdict",
-    "confirm", "evidence", "step",
-]  # fmt: skip
+    "APPROXIMATION_LIMIT",
+    "Derivation",
+    "Entry",
+    "Evidence",
+    "Forms",
+    "Kind",
+    "Picture",
+    "Result",
+    "Step",
+    "Verdict",
+    "confirm",
+    "evidence",
+    "step",
+]
 
 Verdict = Literal["verified", "approximation", "erratum", "definition", "reconstructed", "empirical"]
 Kind = Literal["dimension", "numeric", "identity", "continuity", "limit", "domain", "error_size", "data", "derivation"]

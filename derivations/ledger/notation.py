@@ -59,16 +59,27 @@ _FUNCTIONS: dict[str, Callable[[sp.Expr], sp.Expr]] = {
     "sin": lambda u: sp.sin(u, evaluate=False),
     "cos": lambda u: sp.cos(u, evaluate=False),
     "tan": lambda u: sp.tan(u, evaluate=False),
-    "arcsin": sp.asin, "arctan": sp.atan, "sqrt": sp.sqrt, "abs": sp.Abs, "sign": sp.sign,
-}  # fmt: skip
+    "arcsin": sp.asin,
+    "arctan": sp.atan,
+    "sqrt": sp.sqrt,
+    "abs": sp.Abs,
+    "sign": sp.sign,
+}
 _CONSTANTS: dict[str, sp.Expr] = {"pi": sp.pi, "e": sp.E, "percent": sp.Rational(1, 100), "ms": sp.S.One}
 _RELATIONS: dict[type, Callable[[sp.Expr, sp.Expr], sp.Basic]] = {
-    ast.Lt: sp.Lt, ast.LtE: sp.Le, ast.Gt: sp.Gt, ast.GtE: sp.Ge, ast.Eq: sp.Eq,
-}  # fmt: skip
+    ast.Lt: sp.Lt,
+    ast.LtE: sp.Le,
+    ast.Gt: sp.Gt,
+    ast.GtE: sp.Ge,
+    ast.Eq: sp.Eq,
+}
 _OPERATIONS: dict[type, Callable[[sp.Expr, sp.Expr], sp.Basic]] = {
-    ast.Add: lambda a, b: a + b, ast.Sub: lambda a, b: a - b, ast.Mult: lambda a, b: a * b,
-    ast.Div: lambda a, b: a / b, ast.Pow: lambda a, b: a**b,
-}  # fmt: skip
+    ast.Add: lambda a, b: a + b,
+    ast.Sub: lambda a, b: a - b,
+    ast.Mult: lambda a, b: a * b,
+    ast.Div: lambda a, b: a / b,
+    ast.Pow: lambda a, b: a**b,
+}
 
 
 def _parsed(text: str) -> ast.expr:
@@ -163,24 +174,78 @@ def _truth(node: ast.expr, resolve: Resolve) -> sp.Basic:
 
 # --- what is quoted -----------------------------------------------------------------------------------------
 # Letters, numbers, signs and relations in reading order, of the quoted TeX and of the notation: they must be the same.
-_WORDS = frozenset((
-    "sin", "cos", "tan", "arctan", "arcsin", "sqrt", "sign", "sum", "int", "pi", "percent", "plus", "minus", "dots",
-    "ms", "or",
-))  # fmt: skip
-_GREEK = frozenset((
-    "delta", "zeta", "theta", "kappa", "lambda", "mu", "xi", "rho", "sigma", "varsigma", "phi", "varphi", "psi",
-    "omega", "Gamma", "Theta", "Psi", "Deltaomega", "Deltavarphi", "tildezeta",
-))  # fmt: skip
-_REWRITES = tuple((re.compile(pattern), new) for pattern, new in (
-    (r"\\tag ?\{[^}]*\}|\\begin\{\w+\}|\\end\{\w+\}|&\s*\(\d\)|\\left\.?|\\right|\\rm\b|\\quad|\\in\b|\\partial", " "),
-    (r"100\s*\\frac\{0\}\{0\}|100\s*\\frac\s*0\s*0", r"100 \\percent "),
-    (r"\\times|\\gg", lambda found: " >> " if found[0] == r"\gg" else " "),
-    (r"\\mathrm\{\\?,?\s*ms\}", r"\\ms "), (r"\\text\{(\w+)\}", r"\1"), (r"\\max f", "maxf"),
-    (r"\bsign\b", r"\\sign "), (r"\\tilde\{\\zeta\}", r"\\tildezeta "), (r"\\Delta\s*\\(omega|varphi)", r"\\Delta\1"),
-    (r"\{11\}\^E", "{11E}"), (r"\{Q\^\+\}", "{Qplus}"), (r"\{Q\^-\}", "{Qminus}"), (r"\{Qall\^2\}", "{Qall}^2"),
-    (r"\^\+", r"\\plus "), (r"\^-(?!\{)", r"\\minus "), (r"_\{(\w+)\(t\)\}", r"_{\1}(t)"),
-    (r"\\geq?\b", " >= "), (r"\\leq?\b", " <= "), (r"\\cup\b", r"\\or "), (r"\\approx\b", "="),
-))  # fmt: skip
+_WORDS = frozenset(
+    (
+        "sin",
+        "cos",
+        "tan",
+        "arctan",
+        "arcsin",
+        "sqrt",
+        "sign",
+        "sum",
+        "int",
+        "pi",
+        "percent",
+        "plus",
+        "minus",
+        "dots",
+        "ms",
+        "or",
+    )
+)
+_GREEK = frozenset(
+    (
+        "delta",
+        "zeta",
+        "theta",
+        "kappa",
+        "lambda",
+        "mu",
+        "xi",
+        "rho",
+        "sigma",
+        "varsigma",
+        "phi",
+        "varphi",
+        "psi",
+        "omega",
+        "Gamma",
+        "Theta",
+        "Psi",
+        "Deltaomega",
+        "Deltavarphi",
+        "tildezeta",
+    )
+)
+_REWRITES = tuple(
+    (re.compile(pattern), new)
+    for pattern, new in (
+        (
+            r"\\tag ?\{[^}]*\}|\\begin\{\w+\}|\\end\{\w+\}|&\s*\(\d\)|\\left\.?|\\right|\\rm\b|\\quad|\\in\b|\\partial",
+            " ",
+        ),
+        (r"100\s*\\frac\{0\}\{0\}|100\s*\\frac\s*0\s*0", r"100 \\percent "),
+        (r"\\times|\\gg", lambda found: " >> " if found[0] == r"\gg" else " "),
+        (r"\\mathrm\{\\?,?\s*ms\}", r"\\ms "),
+        (r"\\text\{(\w+)\}", r"\1"),
+        (r"\\max f", "maxf"),
+        (r"\bsign\b", r"\\sign "),
+        (r"\\tilde\{\\zeta\}", r"\\tildezeta "),
+        (r"\\Delta\s*\\(omega|varphi)", r"\\Delta\1"),
+        (r"\{11\}\^E", "{11E}"),
+        (r"\{Q\^\+\}", "{Qplus}"),
+        (r"\{Q\^-\}", "{Qminus}"),
+        (r"\{Qall\^2\}", "{Qall}^2"),
+        (r"\^\+", r"\\plus "),
+        (r"\^-(?!\{)", r"\\minus "),
+        (r"_\{(\w+)\(t\)\}", r"_{\1}(t)"),
+        (r"\\geq?\b", " >= "),
+        (r"\\leq?\b", " <= "),
+        (r"\\cup\b", r"\\or "),
+        (r"\\approx\b", "="),
+    )
+)
 _ATOM = re.compile(r"\\([A-Za-z]+)|(\d+(?:\.\d+)?)|(<=|>=|>>|[<>+-])|([A-Za-z])")
 _INDEX = re.compile(r"\s*_(?:\{\s*(\w+)\s*\}|(\w))")
 _SILENT = frozenset(("frac", "d"))

@@ -21,9 +21,18 @@ from derivations.ledger.section_3_supplement import supplement_forms, values
 from derivations.nomenclature import NOMENCLATURE, sym
 
 __all__ = [
-    "anywhere", "by_region", "context", "largest_in", "over_time", "row_value", "rows", "turning", "with_rows",
-    "within", "worst",
-]  # fmt: skip
+    "anywhere",
+    "by_region",
+    "context",
+    "largest_in",
+    "over_time",
+    "row_value",
+    "rows",
+    "turning",
+    "with_rows",
+    "within",
+    "worst",
+]
 
 t = sym("t")[0]
 _EDGES = sym("t_1 t_2 t_3 t_4")

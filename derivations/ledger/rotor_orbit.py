@@ -59,43 +59,74 @@ def _derive() -> Derivation:
     torque = r_c * mu * F_c
     return Derivation(
         (
-            step("The surface outruns the rotor between u = phi - a and phi + a, a = acos(v/R) (eqs. 34, 36). With "
-                 "C(u) the share of the load left of u and p = C' its density, the net friction over mu F_c is",
-                 sp.Eq(sp.Symbol("f"), f), sp.Eq(sp.Symbol("p"), density)),
-            step("A faster rotor narrows that stretch:", sp.Eq(sp.Derivative(_OPENING, v), -1 / sp.sqrt(R_v**2 - v**2)),
-                 zero=_OPENING.diff(v) + 1 / sp.sqrt(R_v**2 - v**2)),
-            step("so with a nonsliding point at each end f falls by the pressure there, df/dv = -2 (p(phi + a) + "
-                 "p(phi - a))/(R sin a):", inside, zero=sp.simplify(f.diff(a) * (-1 / (R_v * sp.sin(a))) - inside)),
-            step("An end outside the contact, where p = 0, adds nothing, so for |v| < R, whatever the wave,",
-                 sp.Eq(sp.Symbol("f_v"), forms["df/dv"])),
-            step("This is never positive, nor is it where the whole wave touches, with the density below for p. For "
-                 "v >= R friction is -1, for v <= -R +1: f never grows with v.",
-                 sp.Eq(sp.Symbol("p"), transfer.whole_wave_share().subs(sp.Max(-sp.pi, sp.Min(sp.pi, u)), u).diff(u))),
-            step("Eq. 38 for the rim v = r_c omega_p: two rotors a small gap delta apart, c_f = r_c^2 mu F_c/J, follow",
-                 sp.Eq(gap.diff(tau), rate * slope * gap), sp.Eq(sp.Symbol(r"\delta/\delta_0"), grown),
-                 zero=sp.simplify(grown.diff(tau).doit() - rate * slope * grown)),
-            step("Over a lap of the drive cycle the gap is multiplied by the gain, with S the integral of f_v over the "
-                 "lap. S <= 0, so the lap's map P(v) of start speeds is monotone with a slope between 0 and 1:",
-                 sp.Eq(sp.Symbol("gain"), forms["gain"])),
-            step("It exists: if |T_load| < r_c mu F_c, a rotor faster than every point of the surface all lap is "
-                 "slowed and one slower than every point is sped up, by", -r_c * (torque + T_load) * T / J,
-                 r_c * (torque - T_load) * T / J,
-                 zero=[r_c * (sign * torque - T_load) * T / J - sign * r_c * (torque - sign * T_load) * T / J
-                       for sign in (1, -1)]),
+            step(
+                "The surface outruns the rotor between u = phi - a and phi + a, a = acos(v/R) (eqs. 34, 36). With "
+                "C(u) the share of the load left of u and p = C' its density, the net friction over mu F_c is",
+                sp.Eq(sp.Symbol("f"), f),
+                sp.Eq(sp.Symbol("p"), density),
+            ),
+            step(
+                "A faster rotor narrows that stretch:",
+                sp.Eq(sp.Derivative(_OPENING, v), -1 / sp.sqrt(R_v**2 - v**2)),
+                zero=_OPENING.diff(v) + 1 / sp.sqrt(R_v**2 - v**2),
+            ),
+            step(
+                "so with a nonsliding point at each end f falls by the pressure there, df/dv = -2 (p(phi + a) + "
+                "p(phi - a))/(R sin a):",
+                inside,
+                zero=sp.simplify(f.diff(a) * (-1 / (R_v * sp.sin(a))) - inside),
+            ),
+            step(
+                "An end outside the contact, where p = 0, adds nothing, so for |v| < R, whatever the wave,",
+                sp.Eq(sp.Symbol("f_v"), forms["df/dv"]),
+            ),
+            step(
+                "This is never positive, nor is it where the whole wave touches, with the density below for p. For "
+                "v >= R friction is -1, for v <= -R +1: f never grows with v.",
+                sp.Eq(sp.Symbol("p"), transfer.whole_wave_share().subs(sp.Max(-sp.pi, sp.Min(sp.pi, u)), u).diff(u)),
+            ),
+            step(
+                "Eq. 38 for the rim v = r_c omega_p: two rotors a small gap delta apart, c_f = r_c^2 mu F_c/J, follow",
+                sp.Eq(gap.diff(tau), rate * slope * gap),
+                sp.Eq(sp.Symbol(r"\delta/\delta_0"), grown),
+                zero=sp.simplify(grown.diff(tau).doit() - rate * slope * grown),
+            ),
+            step(
+                "Over a lap of the drive cycle the gap is multiplied by the gain, with S the integral of f_v over the "
+                "lap. S <= 0, so the lap's map P(v) of start speeds is monotone with a slope between 0 and 1:",
+                sp.Eq(sp.Symbol("gain"), forms["gain"]),
+            ),
+            step(
+                "It exists: if |T_load| < r_c mu F_c, a rotor faster than every point of the surface all lap is "
+                "slowed and one slower than every point is sped up, by",
+                -r_c * (torque + T_load) * T / J,
+                r_c * (torque - T_load) * T / J,
+                zero=[
+                    r_c * (sign * torque - T_load) * T / J - sign * r_c * (torque - sign * T_load) * T / J
+                    for sign in (1, -1)
+                ],
+            ),
             step("so P, which is continuous, crosses the diagonal in between."),
-            step("It is unique and attracts: two periodic orbits v_1 < v_2 gain the same, 0, though f(v_1) >= f(v_2) "
-                 "at "
-                 "every moment; so f is the same for both at every moment and all speeds between. Where f_v < 0 for "
-                 "any part of the lap that cannot be, the gain is below 1, and every start comes to the one orbit."),
-            step("The exception has a name, the neutral interval: no nonsliding point is in the contact all lap, so "
-                 "friction is saturated, f = +1 or -1 at every moment, and its mean is T_load/(r_c mu F_c). Then every "
-                 "speed of an interval is periodic and none attracts."),
-            step("Runaway: if |T_load| >= r_c mu F_c no friction can hold the load; each lap changes the speed in the "
-                 "load's sense by at least", forms["least_change"],
-                 zero=forms["least_change"].subs(sp.Abs(T_load), torque)),
+            step(
+                "It is unique and attracts: two periodic orbits v_1 < v_2 gain the same, 0, though f(v_1) >= f(v_2) "
+                "at "
+                "every moment; so f is the same for both at every moment and all speeds between. Where f_v < 0 for "
+                "any part of the lap that cannot be, the gain is below 1, and every start comes to the one orbit."
+            ),
+            step(
+                "The exception has a name, the neutral interval: no nonsliding point is in the contact all lap, so "
+                "friction is saturated, f = +1 or -1 at every moment, and its mean is T_load/(r_c mu F_c). Then every "
+                "speed of an interval is periodic and none attracts."
+            ),
+            step(
+                "Runaway: if |T_load| >= r_c mu F_c no friction can hold the load; each lap changes the speed in the "
+                "load's sense by at least",
+                forms["least_change"],
+                zero=forms["least_change"].subs(sp.Abs(T_load), torque),
+            ),
         ),
         forms,
-    )  # fmt: skip
+    )
 
 
 @dataclass(frozen=True)
@@ -167,13 +198,22 @@ def _slopes(forms: Forms) -> Iterator[tuple[mp.mpf, mp.mpf]]:
 def _judge(forms: Forms) -> Iterator[Evidence]:
     pairs = list(_slopes(forms))
     off = largest(abs(found - wanted) for found, wanted in pairs)
-    yield evidence("numeric", off < 1e-8, "the slope is that of the friction's closed form, taken numerically at 60 "
-                                          f"random states, off by {mp.nstr(off, 2)} s/m")  # fmt: skip
-    rises = largest(brute_fraction(s, whole=True, steps=4001) - brute_fraction(slower, whole=True, steps=4001)
-                    for s, slower in _slower(80))  # fmt: skip
-    yield evidence("domain", all(found <= 0 for found, _ in pairs) and rises <= 0,
-                   "never positive; and friction summed point by point never grows from a slower rotor to a faster "
-                   f"one, by {figure(rises)} at most")  # fmt: skip
+    yield evidence(
+        "numeric",
+        off < 1e-8,
+        "the slope is that of the friction's closed form, taken numerically at 60 "
+        f"random states, off by {mp.nstr(off, 2)} s/m",
+    )
+    rises = largest(
+        brute_fraction(s, whole=True, steps=4001) - brute_fraction(slower, whole=True, steps=4001)
+        for s, slower in _slower(80)
+    )
+    yield evidence(
+        "domain",
+        all(found <= 0 for found, _ in pairs) and rises <= 0,
+        "never positive; and friction summed point by point never grows from a slower rotor to a faster "
+        f"one, by {figure(rises)} at most",
+    )
     yield from _judge_lap(forms)
     yield from _judge_loads(forms)
 
@@ -193,13 +233,19 @@ def _judge_lap(forms: Forms) -> Iterator[Evidence]:
     S = wave.step * float(slopes[np.abs(speed) < wave.R].sum())
     known = {r_c: p["r_c"], mu: p["mu"], F_c: p["F_c"], J: 200 * p["J"], slope_sum: S}
     stated = float(forms["gain"].subs(known))
-    yield evidence("identity", abs(stated / seen - 1) < 1e-3,
-                   f"the gain of a lap at Table 3 with 200 times the inertia is {figure(stated, 5)}; two rotors "
-                   f"started 2 mm/s apart end {figure(seen, 5)} times as far apart")  # fmt: skip
+    yield evidence(
+        "identity",
+        abs(stated / seen - 1) < 1e-3,
+        f"the gain of a lap at Table 3 with 200 times the inertia is {figure(stated, 5)}; two rotors "
+        f"started 2 mm/s apart end {figure(seen, 5)} times as far apart",
+    )
     gains = 1 + np.diff(_lap(_STARTS, _TABLE_LOAD / _capacity())) / np.diff(_STARTS)
-    yield evidence("limit", bool((gains >= -1e-9).all() and (gains <= 1 + 1e-9).all() and gains.min() < 0.01),
-                   f"with the rotor's own inertia starts from -4 to 4 m/s, 0.5 m/s apart, end {figure(gains.min(), 2)} "
-                   f"to {figure(gains.max(), 3)} times as far apart, in the same order")  # fmt: skip
+    yield evidence(
+        "limit",
+        bool((gains >= -1e-9).all() and (gains <= 1 + 1e-9).all() and gains.min() < 0.01),
+        f"with the rotor's own inertia starts from -4 to 4 m/s, 0.5 m/s apart, end {figure(gains.min(), 2)} "
+        f"to {figure(gains.max(), 3)} times as far apart, in the same order",
+    )
 
 
 def _judge_loads(forms: Forms) -> Iterator[Evidence]:
@@ -209,13 +255,18 @@ def _judge_loads(forms: Forms) -> Iterator[Evidence]:
     over = [-np.sign(load) * _lap(_STARTS, load) - change for load, change in least.items()]
     slowest = -_lap(_STARTS, 1.2)[0]  # slower than the surface all lap: all friction drives it
     exact = abs(slowest / least[1.2] - 1) if least[1.2] > 0 else np.inf
-    yield evidence("domain", bool(np.min(over) > -1e-6) and exact < 1e-6,
-                   f"beyond r_c mu F_c = {figure(most)} N m every start loses at least the stated speed a lap, "
-                   f"{figure(least[1.2])} m/s at 1.2 times, which the slowest loses exactly")  # fmt: skip
+    yield evidence(
+        "domain",
+        bool(np.min(over) > -1e-6) and exact < 1e-6,
+        f"beyond r_c mu F_c = {figure(most)} N m every start loses at least the stated speed a lap, "
+        f"{figure(least[1.2])} m/s at 1.2 times, which the slowest loses exactly",
+    )
     back = _lap((-9.0, 9.0), 0.9)
-    yield evidence("continuity", bool(back[0] > 0 > back[1]),
-                   "below it a rotor far too slow is sped up and one far too fast slowed, so a speed in between "
-                   "repeats")  # fmt: skip
+    yield evidence(
+        "continuity",
+        bool(back[0] > 0 > back[1]),
+        "below it a rotor far too slow is sped up and one far too fast slowed, so a speed in between repeats",
+    )
 
 
 def _neutral() -> float:
@@ -263,12 +314,19 @@ def _effect() -> str:
 
 ENTRIES = (
     Entry(
-        id="rotor-orbit", section="4.2.3", title="The rotor's periodic orbit exists, is unique and attracts",
-        place="presumed by eq. 38, Figs. 18 and 20, not stated", printed={},
-        units={"df/dv": "s/m", "gain": "1", "least_change": "m/s"}, known=_KNOWN, verdict="reconstructed",
+        id="rotor-orbit",
+        section="4.2.3",
+        title="The rotor's periodic orbit exists, is unique and attracts",
+        place="presumed by eq. 38, Figs. 18 and 20, not stated",
+        printed={},
+        units={"df/dv": "s/m", "gain": "1", "least_change": "m/s"},
+        known=_KNOWN,
+        verdict="reconstructed",
         reason="Friction never grows with the rotor's speed, so the lap of a drive cycle brings any two start speeds "
-               "nearer: one orbit, reached from every start, unless the load exceeds r_c mu F_c (runaway) or friction "
-               "is saturated at every moment of the lap (neutral interval).",
-        judge=_judge, derive=_derive, effect=_effect,
+        "nearer: one orbit, reached from every start, unless the load exceeds r_c mu F_c (runaway) or friction "
+        "is saturated at every moment of the lap (neutral interval).",
+        judge=_judge,
+        derive=_derive,
+        effect=_effect,
     ),
-)  # fmt: skip
+)

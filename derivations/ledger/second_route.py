@@ -96,18 +96,30 @@ def _one() -> list[Any]:
     middle = v["h_e"] + v["h_p"] / 2
     softer = _hertz({**_sections(), "EI": layers["EI"]})
     return [
-        1e3 * v["D"], 1e3 * layers["D"], 100 * (v["D"] - layers["D"]) / layers["D"],
-        100 * (layers["D"] - v["D"]) / (middle - layers["D"]), 1e6 * _forced(v["D"], v["f_q"]),
-        1e6 * _forced(layers["D"], v["f_q"]), softer / 1e3, v["f_n"] / 1e3, layers["f_n"] / 1e3,
-    ]  # fmt: skip
+        1e3 * v["D"],
+        1e3 * layers["D"],
+        100 * (v["D"] - layers["D"]) / layers["D"],
+        100 * (layers["D"] - v["D"]) / (middle - layers["D"]),
+        1e6 * _forced(v["D"], v["f_q"]),
+        1e6 * _forced(layers["D"], v["f_q"]),
+        softer / 1e3,
+        v["f_n"] / 1e3,
+        layers["f_n"] / 1e3,
+    ]
 
 
 @_route("equivalent-beam")
 def _equivalent() -> list[Any]:
     whole, layers = _sections(), _sections(layered=True)
     softer = _hertz({**whole, "EI": layers["EI"]})
-    return [whole["EI"], layers["EI"], 100 * (whole["EI"] - layers["EI"]) / layers["EI"], softer / 1e3,
-            _hertz(whole) / 1e3, 100 * (_hertz(whole) - softer) / softer]  # fmt: skip
+    return [
+        whole["EI"],
+        layers["EI"],
+        100 * (whole["EI"] - layers["EI"]) / layers["EI"],
+        softer / 1e3,
+        _hertz(whole) / 1e3,
+        100 * (_hertz(whole) - softer) / softer,
+    ]
 
 
 @_route("layered-section")
@@ -166,7 +178,7 @@ def _eq6(k_f: mp.mpf, k_dx: mp.mpf) -> dict[str, mp.mpf]:
         "printed": (E * b["I_z"] * k**4 + k_dx) / (density * b["A"] + density * (1 / (kappa * b["G"]) + 1 / E) * k**2),
         "eq6": mp.det(stiff) / (stiff[0, 0] * b["rho I"] + stiff[1, 1] * b["rho A"]),
         "euler": (b["EI"] * k**4 + k_f) / b["rho A"],
-    }  # fmt: skip
+    }
     found = {name: mp.sqrt(square) / (2 * mp.pi) for name, square in squares.items()}
     return {**found, "quartic": _polynomial(k_f, cross=True)}
 
@@ -175,8 +187,17 @@ def _eq6(k_f: mp.mpf, k_dx: mp.mpf) -> dict[str, mp.mpf]:
 def _six() -> list[Any]:
     v = stator()
     held, free = _eq6(v["k_f"], v["k_dx"]), _eq6(mp.mpf(0), mp.mpf(0))
-    return [held["printed"], held["eq6"], 100 * (held["printed"] / held["eq6"] - 1), held["quartic"],
-            held["eq6"] - held["quartic"], held["euler"], free["printed"], free["eq6"], free["quartic"]]  # fmt: skip
+    return [
+        held["printed"],
+        held["eq6"],
+        100 * (held["printed"] / held["eq6"] - 1),
+        held["quartic"],
+        held["eq6"] - held["quartic"],
+        held["euler"],
+        free["printed"],
+        free["eq6"],
+        free["quartic"],
+    ]
 
 
 @_route("7")
@@ -193,9 +214,18 @@ def _seven() -> list[Any]:
 
     whole = v["rho A"] + v["rho I"] * v["beta"] ** 2
     on, off = 1e6 * _forced(v["D"], v["f_n"]), 1e6 * _forced(v["D"], v["f_q"])
-    return [1e6 * printed(v["f_q"]), off, 1e6 * printed(v["f_n"]), on, whole / ceramic,
-            (v["h_e"] + v["h_p"] / 2 - v["D"]) / (v["D"] / 2), off / 2, on / 2,
-            100 * (on - 25.2) / 25.2, 100 * (on - 12.6) / 12.6]  # fmt: skip
+    return [
+        1e6 * printed(v["f_q"]),
+        off,
+        1e6 * printed(v["f_n"]),
+        on,
+        whole / ceramic,
+        (v["h_e"] + v["h_p"] / 2 - v["D"]) / (v["D"] / 2),
+        off / 2,
+        on / 2,
+        100 * (on - 25.2) / 25.2,
+        100 * (on - 12.6) / 12.6,
+    ]
 
 
 @_route("8")
@@ -286,8 +316,12 @@ def _ten() -> list[Any]:
 @_route("11")
 def _eleven() -> list[Any]:
     v, layers, edge = stator(), stator(180, True), 2 * math.pi * _v("f_q") * _v("W") * 1e3
-    return [100 * (v["k_c"] - v["beta"]) / v["beta"], edge * _v("D") * _v("k_c"), edge * _v("D") * _v("beta"),
-            100 * (v["D"] * v["k_c"] / (layers["D"] * layers["beta"]) - 1)]  # fmt: skip
+    return [
+        100 * (v["k_c"] - v["beta"]) / v["beta"],
+        edge * _v("D") * _v("k_c"),
+        edge * _v("D") * _v("beta"),
+        100 * (v["D"] * v["k_c"] / (layers["D"] * layers["beta"]) - 1),
+    ]
 
 
 @_route("13")
@@ -374,9 +408,12 @@ def _twenty_two() -> list[Any]:
     def along(s: Sampled) -> Array:
         return scale * s.q / s.height
 
-    return [(ends[1] - ends[0]) / _ends()[3], *(_whole(lambda s: s.climb, "steady", top) for top in (False, True)),
-            along(Drive("steady").phases(count=4 * witness.MANY)).mean(),
-            *(_whole(along, "steady", top) for top in (False, True))]  # fmt: skip
+    return [
+        (ends[1] - ends[0]) / _ends()[3],
+        *(_whole(lambda s: s.climb, "steady", top) for top in (False, True)),
+        along(Drive("steady").phases(count=4 * witness.MANY)).mean(),
+        *(_whole(along, "steady", top) for top in (False, True)),
+    ]
 
 
 @_route("23")
@@ -458,8 +495,15 @@ def _twenty_six() -> list[Any]:
     curve = 2 * v["r_t"] ** 2 / (v["n_j"] ** 2 * v["W"])
     half = mp.mpf("0.8") * mp.sqrt(v["F_c"] * curve * _compliances()[0] / (v["n_j"] * v["b_m"]))
     exact = mp.sqrt(8 / mp.pi)
-    return [exact, 100 * (mp.mpf("1.6") - exact) / exact, 1e3 * half, half / v["h_m"], 1e3 * v["h_m"], v["theta"],
-            v["k_c"] * half]  # fmt: skip
+    return [
+        exact,
+        100 * (mp.mpf("1.6") - exact) / exact,
+        1e3 * half,
+        half / v["h_m"],
+        1e3 * v["h_m"],
+        v["theta"],
+        v["k_c"] * half,
+    ]
 
 
 @_route("27")
@@ -551,9 +595,15 @@ def _thirty_five() -> list[Any]:
     place = np.where(np.sin(psi) >= 0, arc - psi, np.where(np.cos(psi) > 0, -np.pi, np.pi) - arc - psi)
     first, k = np.arctan(np.cos(psi) / np.sin(psi)), _v("k_c")
     known = {
-        "x_px": place / k, "phi_vm1": first / k, "phi_vm2": (first + np.pi) / k, "x_max": crest / k,
-        "x_xm": (crest + zone) / k, "v_xm": np.cos(zone - angle), "v_xmax": np.cos(angle), "k_c": k + 0 * k,
-    }  # fmt: skip
+        "x_px": place / k,
+        "phi_vm1": first / k,
+        "phi_vm2": (first + np.pi) / k,
+        "x_max": crest / k,
+        "x_xm": (crest + zone) / k,
+        "v_xm": np.cos(zone - angle),
+        "v_xmax": np.cos(angle),
+        "k_c": k + 0 * k,
+    }
     found: list[Any] = []
     for form in (EQ35["x_p"], EQ35["x_p"].subs(x_px + 2 * sp.pi, x_px + 2 * sp.pi / k_c)):
         symbols = sorted(form.free_symbols, key=lambda symbol: symbol.name)
@@ -575,8 +625,15 @@ def _thirty_six() -> list[Any]:
     whole, half = (_rubbed(speed, part) for part in (False, True))
     heights = [_whole(lambda s: s.height, "periodic", top) for top in (True, False)]
     gap = half - whole
-    return [*zones(np.array(heights)), rub * math.sqrt((gap**2).mean()), rub * np.abs(gap).max(), rub,
-            100 * (half * whole < 0).mean(), rub * half.mean(), rub * whole.mean()]  # fmt: skip
+    return [
+        *zones(np.array(heights)),
+        rub * math.sqrt((gap**2).mean()),
+        rub * np.abs(gap).max(),
+        rub,
+        100 * (half * whole < 0).mean(),
+        rub * half.mean(),
+        rub * whole.mean(),
+    ]
 
 
 def _at_rest() -> float:
@@ -597,8 +654,10 @@ def _cases() -> list[Any]:
     turns = (np.sin(-angle) > 0) != (np.sin(zone - angle) > 0)
     parts = [
         100 * float(((ends[0] == a) & (ends[1] == b) & (turns == c)).mean())
-        for a in (True, False) for b in (True, False) for c in (True, False)
-    ]  # fmt: skip
+        for a in (True, False)
+        for b in (True, False)
+        for c in (True, False)
+    ]
     return [*sorted((p for p in parts if p > 0.01), reverse=True), sum(p > 0 for p in parts)]
 
 
@@ -734,8 +793,11 @@ def _q_t() -> list[Any]:
 def _forty_two() -> list[Any]:
     rise, q = (lambda s: np.abs(s.w_A * s.v_A + s.w_B * s.v_B)), (lambda s: np.abs(s.q))
     s = cycle()
-    return [_whole(rise, "periodic", True), _v("D") * _v("k_c") * _whole(q, "periodic", True),
-            100 * (s.climb * s.q < 0).mean()]  # fmt: skip
+    return [
+        _whole(rise, "periodic", True),
+        _v("D") * _v("k_c") * _whole(q, "periodic", True),
+        100 * (s.climb * s.q < 0).mean(),
+    ]
 
 
 @cache
@@ -771,8 +833,11 @@ def _forty_four() -> list[Any]:
     for start in _STARTS:
         printed = _root(start) * per**2 / _average(start)
         ratio = _sums(start)[2] / _sums(start)[3]
-        found += [printed.real if abs(printed.imag) < 1e-6 * abs(printed) else printed.imag,
-                  abs(_root(start)) * per**2 / _average(start), ratio]  # fmt: skip
+        found += [
+            printed.real if abs(printed.imag) < 1e-6 * abs(printed) else printed.imag,
+            abs(_root(start)) * per**2 / _average(start),
+            ratio,
+        ]
     return [*found, per]
 
 

@@ -67,23 +67,39 @@ def _derive_7() -> Derivation:
     return Derivation(
         (
             step("Held at rest, a poled ceramic under the voltage U_s carries the stress", stress),
-            step("Its moment about the neutral axis: the arm reaches to the middle of the ceramic, h_e + h_p/2 - D, "
-                 "not D/2:", stress * b_p * arm, zero=stress * b_p * arm.doit() - moment),
-            step("Segments half a wavelength long are poled in turn. On the mode w = W cos(k_c x), theta = -beta W "
-                 "sin(k_c x), the moment of one of them does the work, per W and unit moment,", half,
-                 zero=half.doit() - 2 * beta),
-            step("The modal mass of one wavelength, of the whole section with its rotary inertia:", sp.Eq(M_1, mass),
-                 zero=mass.doit() - total),
-            step("A phase on the share c of the ring, in segments of half a wave, does c of the whole ring's work, "
-                 "but the mode swings all round it: its amplitude is c times the whole ring's. (7) has c = 1, one "
-                 "phase all "
-                 "round; two phases that drive two modes of one ring have c = 1/2 each at most.",
-                 sp.Symbol("c") * half, zero=sp.Symbol("c") * half.doit() - 2 * beta * sp.Symbol("c")),
-            step("Modal force over modal mass times the resonator's magnification:", sp.Eq(W_max, forms["W_max"]),
-                 zero=put - amplitude.forced()),
+            step(
+                "Its moment about the neutral axis: the arm reaches to the middle of the ceramic, h_e + h_p/2 - D, "
+                "not D/2:",
+                stress * b_p * arm,
+                zero=stress * b_p * arm.doit() - moment,
+            ),
+            step(
+                "Segments half a wavelength long are poled in turn. On the mode w = W cos(k_c x), theta = -beta W "
+                "sin(k_c x), the moment of one of them does the work, per W and unit moment,",
+                half,
+                zero=half.doit() - 2 * beta,
+            ),
+            step(
+                "The modal mass of one wavelength, of the whole section with its rotary inertia:",
+                sp.Eq(M_1, mass),
+                zero=mass.doit() - total,
+            ),
+            step(
+                "A phase on the share c of the ring, in segments of half a wave, does c of the whole ring's work, "
+                "but the mode swings all round it: its amplitude is c times the whole ring's. (7) has c = 1, one "
+                "phase all "
+                "round; two phases that drive two modes of one ring have c = 1/2 each at most.",
+                sp.Symbol("c") * half,
+                zero=sp.Symbol("c") * half.doit() - 2 * beta * sp.Symbol("c"),
+            ),
+            step(
+                "Modal force over modal mass times the resonator's magnification:",
+                sp.Eq(W_max, forms["W_max"]),
+                zero=put - amplitude.forced(),
+            ),
         ),
         forms,
-    )  # fmt: skip
+    )
 
 
 def _modal_response(v: dict[str, mp.mpf]) -> mp.mpf:
@@ -93,10 +109,13 @@ def _modal_response(v: dict[str, mp.mpf]) -> mp.mpf:
     stress = abs(v["d_31"]) / v["s_11E"] * v["U_s"] / v["h_p"]
     low = v["h_e"] - v["D"]
     moment = stress * v["b_p"] * mp.quad(lambda u: u, [low, low + v["h_p"]])
-    force = mp.quad(lambda u: moment * mp.sign(mp.cos(k * u)) * v["beta"] * k * mp.cos(k * u),
-                    [-wave / 4, wave / 4, 3 * wave / 4])  # fmt: skip
-    mass = mp.quad(lambda u: v["rho"] * (v["A"] * mp.cos(k * u) ** 2 + v["I_z"] * (v["beta"] * mp.sin(k * u)) ** 2),
-                   [0, wave / 4, wave / 2, 3 * wave / 4, wave])  # fmt: skip
+    force = mp.quad(
+        lambda u: moment * mp.sign(mp.cos(k * u)) * v["beta"] * k * mp.cos(k * u), [-wave / 4, wave / 4, 3 * wave / 4]
+    )
+    mass = mp.quad(
+        lambda u: v["rho"] * (v["A"] * mp.cos(k * u) ** 2 + v["I_z"] * (v["beta"] * mp.sin(k * u)) ** 2),
+        [0, wave / 4, wave / 2, 3 * wave / 4, wave],
+    )
     # the steady state of mass (q'' + 2 xi omega_n q' + omega_n^2 q) = force cos(omega_q t), as one complex number
     n, q = v["omega_n"], v["omega_q"]
     return abs(force / mass / mp.mpc(n**2 - q**2, 2 * v["xi"] * n * q))
@@ -124,10 +143,11 @@ def _effect_7() -> str:
     printed = resolved(_EQ7)["W_max"]
     on = dict(q, omega_q=q["omega_n"])
     micro = {
-        "printed": at_point(printed.subs(R, 2 * R), q), "right": at_point(amplitude.forced(), q),
+        "printed": at_point(printed.subs(R, 2 * R), q),
+        "right": at_point(amplitude.forced(), q),
         "printed, resonance": at_point(printed.subs(R, 2 * R), on),
         "right, resonance": at_point(amplitude.forced(), on),
-    }  # fmt: skip
+    }
     micro = {name: abs(value) * 10**6 for name, value in micro.items()}
     arm = (q["h_e"] + q["h_p"] / 2 - q["D"]) / (q["D"] / 2)
     mass = (q["rho"] * q["A"] + q["rho"] * q["I_z"] * q["beta"] ** 2) / (q["A_p"] * q["rho_p"])
@@ -191,13 +211,16 @@ def _derive_8() -> Derivation:
     return Derivation(
         (
             step("No mechanism is given: a power law is assumed, with F_c as a number of newtons."),
-            step("In logarithms it is a straight line, whose slope and intercept are fitted to the seven points of "
-                 "Table 2 by least squares:", sp.Eq(logarithm, straight),
-                 zero=sp.expand_log(sp.log(amplitude.under_prepressure(W_max) / W_max), force=True)
-                 - sp.expand_log(straight, force=True)),
+            step(
+                "In logarithms it is a straight line, whose slope and intercept are fitted to the seven points of "
+                "Table 2 by least squares:",
+                sp.Eq(logarithm, straight),
+                zero=sp.expand_log(sp.log(amplitude.under_prepressure(W_max) / W_max), force=True)
+                - sp.expand_log(straight, force=True),
+            ),
         ),
         {"W_maxf": amplitude.under_prepressure(W_max)},
-    )  # fmt: skip
+    )
 
 
 def _judge_8(forms: Forms) -> Iterator[Evidence]:
@@ -216,11 +239,12 @@ def _judge_8(forms: Forms) -> Iterator[Evidence]:
         and largest(stated) < 0.02
     )
     yield evidence(
-        "data", within,
+        "data",
+        within,
         f"Table 2 gives varsigma = {fit['varsigma']:.4f} +- {fit['varsigma_width']:.4f} and C_f = {fit['C_f']:.3f} "
         f"({fit['C_f_low']:.3f} to {fit['C_f_high']:.3f}) at 95 %, largest residual {100 * fit['worst']:.2f} %; the "
         f"stated 0.678 and 14.926 lie within and miss the points by {100 * max(stated):.2f} % at most",
-    )  # fmt: skip
+    )
 
 
 def _effect_8() -> str:
@@ -234,18 +258,34 @@ def _effect_8() -> str:
 
 ENTRIES = (
     Entry(
-        id="7", section="2.3", title="Amplitude forced by the ceramic", place="Sect. 2.3",
-        printed=_EQ7, units={"W_max": "m", "M_1": "kg", "A_zm": "N/m", "lambda": "m"}, verdict="erratum",
+        id="7",
+        section="2.3",
+        title="Amplitude forced by the ceramic",
+        place="Sect. 2.3",
+        printed=_EQ7,
+        units={"W_max": "m", "M_1": "kg", "A_zm": "N/m", "lambda": "m"},
+        verdict="erratum",
         reason="The dimensions agree, but the modal mass is the ceramic's alone (A_p rho_p), the lever arm D/2 is not "
-               "the ceramic's, the section's rotation is taken as the slope, d31's sign is kept in an amplitude, and "
-               "lambda = pi R/9 needs the diameter where k_c = n_j/R needs the radius.",
-        judge=_judge_7, derive=_derive_7, effect=_effect_7, repair=_repair_7, size=_size_7,
+        "the ceramic's, the section's rotation is taken as the slope, d31's sign is kept in an amplitude, and "
+        "lambda = pi R/9 needs the diameter where k_c = n_j/R needs the radius.",
+        judge=_judge_7,
+        derive=_derive_7,
+        effect=_effect_7,
+        repair=_repair_7,
+        size=_size_7,
         found_by=("numeric", "identity"),
     ),
     Entry(
-        id="8", section="2.3", title="Amplitude under prepressure", place="Sect. 2.3, constants in Sect. 7.1",
-        printed=_EQ8, units={"W_maxf": "m"}, verdict="empirical",
+        id="8",
+        section="2.3",
+        title="Amplitude under prepressure",
+        place="Sect. 2.3, constants in Sect. 7.1",
+        printed=_EQ8,
+        units={"W_maxf": "m"},
+        verdict="empirical",
         reason="A fitted power law; F_c counts newtons, since the base of a fitted power must be a number.",
-        judge=_judge_8, derive=_derive_8, effect=_effect_8,
+        judge=_judge_8,
+        derive=_derive_8,
+        effect=_effect_8,
     ),
-)  # fmt: skip
+)

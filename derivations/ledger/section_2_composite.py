@@ -36,13 +36,16 @@ def _derive_1() -> Derivation:
     axis = _axis()
     return Derivation(
         (
-            step("Plane sections stay plane: the bending stress at depth z below the tooth surface grows as "
-                 "the modulus times z - D. Bending alone carries no axial force:", sp.Eq(strain, 0)),
+            step(
+                "Plane sections stay plane: the bending stress at depth z below the tooth surface grows as "
+                "the modulus times z - D. Bending alone carries no axial force:",
+                sp.Eq(strain, 0),
+            ),
             step("The integrals are elementary, and linear in D:", sp.Eq(strain.doit(), 0)),
             step("Solved for D; put back, the axial force vanishes:", sp.Eq(D, axis), zero=strain.doit().subs(D, axis)),
         ),
         {"D": axis},
-    )  # fmt: skip
+    )
 
 
 def _judge_1(forms: Forms) -> Iterator[Evidence]:
@@ -129,16 +132,33 @@ def _derive_beam() -> Derivation:
     ratio = bent.doit() / full.doit()
     return Derivation(
         (
-            step("The grooves take n_s b_s of the circumference l_s to the depth h_t: their share of the metal's "
-                 "volume, which mass and shear area lose, is", grooves, zero=beam["rho_eq"] / rho_e - (1 - grooves)),
-            step("Teeth carry no bending stress, so only h_e - h_t bends; about its own middle it has, against the "
-                 "whole height, the fraction", sp.Eq(bent / full, sp.factor(ratio)), zero=ratio - beam["E_eq"] / E_e),
-            step("This scales the modulus so that the full height h_e may be used. It is exact for the metal alone. "
-                 "In the composite the stress lies about another axis, so the bending stiffness is an approximation."),
+            step(
+                "The grooves take n_s b_s of the circumference l_s to the depth h_t: their share of the metal's "
+                "volume, which mass and shear area lose, is",
+                grooves,
+                zero=beam["rho_eq"] / rho_e - (1 - grooves),
+            ),
+            step(
+                "Teeth carry no bending stress, so only h_e - h_t bends; about its own middle it has, against the "
+                "whole height, the fraction",
+                sp.Eq(bent / full, sp.factor(ratio)),
+                zero=ratio - beam["E_eq"] / E_e,
+            ),
+            step(
+                "This scales the modulus so that the full height h_e may be used. It is exact for the metal alone. "
+                "In the composite the stress lies about another axis, so the bending stiffness is an approximation."
+            ),
         ),
-        {**beam, "k_t": h_t / h_e, "k_s": n_s * b_s / l_s, "k_d": 1 - grooves, "A_eq": b_e * h_e, "A_p": b_p * h_p,
-         "A": b_e * h_e + b_p * h_p},
-    )  # fmt: skip
+        {
+            **beam,
+            "k_t": h_t / h_e,
+            "k_s": n_s * b_s / l_s,
+            "k_d": 1 - grooves,
+            "A_eq": b_e * h_e,
+            "A_p": b_p * h_p,
+            "A": b_e * h_e + b_p * h_p,
+        },
+    )
 
 
 def _layers(values: dict[str, mp.mpf]) -> tuple[mp.mpf, mp.mpf]:
@@ -219,20 +239,32 @@ def _derive_layers() -> Derivation:
     middle = sp.integrate(E_e * b_e * z, (z, h_t, h_e)) / sp.integrate(E_e * b_e, (z, h_t, h_e))
     return Derivation(
         (
-            step("The teeth end freely along the ring, so stress begins below them, at z = h_t. The metal there and "
-                 "the ceramic carry it, each with its own modulus; no axial force:", sp.Eq(strain, 0)),
+            step(
+                "The teeth end freely along the ring, so stress begins below them, at z = h_t. The metal there and "
+                "the ceramic carry it, each with its own modulus; no axial force:",
+                sp.Eq(strain, 0),
+            ),
             step("Solved for the axis:", sp.Eq(D, forms["D"]), zero=sp.factor(strain.doit().subs(D, forms["D"]))),
             step("The moment per curvature about that axis:", bent, zero=sp.expand(bent.doit() - forms["EI"])),
-            step("Without ceramic this is (1 - k_t)^3 E_e over the whole height, the equivalent modulus of the text: "
-                 "in bending about the metal's own middle both agree.", alone,
-                 zero=[sp.expand(forms["EI"].subs(D, (h_t + h_e) / 2).subs(b_p, 0) - alone),
-                       sp.simplify(alone - softened)]),
-            step("But that middle lies at (h_t + h_e)/2, not at h_e/2 where eq. 1 has it, and the modulus that an "
-                 "axial force meets is E_e over the height h_e - h_t, (1 - k_t) E_e over the whole: eq. 1 takes "
-                 "(1 - k_t)^3 E_e.", middle, zero=sp.simplify(middle - (h_t + h_e) / 2)),
+            step(
+                "Without ceramic this is (1 - k_t)^3 E_e over the whole height, the equivalent modulus of the text: "
+                "in bending about the metal's own middle both agree.",
+                alone,
+                zero=[
+                    sp.expand(forms["EI"].subs(D, (h_t + h_e) / 2).subs(b_p, 0) - alone),
+                    sp.simplify(alone - softened),
+                ],
+            ),
+            step(
+                "But that middle lies at (h_t + h_e)/2, not at h_e/2 where eq. 1 has it, and the modulus that an "
+                "axial force meets is E_e over the height h_e - h_t, (1 - k_t) E_e over the whole: eq. 1 takes "
+                "(1 - k_t)^3 E_e.",
+                middle,
+                zero=sp.simplify(middle - (h_t + h_e) / 2),
+            ),
         ),
         forms,
-    )  # fmt: skip
+    )
 
 
 def _judge_layers(forms: Forms) -> Iterator[Evidence]:
@@ -289,18 +321,30 @@ def _derive_2() -> Derivation:
     total = E_eq * of_metal + E_p * of_ceramic
     return Derivation(
         (
-            step("From the neutral axis z, the second moments of metal and ceramic are integrals over their heights:",
-                 sp.Eq(I_e, of_metal), sp.Eq(I_p, of_ceramic)),
-            step("A curvature strains both alike, so bending stiffnesses add; E is what multiplies I_z = I_e + I_p to "
-                 "give their sum:", sp.Eq(E * I_z, total), zero=forms["E"] * forms["I_z"] - total.doit()),
-            step("Masses add:", sp.Eq(rho * A, rho_eq * A_eq + rho_p * A_p),
-                 zero=forms["rho"] * forms["A"] - rho_eq * forms["A_eq"] - rho_p * forms["A_p"]),
-            step("Shear stiffnesses add if both layers shear by the same angle, which kappa then corrects:",
-                 sp.Eq(G * A, G_eq * A_eq + G_p * A_p),
-                 zero=forms["G"] * forms["A"] - G_eq * forms["A_eq"] - G_p * forms["A_p"]),
+            step(
+                "From the neutral axis z, the second moments of metal and ceramic are integrals over their heights:",
+                sp.Eq(I_e, of_metal),
+                sp.Eq(I_p, of_ceramic),
+            ),
+            step(
+                "A curvature strains both alike, so bending stiffnesses add; E is what multiplies I_z = I_e + I_p to "
+                "give their sum:",
+                sp.Eq(E * I_z, total),
+                zero=forms["E"] * forms["I_z"] - total.doit(),
+            ),
+            step(
+                "Masses add:",
+                sp.Eq(rho * A, rho_eq * A_eq + rho_p * A_p),
+                zero=forms["rho"] * forms["A"] - rho_eq * forms["A_eq"] - rho_p * forms["A_p"],
+            ),
+            step(
+                "Shear stiffnesses add if both layers shear by the same angle, which kappa then corrects:",
+                sp.Eq(G * A, G_eq * A_eq + G_p * A_p),
+                zero=forms["G"] * forms["A"] - G_eq * forms["A_eq"] - G_p * forms["A_p"],
+            ),
         ),
         forms,
-    )  # fmt: skip
+    )
 
 
 def _judge_2(forms: Forms) -> Iterator[Evidence]:
@@ -316,10 +360,17 @@ def _judge_2(forms: Forms) -> Iterator[Evidence]:
         areas = v["b_e"] * (middle - low), v["b_p"] * (high - middle)
         rho, G = (mp.fdot(areas, (v[f"{s}_eq"], v[f"{s}_p"])) / sum(areas) for s in ("rho", "G"))
         return {
-            "E": (v["E_eq"] * metal + v["E_p"] * ceramic) / (metal + ceramic), "I_z": metal + ceramic,
-            "rho": rho, "G": G, "I_e": metal, "I_p": ceramic,
-            "h": high - low, "A_eq": areas[0], "A_p": areas[1], "A": sum(areas),
-        }[name]  # fmt: skip
+            "E": (v["E_eq"] * metal + v["E_p"] * ceramic) / (metal + ceramic),
+            "I_z": metal + ceramic,
+            "rho": rho,
+            "G": G,
+            "I_e": metal,
+            "I_p": ceramic,
+            "h": high - low,
+            "A_eq": areas[0],
+            "A_p": areas[1],
+            "A": sum(areas),
+        }[name]
 
     ranges = {"rho_eq": (7e3, 9e3), "G_eq": (3e10, 5e10)}
     yield agrees(found, by_quadrature, symbols=sym(names), ranges=ranges, against="the section by quadrature")
@@ -334,43 +385,86 @@ def _effect_2() -> str:
     return f"{listed}; printed and derived agree."
 
 
-_UNITS_2 = {"E": "Pa", "rho": "kg/m^3", "I_z": "m^4", "G": "Pa", "I_e": "m^4", "I_p": "m^4", "h": "m", "A_eq": "m^2",
-            "A_p": "m^2", "A": "m^2"}  # fmt: skip
+_UNITS_2 = {
+    "E": "Pa",
+    "rho": "kg/m^3",
+    "I_z": "m^4",
+    "G": "Pa",
+    "I_e": "m^4",
+    "I_p": "m^4",
+    "h": "m",
+    "A_eq": "m^2",
+    "A_p": "m^2",
+    "A": "m^2",
+}
 
 
 ENTRIES = (
     Entry(
-        id="1", section="2.1", title="Distance from the tooth surface to the neutral layer", place="Sect. 2.1",
-        printed=_EQ1, units={"D": "m"}, verdict="approximation",
+        id="1",
+        section="2.1",
+        title="Distance from the tooth surface to the neutral layer",
+        place="Sect. 2.1",
+        printed=_EQ1,
+        units={"D": "m"},
+        verdict="approximation",
         reason="Follows from zero axial force if E_eq is the modulus that an axial force meets; z counts from the "
-               "tooth surface. But E_eq is made for bending: stretched, a metal of whose height the part 1 - k_t "
-               "carries stress has (1 - k_t) E_e, and its middle lies below the teeth. See the section in layers.",
-        judge=_judge_1, derive=_derive_1, effect=_effect_1,
+        "tooth surface. But E_eq is made for bending: stretched, a metal of whose height the part 1 - k_t "
+        "carries stress has (1 - k_t) E_e, and its middle lies below the teeth. See the section in layers.",
+        judge=_judge_1,
+        derive=_derive_1,
+        effect=_effect_1,
     ),
     Entry(
-        id="equivalent-beam", section="2.1", title="Equivalent beam for the toothed ring", place="below eq. (1)",
+        id="equivalent-beam",
+        section="2.1",
+        title="Equivalent beam for the toothed ring",
+        place="below eq. (1)",
         printed=_BEAM,
-        units={"rho_eq": "kg/m^3", "E_eq": "Pa", "G_eq": "Pa", "k_d": "1", "k_t": "1", "k_s": "1", "A_eq": "m^2",
-               "A_p": "m^2", "A": "m^2"},
+        units={
+            "rho_eq": "kg/m^3",
+            "E_eq": "Pa",
+            "G_eq": "Pa",
+            "k_d": "1",
+            "k_t": "1",
+            "k_s": "1",
+            "A_eq": "m^2",
+            "A_p": "m^2",
+            "A": "m^2",
+        },
         verdict="approximation",
         reason="Density and shear area lose the grooves' volume. The modulus is scaled by the cube of the height that "
-               "bends, which is exact for the metal alone but not about the composite's neutral axis. The text calls "
-               "the beam's thickness k_e once, and Young's and the shear modulus both E_e: h_e and G_e are meant.",
-        judge=_judge_beam, derive=_derive_beam, effect=_effect_beam,
+        "bends, which is exact for the metal alone but not about the composite's neutral axis. The text calls "
+        "the beam's thickness k_e once, and Young's and the shear modulus both E_e: h_e and G_e are meant.",
+        judge=_judge_beam,
+        derive=_derive_beam,
+        effect=_effect_beam,
     ),
     Entry(
-        id="layered-section", section="2.1", title="Axis and bending stiffness of the section in layers",
-        place="behind eqs. (1) and (2), not in the text", printed={}, units={"D": "m", "EI": "N*m^2"},
+        id="layered-section",
+        section="2.1",
+        title="Axis and bending stiffness of the section in layers",
+        place="behind eqs. (1) and (2), not in the text",
+        printed={},
+        units={"D": "m", "EI": "N*m^2"},
         verdict="reconstructed",
         reason="What carries stress along the ring is the metal below the teeth and the ceramic, each with its own "
-               "modulus; the axis of (1) and the stiffness of (2) approximate it.",
-        judge=_judge_layers, derive=_derive_layers, effect=_effect_layers,
+        "modulus; the axis of (1) and the stiffness of (2) approximate it.",
+        judge=_judge_layers,
+        derive=_derive_layers,
+        effect=_effect_layers,
     ),
     Entry(
-        id="2", section="2.1", title="Modulus, density, second moment and shear modulus of the section",
-                                     place="Sect. 2.1",
-        printed=_EQ2, units=_UNITS_2, verdict="verified",
+        id="2",
+        section="2.1",
+        title="Modulus, density, second moment and shear modulus of the section",
+        place="Sect. 2.1",
+        printed=_EQ2,
+        units=_UNITS_2,
+        verdict="verified",
         reason="Bending and shear stiffnesses and masses add; G takes equal shear in both layers.",
-        judge=_judge_2, derive=_derive_2, effect=_effect_2,
+        judge=_judge_2,
+        derive=_derive_2,
+        effect=_effect_2,
     ),
-)  # fmt: skip
+)

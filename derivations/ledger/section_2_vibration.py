@@ -47,13 +47,15 @@ def _derive_3() -> Derivation:
     return Derivation(
         (
             step("Kinetic energy per length, of translation and of rotation of the section:", kinetic),
-            step("Strain energy per length, of bending and of shear (the section turns by theta, the axis by "
-                 "w'):", strain),
+            step(
+                "Strain energy per length, of bending and of shear (the section turns by theta, the axis by w'):",
+                strain,
+            ),
             step("Hamilton's principle for T - V + p w, varied in w:", forms["force"], zero=variation[0] + rest[0]),
             step("and in theta:", forms["moment"], zero=variation[1] + rest[1]),
         ),
         forms,
-    )  # fmt: skip
+    )
 
 
 def _judge_3(forms: Forms) -> Iterator[Evidence]:
@@ -97,14 +99,20 @@ def _derive_4() -> Derivation:
     closes = sp.Eq(k_c * 2 * sp.pi * R, 2 * sp.pi * n_j)
     return Derivation(
         (
-            step("Put into the beam's equation (5) without foundation, the shape leaves a condition on the frequency "
-                 "alone:",
-                 sp.Eq(quartic, 0), zero=sp.expand(left / form - quartic)),
-            step("The ring closes on itself when a whole number n_j of waves fits the circumference 2 pi R:", closes,
-                 zero=(closes.lhs - closes.rhs).subs(k_c, n_j / R)),
+            step(
+                "Put into the beam's equation (5) without foundation, the shape leaves a condition on the frequency "
+                "alone:",
+                sp.Eq(quartic, 0),
+                zero=sp.expand(left / form - quartic),
+            ),
+            step(
+                "The ring closes on itself when a whole number n_j of waves fits the circumference 2 pi R:",
+                closes,
+                zero=(closes.lhs - closes.rhs).subs(k_c, n_j / R),
+            ),
         ),
         {"w": form, "k_c": contact.wavenumber()},
-    )  # fmt: skip
+    )
 
 
 def _judge_4(forms: Forms) -> Iterator[Evidence]:
@@ -178,18 +186,29 @@ def _derive_5() -> Derivation:
     final = forms["beam"].lhs.subs(definitions)
     return Derivation(
         (
-            step("Timoshenko's equations on a foundation that presses back with k_f w, load p = 0:",
-                 sp.Eq(force.subs(p, 0), 0), sp.Eq(moment, 0)),
-            step("The first gives the rotation's slope:", sp.Eq(theta.diff(x), slope),
-                 zero=force.subs(p, 0).subs(theta.diff(x), slope)),
-            step("The second, differentiated by x, holds only slopes of theta. With the first put in, one equation "
-                 "for w is left; the foundation appears three times, also with shear and rotation:", forms["beam"],
-                 zero=sp.expand(single - final)),
-            step("A wave W cos(k_c x) cos(omega t) turns it into a quadratic in omega^2, the dispersion relation:",
-                 sp.Eq(sum(c * s for c, s in zip(beam.dispersion(), (_omega**4, -(_omega**2), 1), strict=True)), 0)),
+            step(
+                "Timoshenko's equations on a foundation that presses back with k_f w, load p = 0:",
+                sp.Eq(force.subs(p, 0), 0),
+                sp.Eq(moment, 0),
+            ),
+            step(
+                "The first gives the rotation's slope:",
+                sp.Eq(theta.diff(x), slope),
+                zero=force.subs(p, 0).subs(theta.diff(x), slope),
+            ),
+            step(
+                "The second, differentiated by x, holds only slopes of theta. With the first put in, one equation "
+                "for w is left; the foundation appears three times, also with shear and rotation:",
+                forms["beam"],
+                zero=sp.expand(single - final),
+            ),
+            step(
+                "A wave W cos(k_c x) cos(omega t) turns it into a quadratic in omega^2, the dispersion relation:",
+                sp.Eq(sum(c * s for c, s in zip(beam.dispersion(), (_omega**4, -(_omega**2), 1), strict=True)), 0),
+            ),
         ),
         forms,
-    )  # fmt: skip
+    )
 
 
 def _wave_value(forms: Forms, point: dict[sp.Symbol, mp.mpf]) -> mp.mpf:
@@ -214,11 +233,14 @@ def _judge_5(forms: Forms) -> Iterator[Evidence]:
         wanted = -mp.det(matrix) / shear
         found = _wave_value(forms, {**point, k_ds: f, k_dx: f})
         worst = worse(worst, abs(found / wanted - 1))
-    yield evidence("numeric", worst < mp.mpf(10) ** -20,
-                   f"differs from the determinant of the two equations (3) by {mp.nstr(worst, 3)} relative at "
-                   "most")  # fmt: skip
-    symbolic = identical({"beam": forms["beam"].subs({sym(n)[0]: f for n, f in forms.items() if n != "beam"})},
-                         {"beam": beam_equation()})  # fmt: skip
+    yield evidence(
+        "numeric",
+        worst < mp.mpf(10) ** -20,
+        f"differs from the determinant of the two equations (3) by {mp.nstr(worst, 3)} relative at most",
+    )
+    symbolic = identical(
+        {"beam": forms["beam"].subs({sym(n)[0]: f for n, f in forms.items() if n != "beam"})}, {"beam": beam_equation()}
+    )
     yield symbolic
     drop = {k_f: 0, k_ds: 0}
     plain = (forms["beam"].lhs.subs(drop) - _EQ5_FREE) if isinstance(forms["beam"], sp.Eq) else sp.Integer(1)
@@ -266,13 +288,18 @@ def _derive_kdx() -> Derivation:
     total = contact.foundation()["printed"].subs({k_N: contact.layer_stiffness(), theta_c: k_c * x_m})
     return Derivation(
         (
-            step("A strip of the layer, as long as dx, resists indentation by E_m b_m / h_m dx:",
-                 sp.Eq(k_N, contact.layer_stiffness())),
-            step("n_j contacts of the length 2 x_m together, all indented alike, resist by", total,
-                 zero=total - sp.Integral(contact.layer_stiffness(), (x, -x_m, x_m)).doit() * n_j),
+            step(
+                "A strip of the layer, as long as dx, resists indentation by E_m b_m / h_m dx:",
+                sp.Eq(k_N, contact.layer_stiffness()),
+            ),
+            step(
+                "n_j contacts of the length 2 x_m together, all indented alike, resist by",
+                total,
+                zero=total - sp.Integral(contact.layer_stiffness(), (x, -x_m, x_m)).doit() * n_j,
+            ),
         ),
         {"k_dx": total},
-    )  # fmt: skip
+    )
 
 
 def _judge_kdx(forms: Forms) -> Iterator[Evidence]:
@@ -315,24 +342,41 @@ def _derive_6() -> Derivation:
     left = corrected["beam"].lhs.subs(values)
     return Derivation(
         (
-            step("Eq. (5) put right, with the foundation's two further terms, which arise where its force enters the "
-                 "elimination of the rotation from (3):", corrected["beam"],
-                 *(sp.Eq(symbol, form) for symbol, form in values.items()),
-                 zero=left - beam_equation().lhs),
-            step("The wave (4) put into it leaves of every term a number times the same shape; with omega for its "
-                 "frequency:", sp.Eq(w, wave), sp.Eq(quartic, 0),
-                 zero=sp.expand(left.subs(w, wave).doit() / wave - quartic)),
-            step("The paper drops a_4 omega^4 without a word (what that costs is under Effect). What is left is "
-                 "linear in omega^2:", sp.Eq(_omega**2 * b, c), zero=_omega**2 * b - c - (a * _omega**4 - quartic)),
-            step("Solved for omega. Each term below carries the inertia it comes from. The printed one, rho (1/(kappa "
-                 "G) + 1/E) k_c^2, lost a_2's factor E I_z, so that kg/m and s^2/m^4 would be added:",
-                 sp.Eq(omega_n, root), zero=[root**2 * b - c, root**2 - beam.resonance()["eq6"] ** 2]),
-            step("With a_4 kept there are two roots omega^2; the lower one is the bending mode. It is what the figures "
-                 "under Effect call the full quartic:", sp.Eq(omega_n, beam.resonance()["quartic"]),
-                 zero=sp.radsimp(quartic.subs(_omega, sp.sqrt(lower)))),
+            step(
+                "Eq. (5) put right, with the foundation's two further terms, which arise where its force enters the "
+                "elimination of the rotation from (3):",
+                corrected["beam"],
+                *(sp.Eq(symbol, form) for symbol, form in values.items()),
+                zero=left - beam_equation().lhs,
+            ),
+            step(
+                "The wave (4) put into it leaves of every term a number times the same shape; with omega for its "
+                "frequency:",
+                sp.Eq(w, wave),
+                sp.Eq(quartic, 0),
+                zero=sp.expand(left.subs(w, wave).doit() / wave - quartic),
+            ),
+            step(
+                "The paper drops a_4 omega^4 without a word (what that costs is under Effect). What is left is "
+                "linear in omega^2:",
+                sp.Eq(_omega**2 * b, c),
+                zero=_omega**2 * b - c - (a * _omega**4 - quartic),
+            ),
+            step(
+                "Solved for omega. Each term below carries the inertia it comes from. The printed one, rho (1/(kappa "
+                "G) + 1/E) k_c^2, lost a_2's factor E I_z, so that kg/m and s^2/m^4 would be added:",
+                sp.Eq(omega_n, root),
+                zero=[root**2 * b - c, root**2 - beam.resonance()["eq6"] ** 2],
+            ),
+            step(
+                "With a_4 kept there are two roots omega^2; the lower one is the bending mode. It is what the figures "
+                "under Effect call the full quartic:",
+                sp.Eq(omega_n, beam.resonance()["quartic"]),
+                zero=sp.radsimp(quartic.subs(_omega, sp.sqrt(lower))),
+            ),
         ),
         {"omega_n": root},
-    )  # fmt: skip
+    )
 
 
 def _judge_6(forms: Forms) -> Iterator[Evidence]:
@@ -350,16 +394,20 @@ def _judge_6(forms: Forms) -> Iterator[Evidence]:
         scale = mp.diag([1 / mp.sqrt(r * a), 1 / mp.sqrt(r * i)])
         squares = mp.eigsy(scale * stiffness * scale, eigvals_only=True)
         worst_exact = worse(worst_exact, abs(found / mp.sqrt(min(squares)) - 1))
-    yield evidence("numeric", worst < mp.mpf(10) ** -20,
-                   f"differs from det K / tr(K, M) of (3), the root without a_4, by {mp.nstr(worst, 3)} relative at "
-                   f"most")  # fmt: skip
+    yield evidence(
+        "numeric",
+        worst < mp.mpf(10) ** -20,
+        f"differs from det K / tr(K, M) of (3), the root without a_4, by {mp.nstr(worst, 3)} relative at most",
+    )
     slender = sp.limit(form.subs({k_f: 0, k_dx: 0}) / k_c**2, k_c, 0)
     euler = sp.sqrt(E * I_z / (rho * A))
     yield evidence("limit", vanishes(slender - euler), "long waves: Euler and Bernoulli's beam")
     yield identical(forms, {"omega_n": beam.resonance()["eq6"]})
-    yield evidence("error_size", worst_exact < 0.05,
-                   f"off the exact lower eigenvalue by {mp.nstr(100 * worst_exact, 3)} % at most; allowed 5 "
-                   "%")  # fmt: skip
+    yield evidence(
+        "error_size",
+        worst_exact < 0.05,
+        f"off the exact lower eigenvalue by {mp.nstr(100 * worst_exact, 3)} % at most; allowed 5 %",
+    )
 
 
 def _effect_6() -> str:
@@ -395,41 +443,78 @@ def _picture_6() -> Picture:
 
 ENTRIES = (
     Entry(
-        id="3", section="2.2", title="Timoshenko's equations of the beam", place="Sect. 2.2",
-        printed=_EQ3, units={}, verdict="verified",
+        id="3",
+        section="2.2",
+        title="Timoshenko's equations of the beam",
+        place="Sect. 2.2",
+        printed=_EQ3,
+        units={},
+        verdict="verified",
         reason="Hamilton's principle gives the same two equations, sign by sign.",
-        judge=_judge_3, derive=_derive_3, effect=_effect_3,
+        judge=_judge_3,
+        derive=_derive_3,
+        effect=_effect_3,
     ),
     Entry(
-        id="4", section="2.2", title="Standing wave and wavenumber", place="Sect. 2.2",
-        printed=_EQ4, units={"w": "m", "k_c": "1/m"}, verdict="verified",
+        id="4",
+        section="2.2",
+        title="Standing wave and wavenumber",
+        place="Sect. 2.2",
+        printed=_EQ4,
+        units={"w": "m", "k_c": "1/m"},
+        verdict="verified",
         reason="A mode of the closed ring; its mate is the one with sin(k_c x). R is the radius, 30 mm.",
-        judge=_judge_4, derive=_derive_4, effect=_effect_4,
+        judge=_judge_4,
+        derive=_derive_4,
+        effect=_effect_4,
     ),
     Entry(
-        id="5", section="2.2", title="Single equation of the beam under prepressure", place="Sect. 2.2",
+        id="5",
+        section="2.2",
+        title="Single equation of the beam under prepressure",
+        place="Sect. 2.2",
         printed=_EQ5,
         units={"a_1": "N*m^2", "a_2": "kg*m", "a_3": "kg/m", "a_4": "kg*s^2/m"},
         verdict="erratum",
         reason="k_ds (below it k_dx) is a stiffness in N/m where one per length, N/m^2, is needed, and eliminating "
-               "theta with a foundation leaves two more terms, in w_tt and w_xx. The coefficients a_1 to a_4 are "
-               "right.",
-        judge=_judge_5, derive=_derive_5, effect=_effect_5, repair=_repair_5, size=_size_5,
+        "theta with a foundation leaves two more terms, in w_tt and w_xx. The coefficients a_1 to a_4 are "
+        "right.",
+        judge=_judge_5,
+        derive=_derive_5,
+        effect=_effect_5,
+        repair=_repair_5,
+        size=_size_5,
         found_by=("dimension", "numeric", "identity"),
     ),
     Entry(
-        id="k_dx", section="2.2", title="Stiffness of the friction layer", place="below eq. (5)",
-        printed=_KDX, units={"k_dx": "N/m"}, verdict="definition",
+        id="k_dx",
+        section="2.2",
+        title="Stiffness of the friction layer",
+        place="below eq. (5)",
+        printed=_KDX,
+        units={"k_dx": "N/m"},
+        verdict="definition",
         reason="The stiffness of n_j contacts indented alike, in N/m; as a foundation of eq. (5) it does not fit. Its "
-               "m is the number of crests, not of pulses.",
-        judge=_judge_kdx, derive=_derive_kdx, effect=_effect_kdx,
+        "m is the number of crests, not of pulses.",
+        judge=_judge_kdx,
+        derive=_derive_kdx,
+        effect=_effect_kdx,
     ),
     Entry(
-        id="6", section="2.2", title="Resonance under prepressure", place="Sect. 2.2",
-        printed=_EQ6, units={"omega_n": "rad/s"}, verdict="erratum",
+        id="6",
+        section="2.2",
+        title="Resonance under prepressure",
+        place="Sect. 2.2",
+        printed=_EQ6,
+        units={"omega_n": "rad/s"},
+        verdict="erratum",
         reason="The denominator lost the factor E I_z of a_2, the numerator holds k_dx [N/m] where k_f [N/m^2] "
-               "belongs, the foundation's cross terms are missing, and a_4 is dropped in silence.",
-        judge=_judge_6, derive=_derive_6, effect=_effect_6, repair=_repair_6,
-        found_by=("dimension", "numeric", "identity", "error_size"), picture=_picture_6,
+        "belongs, the foundation's cross terms are missing, and a_4 is dropped in silence.",
+        judge=_judge_6,
+        derive=_derive_6,
+        effect=_effect_6,
+        repair=_repair_6,
+        found_by=("dimension", "numeric", "identity", "error_size"),
+        picture=_picture_6,
     ),
-)  # fmt: skip
+)

@@ -47,18 +47,30 @@ def _derive_20() -> Derivation:
     crest = {sp.sin(k_c * x): w_A / length, sp.cos(k_c * x): w_B / length}
     return Derivation(
         (
-            step("At a crest the slope, not the vertical velocity, is zero (the text says the velocity and writes the "
-                 "slope):", sp.Eq(_SHAPE.diff(x), 0)),
-            step("This leaves two places half a wavelength apart, the crest and the trough; at the crest sine and "
-                 "cosine of k_c x have the signs of w_A and w_B:", sp.Eq(sp.sin(k_c * x), w_A / length),
-                 sp.Eq(sp.cos(k_c * x), w_B / length), zero=slope.subs(crest)),
-            step("There the displacement is the largest possible, positive:", length,
-                 zero=sp.simplify(_SHAPE.subs(crest) - length)),
-            step("So the branch follows the sign of w_B, and both rows are one function:",
-                 sp.Eq(x_max, sp.atan2(w_A, w_B) / k_c)),
+            step(
+                "At a crest the slope, not the vertical velocity, is zero (the text says the velocity and writes the "
+                "slope):",
+                sp.Eq(_SHAPE.diff(x), 0),
+            ),
+            step(
+                "This leaves two places half a wavelength apart, the crest and the trough; at the crest sine and "
+                "cosine of k_c x have the signs of w_A and w_B:",
+                sp.Eq(sp.sin(k_c * x), w_A / length),
+                sp.Eq(sp.cos(k_c * x), w_B / length),
+                zero=slope.subs(crest),
+            ),
+            step(
+                "There the displacement is the largest possible, positive:",
+                length,
+                zero=sp.simplify(_SHAPE.subs(crest) - length),
+            ),
+            step(
+                "So the branch follows the sign of w_B, and both rows are one function:",
+                sp.Eq(x_max, sp.atan2(w_A, w_B) / k_c),
+            ),
         ),
         {"x_max": sp.atan2(w_A, w_B) / k_c},
-    )  # fmt: skip
+    )
 
 
 def _judge_20(forms: Forms) -> Iterator[Evidence]:
@@ -71,8 +83,11 @@ def _judge_20(forms: Forms) -> Iterator[Evidence]:
         flat &= bool(abs(a * mp.cos(k * place) - b * mp.sin(k * place)) < mp.mpf(10) ** -25 * size)
         high &= bool(abs(a * mp.sin(k * place) + b * mp.cos(k * place) - size) < mp.mpf(10) ** -25 * size)
     yield evidence("identity", flat, "the slope is zero at x_max")
-    yield evidence("numeric", high, "x_max is the crest, not the trough, in all four quadrants of (w_A, w_B), "
-                                    "wherever the particle x is")  # fmt: skip
+    yield evidence(
+        "numeric",
+        high,
+        "x_max is the crest, not the trough, in all four quadrants of (w_A, w_B), wherever the particle x is",
+    )
     yield evidence("domain", not form.has(x), "the crest's place depends on the phases only, not on the particle's x")
 
 
@@ -108,12 +123,15 @@ def _derive_21() -> Derivation:
     return Derivation(
         (
             step("Eq. (11) at the crest:", _EQ21["zeta_zmax"]),
-            step("With the sine and cosine that belong to the crest (20) it is the length of (w_A, w_B), never "
-                 "negative:",
-                 length, zero=sp.simplify(_EQ21["zeta_zmax"].subs(crest) - length)),
+            step(
+                "With the sine and cosine that belong to the crest (20) it is the length of (w_A, w_B), never "
+                "negative:",
+                length,
+                zero=sp.simplify(_EQ21["zeta_zmax"].subs(crest) - length),
+            ),
         ),
         {"zeta_zmax": length},
-    )  # fmt: skip
+    )
 
 
 def _judge_21(forms: Forms) -> Iterator[Evidence]:
@@ -143,16 +161,21 @@ def _derive_22() -> Derivation:
     crest = {sp.sin(k_c * x_max): w_A / length, sp.cos(k_c * x_max): w_B / length}
     return Derivation(
         (
-            step("A tangential velocity is the rate of the tangential displacement zeta_x = D d(zeta_z)/dx, at a "
-                 "fixed place:",
-                 D * sp.Derivative(_SHAPE, x, t), zero=(D * _SHAPE.diff(x, t)).subs(x, x_max) - velocity),
-            step("At the crest it is the determinant Q (24) over the crest's height, so that (42) holds:",
-                 determinant.determinant() / length,
-                 zero=sp.simplify(velocity.subs(crest) - determinant.determinant() / length)),
+            step(
+                "A tangential velocity is the rate of the tangential displacement zeta_x = D d(zeta_z)/dx, at a "
+                "fixed place:",
+                D * sp.Derivative(_SHAPE, x, t),
+                zero=(D * _SHAPE.diff(x, t)).subs(x, x_max) - velocity,
+            ),
+            step(
+                "At the crest it is the determinant Q (24) over the crest's height, so that (42) holds:",
+                determinant.determinant() / length,
+                zero=sp.simplify(velocity.subs(crest) - determinant.determinant() / length),
+            ),
             step("The print differentiates zeta_z, the vertical displacement: that is the crest's vertical velocity."),
         ),
         {"v_xmax": velocity},
-    )  # fmt: skip
+    )
 
 
 def _judge_22(forms: Forms) -> Iterator[Evidence]:
@@ -165,9 +188,11 @@ def _judge_22(forms: Forms) -> Iterator[Evidence]:
         q = state["da"] * state["b"] - state["db"] * state["a"]
         product = mp.sqrt(state["a"] ** 2 + state["b"] ** 2) * value
         most = worse(most, abs(product - state["D"] * k * q))
-    yield evidence("numeric", worst_ < mp.mpf(10) ** -12,
-                   f"off the rate of zeta_x, derivatives taken numerically, by {mp.nstr(worst_, 3)} m/s at "
-                   "most")  # fmt: skip
+    yield evidence(
+        "numeric",
+        worst_ < mp.mpf(10) ** -12,
+        f"off the rate of zeta_x, derivatives taken numerically, by {mp.nstr(worst_, 3)} m/s at most",
+    )
     yield evidence("identity", most < mp.mpf(10) ** -25, "zeta_zmax v_xmax is the determinant (42)")
 
 
@@ -215,24 +240,49 @@ def _picture_22() -> Picture:
 
 ENTRIES = (
     Entry(
-        id="20", section="3.4", title="Place of the crest", place="Sect. 3.4",
-        printed=_EQ20, units={"x_max": "m"}, verdict="erratum",
+        id="20",
+        section="3.4",
+        title="Place of the crest",
+        place="Sect. 3.4",
+        printed=_EQ20,
+        units={"x_max": "m"},
+        verdict="erratum",
         reason="The arctangent is right up to half a wavelength, but cos(k_c x) of the particle cannot choose between "
-               "crest and trough: the sign of w_B does. It is the slope that vanishes at a crest, not the vertical "
-               "velocity.",
-        judge=_judge_20, derive=_derive_20, effect=_effect_20, repair=_repair_20, found_by=("numeric", "domain"),
+        "crest and trough: the sign of w_B does. It is the slope that vanishes at a crest, not the vertical "
+        "velocity.",
+        judge=_judge_20,
+        derive=_derive_20,
+        effect=_effect_20,
+        repair=_repair_20,
+        found_by=("numeric", "domain"),
     ),
     Entry(
-        id="21", section="3.4", title="Displacement of the crest", place="Sect. 3.4",
-        printed=_EQ21, units={"zeta_zmax": "m"}, verdict="verified",
+        id="21",
+        section="3.4",
+        title="Displacement of the crest",
+        place="Sect. 3.4",
+        printed=_EQ21,
+        units={"zeta_zmax": "m"},
+        verdict="verified",
         reason="With the crest's place of (20) put right it is sqrt(w_A^2 + w_B^2).",
-        judge=_judge_21, derive=_derive_21, effect=lambda: "None: printed and derived agree, given x_max at the crest.",
+        judge=_judge_21,
+        derive=_derive_21,
+        effect=lambda: "None: printed and derived agree, given x_max at the crest.",
     ),
     Entry(
-        id="22", section="3.4", title="Tangential velocity of the crest", place="Sect. 3.4",
-        printed=_EQ22, units={"v_xmax": "m/s"}, verdict="erratum",
+        id="22",
+        section="3.4",
+        title="Tangential velocity of the crest",
+        place="Sect. 3.4",
+        printed=_EQ22,
+        units={"v_xmax": "m/s"},
+        verdict="erratum",
         reason="Differentiates zeta_z, the vertical displacement, where zeta_x is meant.",
-        judge=_judge_22, derive=_derive_22, effect=_effect_22, repair=_repair_22, found_by=("numeric", "identity"),
+        judge=_judge_22,
+        derive=_derive_22,
+        effect=_effect_22,
+        repair=_repair_22,
+        found_by=("numeric", "identity"),
         picture=_picture_22,
     ),
-)  # fmt: skip
+)

@@ -50,13 +50,23 @@ _DECAY_A, _DECAY_B = sp.exp(-xi * omega_n * (t - t_1)), sp.exp(-xi * omega_n * (
 _add = sym("Delta_omega_add")[0]
 _EQ24: Forms = {
     "Q_q": by_region(
-        (_printed_24((W_maxf * _DECAY_A, W_maxf), (omega_n, omega_q),
-                     (omega_q - omega_n) * (t - t_1) + sp.pi / 2), 1, 2),
-        (_printed_24((A_AB, W_maxf * _DECAY_B), (mean, omega_n),
-                     (omega_q - omega_n) / 2 * (t - t_2) + sp.pi - varphi_A - half_A), 2, 3),
+        (
+            _printed_24((W_maxf * _DECAY_A, W_maxf), (omega_n, omega_q), (omega_q - omega_n) * (t - t_1) + sp.pi / 2),
+            1,
+            2,
+        ),
+        (
+            _printed_24(
+                (A_AB, W_maxf * _DECAY_B),
+                (mean, omega_n),
+                (omega_q - omega_n) / 2 * (t - t_2) + sp.pi - varphi_A - half_A,
+            ),
+            2,
+            3,
+        ),
         (_printed_24((A_AB, A_Badd), (mean, mean), _add * (t - t_3) + _TURN_3), 3, 4),
     )
-}  # fmt: skip
+}
 
 
 _Pair = tuple[tuple[sp.Expr, sp.Expr], tuple[sp.Expr, sp.Expr]]
@@ -116,17 +126,24 @@ def _off_responses(form: sp.Basic, names: dict[str, mp.mpf]) -> mp.mpf:
 def _judge_24(forms: Forms) -> Iterator[Evidence]:
     form = forms["Q_q"]
     near = worst(partial(_off_vectors, form))
-    yield evidence("numeric", largest(near.values()) < mp.mpf("0.02"),
-                   "off (A8) with the phases as complex vectors, "
-                   f"in D k_c W^2 omega_q, by {shares(near)}; "
-                   "allowed 2 %")  # fmt: skip
+    yield evidence(
+        "numeric",
+        largest(near.values()) < mp.mpf("0.02"),
+        f"off (A8) with the phases as complex vectors, in D k_c W^2 omega_q, by {shares(near)}; allowed 2 %",
+    )
     off = {r: largest(_off_responses(form, names) for names in anywhere(r, 3, "eq24")) for r in REGIONS}
-    yield evidence("identity", largest(off.values()) < mp.mpf(10) ** -8,
-                   "is (A8) for (9) and (10) put right, whatever the supplement's amplitudes and phases: off by "
-                   f"{shares(off)} of its amplitude")  # fmt: skip
+    yield evidence(
+        "identity",
+        largest(off.values()) < mp.mpf(10) ** -8,
+        "is (A8) for (9) and (10) put right, whatever the supplement's amplitudes and phases: off by "
+        f"{shares(off)} of its amplitude",
+    )
     found = worst(lambda cycle, region, time: abs(error_24(form, cycle, region, time)))
-    yield evidence("error_size", largest(found.values()) < 0.5,
-                   f"off the exact determinant, in D k_c W^2 omega_q, by {shares(found)}; allowed 50 %")  # fmt: skip
+    yield evidence(
+        "error_size",
+        largest(found.values()) < 0.5,
+        f"off the exact determinant, in D k_c W^2 omega_q, by {shares(found)}; allowed 50 %",
+    )
     start = row_value(form, context(at_table_3(), "redu", mp.mpf(0)))
     yield evidence("limit", start > 0, "positive at t_1, where the wave still travels clockwise")
 
@@ -170,28 +187,48 @@ def _derive_24() -> Derivation:
     (al1, be1), (al2, be2), (al3, be3) = (tuple(angle for _, angle in pair) for pair in _as_cosines())
     return Derivation(
         (
-            step("For any two phases the determinant (A5) with the displacements (11) is, wherever the particle is, "
-                 "exactly",
-                 sp.Eq(sym("Q_q")[0], exact)),
-            step("Two phases W_a cos(alpha_A), W_b cos(alpha_B) of slowly varying amplitude give (A6):", product,
-                 zero=sp.expand(sp.expand_trig(put - product))),
-            step("The fast term, with the sum of the angles, is smaller by the ratio of the frequencies' difference "
-                 "to their sum and averages out. The slow one stays, which is (A8):", slow,
-                 zero=sp.expand(product - slow - half * (db - da) * sp.sin(alpha(t) + beta_(t)))),
-            step("From t_1 to t_2 A is free and B forced, (9) and (10) put right as cosines with the amplitudes "
-                 "before them; alpha_B - alpha_A grows with the whole difference of the frequencies:", *_angles(0),
-                 zero=sp.expand(be1 - al1 - (omega_q - omega_n) * (t - t_1) - sp.pi / 2)),
-            step("From t_2 to t_3 A has the mean frequency, B is free and slower: alpha_B - alpha_A falls, by half the "
-                 "difference; the print lets it rise. B starts with omega_q/omega_n times W_maxf (10):", *_angles(1),
-                 zero=sp.expand(sp.diff(be2 - al2, t) + (omega_q - omega_n) / 2)),
-            step("From t_3 to t_4 both have the mean frequency and alpha_B - alpha_A stands still but for the slow "
-                 "phases, so Delta_omega_add is 0. The print lost a minus before its last bracket.", *_angles(2),
-                 zero=sp.expand(sp.diff(be3 - al3, t))),
-            step("Put into (A8), region by region:", *(sp.Eq(sym("Q_q")[0], row) for row in rows(forms["Q_q"])),
-                 zero=[_of_a8(pair) - row for pair, row in zip(_as_cosines(), rows(forms["Q_q"]), strict=True)]),
+            step(
+                "For any two phases the determinant (A5) with the displacements (11) is, wherever the particle is, "
+                "exactly",
+                sp.Eq(sym("Q_q")[0], exact),
+            ),
+            step(
+                "Two phases W_a cos(alpha_A), W_b cos(alpha_B) of slowly varying amplitude give (A6):",
+                product,
+                zero=sp.expand(sp.expand_trig(put - product)),
+            ),
+            step(
+                "The fast term, with the sum of the angles, is smaller by the ratio of the frequencies' difference "
+                "to their sum and averages out. The slow one stays, which is (A8):",
+                slow,
+                zero=sp.expand(product - slow - half * (db - da) * sp.sin(alpha(t) + beta_(t))),
+            ),
+            step(
+                "From t_1 to t_2 A is free and B forced, (9) and (10) put right as cosines with the amplitudes "
+                "before them; alpha_B - alpha_A grows with the whole difference of the frequencies:",
+                *_angles(0),
+                zero=sp.expand(be1 - al1 - (omega_q - omega_n) * (t - t_1) - sp.pi / 2),
+            ),
+            step(
+                "From t_2 to t_3 A has the mean frequency, B is free and slower: alpha_B - alpha_A falls, by half the "
+                "difference; the print lets it rise. B starts with omega_q/omega_n times W_maxf (10):",
+                *_angles(1),
+                zero=sp.expand(sp.diff(be2 - al2, t) + (omega_q - omega_n) / 2),
+            ),
+            step(
+                "From t_3 to t_4 both have the mean frequency and alpha_B - alpha_A stands still but for the slow "
+                "phases, so Delta_omega_add is 0. The print lost a minus before its last bracket.",
+                *_angles(2),
+                zero=sp.expand(sp.diff(be3 - al3, t)),
+            ),
+            step(
+                "Put into (A8), region by region:",
+                *(sp.Eq(sym("Q_q")[0], row) for row in rows(forms["Q_q"])),
+                zero=[_of_a8(pair) - row for pair, row in zip(_as_cosines(), rows(forms["Q_q"]), strict=True)],
+            ),
         ),
         forms,
-    )  # fmt: skip
+    )
 
 
 def _less_exact(form: Quantity, scale: float) -> Quantity:
@@ -238,16 +275,24 @@ def _picture_24() -> Picture:
 
 ENTRIES = (
     Entry(
-        id="24", section="3.5", title="Direction determinant, region by region", place="Sect. 3.5",
-        printed=_EQ24, units={"Q_q": "m^2/s"}, verdict="erratum",
+        id="24",
+        section="3.5",
+        title="Direction determinant, region by region",
+        place="Sect. 3.5",
+        printed=_EQ24,
+        units={"Q_q": "m^2/s"},
+        verdict="erratum",
         reason="The phase difference drifts the other way in T_addredu, a minus is lost in T_add, and B's amplitude "
-               "is (10)'s. Put right it is still an approximation of the exact determinant. T_addredu and T_add are "
-               "judged with the supplement's amplitudes and angles as reconstructed here, with a product where the "
-               "text "
-               "prints no operator before its last bracket, and with Delta_omega_add = 0; T_redu hangs on none of "
-               "these.",
-        judge=_judge_24, derive=_derive_24, effect=_effect_24, repair=_repair_24,
+        "is (10)'s. Put right it is still an approximation of the exact determinant. T_addredu and T_add are "
+        "judged with the supplement's amplitudes and angles as reconstructed here, with a product where the "
+        "text "
+        "prints no operator before its last bracket, and with Delta_omega_add = 0; T_redu hangs on none of "
+        "these.",
+        judge=_judge_24,
+        derive=_derive_24,
+        effect=_effect_24,
+        repair=_repair_24,
         found_by=("numeric", "identity", "error_size"),
         picture=_picture_24,
     ),
-)  # fmt: skip
+)

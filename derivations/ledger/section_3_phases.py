@@ -118,15 +118,23 @@ def _off_the_sum(form: sp.Basic, phase: str, names: dict[str, mp.mpf]) -> mp.mpf
 def _judge_response(name: str, phase: str) -> Callable[[Forms], Iterator[Evidence]]:
     def judge(forms: Forms) -> Iterator[Evidence]:
         form = forms[name]
-        sums = largest(_off_the_sum(form, phase, names)
-                       for region in _FORCED[phase] for names in anywhere(region, 3, f"sum {name}"))  # fmt: skip
-        yield evidence("identity", sums < mp.mpf(10) ** -25,
-                       "with the amplitude and the phase of the sum, whatever they are, it is the sum of forced and "
-                       f"free motion, to {mp.nstr(sums, 2)} of W")  # fmt: skip
+        sums = largest(
+            _off_the_sum(form, phase, names)
+            for region in _FORCED[phase]
+            for names in anywhere(region, 3, f"sum {name}")
+        )
+        yield evidence(
+            "identity",
+            sums < mp.mpf(10) ** -25,
+            "with the amplitude and the phase of the sum, whatever they are, it is the sum of forced and "
+            f"free motion, to {mp.nstr(sums, 2)} of W",
+        )
         found = worst(_response_error(form, phase))
-        yield evidence("error_size", largest(found.values()) < LIMIT,
-                       f"off the response chained as complex exponentials, in W, by {shares(found)}; allowed 1 "
-                       "%")  # fmt: skip
+        yield evidence(
+            "error_size",
+            largest(found.values()) < LIMIT,
+            f"off the response chained as complex exponentials, in W, by {shares(found)}; allowed 1 %",
+        )
         if phase == "A":  # (9) takes omega_n for omega_d; (10) does too, but has worse faults
 
             def off(cycle: Cycle) -> float:
@@ -138,9 +146,11 @@ def _judge_response(name: str, phase: str) -> Callable[[Forms], Iterator[Evidenc
             most = float(largest(found.values()))
             yield error_size("w_A, in W,", lambda: (off(damped), most), "small damping, xi -> 0", lambda: off(undamped))
         jump = _jumps(form, phase)
-        yield evidence("continuity", jump < LIMIT,
-                       f"displacement and velocity jump by {mp.nstr(100 * jump, 3)} % at most at t_1, t_2, "
-                       "t_3")  # fmt: skip
+        yield evidence(
+            "continuity",
+            jump < LIMIT,
+            f"displacement and velocity jump by {mp.nstr(100 * jump, 3)} % at most at t_1, t_2, t_3",
+        )
 
     return judge
 
@@ -150,18 +160,26 @@ def _derive_9() -> Derivation:
     shifted = mean * (t - t_3) + mean * (t_3 - t_2) - mean * (t - t_2)
     return Derivation(
         (
-            step("A is off from t_1: free motion from the steady state's displacement W and velocity 0 (switched at "
-                 "the drive's phase 0), so its amplitude is W_maxf/sqrt(1 - xi^2) and its frequency omega_d:",
-                 R, theta),
-            step("From t_2 A is on: forced and free motion, by the supplement's sum to product a sine of the mean "
-                 "frequency with beating amplitude and phase. The paper sets omega_d = omega_n:",
-                 sp.Eq(omega_d, supplement.damped_frequency())),
-            step("From t_3 on nothing changes for A; the third row is the second with t - t_2 = (t - t_3) + (t_3 - "
-                 "t_2):",
-                 EQ9["w_A"].args[2][0], zero=shifted),
+            step(
+                "A is off from t_1: free motion from the steady state's displacement W and velocity 0 (switched at "
+                "the drive's phase 0), so its amplitude is W_maxf/sqrt(1 - xi^2) and its frequency omega_d:",
+                R,
+                theta,
+            ),
+            step(
+                "From t_2 A is on: forced and free motion, by the supplement's sum to product a sine of the mean "
+                "frequency with beating amplitude and phase. The paper sets omega_d = omega_n:",
+                sp.Eq(omega_d, supplement.damped_frequency()),
+            ),
+            step(
+                "From t_3 on nothing changes for A; the third row is the second with t - t_2 = (t - t_3) + (t_3 - "
+                "t_2):",
+                EQ9["w_A"].args[2][0],
+                zero=shifted,
+            ),
         ),
         EQ9,
-    )  # fmt: skip
+    )
 
 
 def corrected_10() -> Forms:
@@ -187,21 +205,34 @@ def _derive_10() -> Derivation:
     first, second, _ = rows(forms["w_B"])
     return Derivation(
         (
-            step("B leads A by a quarter period. A begins as W cos(omega_q (t - t_1)), so B is, and (18) and (23) "
-                 "agree,",
-                 first, zero=sp.expand_trig(first - W_maxf * sp.cos(omega_q * (t - t_1) + sp.pi / 2))),
-            step("As printed, with the sine, both phases would swing together: no travelling wave, and B would jump by "
-                 "W_maxf at t_2, where the next row starts from 0."),
-            step("B is switched off at t_2 in the zero of its displacement and at the largest velocity:",
-                 sp.Tuple(*start), zero=[start[0], start[1] + W_maxf * omega_q]),
-            step("The free motion takes this velocity over at its own frequency, so its amplitude is omega_q/omega_n "
-                 "times W_maxf:", second,
-                 zero=sp.expand(second.diff(t).subs(t, t_2) + W_maxf * omega_q)),
-            step("From t_3 on B is forced and free, as in the supplement; Psi_Badd counts without the pi written out.",
-                 rows(forms["w_B"])[2]),
+            step(
+                "B leads A by a quarter period. A begins as W cos(omega_q (t - t_1)), so B is, and (18) and (23) "
+                "agree,",
+                first,
+                zero=sp.expand_trig(first - W_maxf * sp.cos(omega_q * (t - t_1) + sp.pi / 2)),
+            ),
+            step(
+                "As printed, with the sine, both phases would swing together: no travelling wave, and B would jump by "
+                "W_maxf at t_2, where the next row starts from 0."
+            ),
+            step(
+                "B is switched off at t_2 in the zero of its displacement and at the largest velocity:",
+                sp.Tuple(*start),
+                zero=[start[0], start[1] + W_maxf * omega_q],
+            ),
+            step(
+                "The free motion takes this velocity over at its own frequency, so its amplitude is omega_q/omega_n "
+                "times W_maxf:",
+                second,
+                zero=sp.expand(second.diff(t).subs(t, t_2) + W_maxf * omega_q),
+            ),
+            step(
+                "From t_3 on B is forced and free, as in the supplement; Psi_Badd counts without the pi written out.",
+                rows(forms["w_B"])[2],
+            ),
         ),
         forms,
-    )  # fmt: skip
+    )
 
 
 def _off_A(printed: Quantity) -> Quantity:
@@ -253,22 +284,38 @@ def _picture_10() -> Picture:
 
 ENTRIES = (
     Entry(
-        id="9", section="3.3", title="Modal response of phase A", place="Sect. 3.3",
-        printed=EQ9, units={"w_A": "m"}, verdict="approximation",
+        id="9",
+        section="3.3",
+        title="Modal response of phase A",
+        place="Sect. 3.3",
+        printed=EQ9,
+        units={"w_A": "m"},
+        verdict="approximation",
         reason="Right with the supplement as reconstructed here, but for omega_n in place of omega_d; the first row "
-               "prints zeta for xi. The amplitude and phase after t_2 are functions of time. The supplement that "
-               "defines "
-               "them is not at hand: another one that also keeps displacement and velocity continuous would be the "
-               "same "
-               "motion in other symbols, which the rows might then fit or not.",
-        judge=_judge_response("w_A", "A"), derive=_derive_9, effect=_effect_9,
+        "prints zeta for xi. The amplitude and phase after t_2 are functions of time. The supplement that "
+        "defines "
+        "them is not at hand: another one that also keeps displacement and velocity continuous would be the "
+        "same "
+        "motion in other symbols, which the rows might then fit or not.",
+        judge=_judge_response("w_A", "A"),
+        derive=_derive_9,
+        effect=_effect_9,
     ),
     Entry(
-        id="10", section="3.3", title="Modal response of phase B", place="Sect. 3.3",
-        printed=EQ10, units={"w_B": "m"}, verdict="erratum",
+        id="10",
+        section="3.3",
+        title="Modal response of phase B",
+        place="Sect. 3.3",
+        printed=EQ10,
+        units={"w_B": "m"},
+        verdict="erratum",
         reason="Row 1 has a sine for a cosine, which puts B in phase with A and makes it jump at t_2; row 2 keeps the "
-               "amplitude W_maxf where continuity of the velocity asks for W_maxf omega_q/omega_n.",
-        judge=_judge_response("w_B", "B"), derive=_derive_10, effect=_effect_10, repair=_repair_10,
-        found_by=("error_size", "continuity"), picture=_picture_10,
+        "amplitude W_maxf where continuity of the velocity asks for W_maxf omega_q/omega_n.",
+        judge=_judge_response("w_B", "B"),
+        derive=_derive_10,
+        effect=_effect_10,
+        repair=_repair_10,
+        found_by=("error_size", "continuity"),
+        picture=_picture_10,
     ),
-)  # fmt: skip
+)

@@ -83,23 +83,31 @@ def _judge(region: str) -> Callable[[Forms], Iterator[Evidence]]:
             size = cycle["W"]
             for time in cycle.times(region, 3):
                 worst = worse(worst, abs(at(cycle, time) - cycle.response(phase, region, time)[0]) / size)
-        yield evidence("numeric", worst < mp.mpf(10) ** -25,
-                       "w from these amplitudes and phases is the response chained as complex exponentials from t_1 "
-                       f"on, to {mp.nstr(worst, 2)} of W")  # fmt: skip
+        yield evidence(
+            "numeric",
+            worst < mp.mpf(10) ** -25,
+            "w from these amplitudes and phases is the response chained as complex exponentials from t_1 "
+            f"on, to {mp.nstr(worst, 2)} of W",
+        )
         for cycle in random_cycles(3, f"start {region}", psi=True):
             before = _before(cycle, phase, region)
             now = at(cycle, mp.mpf(0)), mp.diff(lambda u, c=cycle: at(c, u), 0)
             rate = cycle["omega_q"]
             jump = worse(abs(now[0] - before[0]), abs(now[1] - before[1]) / rate) / cycle["W"]
             worst_start = worse(worst_start, jump)
-        yield evidence("continuity", worst_start < mp.mpf(10) ** -15,
-                       f"displacement and velocity pass the switching with a jump of {mp.nstr(worst_start, 2)} of "
-                       "W")  # fmt: skip
+        yield evidence(
+            "continuity",
+            worst_start < mp.mpf(10) ** -15,
+            f"displacement and velocity pass the switching with a jump of {mp.nstr(worst_start, 2)} of W",
+        )
         for cycle in random_cycles(2, f"ode {region}", psi=True):
             worst_ode = worse(worst_ode, _residual(cycle, phase, region, partial(at, cycle)))
-        yield evidence("identity", worst_ode < mp.mpf(10) ** -10,
-                       f"solves w'' + 2 xi omega_n w' + omega_n^2 w = forcing to {mp.nstr(worst_ode, 2)} of omega_n^2 "
-                       "W, derivatives taken numerically")  # fmt: skip
+        yield evidence(
+            "identity",
+            worst_ode < mp.mpf(10) ** -10,
+            f"solves w'' + 2 xi omega_n w' + omega_n^2 w = forcing to {mp.nstr(worst_ode, 2)} of omega_n^2 "
+            "W, derivatives taken numerically",
+        )
 
     return judge
 
@@ -142,29 +150,42 @@ def _derive(region: str) -> Callable[[], Derivation]:
         rows = rows.subs(sp.Symbol("R"), R).subs(omega_d, supplement.damped_frequency())
         steps = [
             step("Free motion from displacement a and velocity b at the region's start:", free_w, free_v),
-            step("Displacement and velocity are continuous at the switching, so the free motion is what the phase "
-                 "does less what it would do in steady state. From the steady state before t_1 this gives, at the "
-                 "region's start,",
-                 *(sp.Eq(sym(f"{letter}_{phase}")[0], forms[f"{letter}_{phase}"]) for letter in "ab")),
-            step("As one sine, R exp(-xi omega_n tau) sin(omega_d tau + Theta):",
-                 sp.Eq(sym(radius)[0], forms[radius]), sp.Eq(sym(theta)[0], forms[theta]),
-                 zero=sp.expand(rows - free_w)),
-        ]  # fmt: skip
+            step(
+                "Displacement and velocity are continuous at the switching, so the free motion is what the phase "
+                "does less what it would do in steady state. From the steady state before t_1 this gives, at the "
+                "region's start,",
+                *(sp.Eq(sym(f"{letter}_{phase}")[0], forms[f"{letter}_{phase}"]) for letter in "ab"),
+            ),
+            step(
+                "As one sine, R exp(-xi omega_n tau) sin(omega_d tau + Theta):",
+                sp.Eq(sym(radius)[0], forms[radius]),
+                sp.Eq(sym(theta)[0], forms[theta]),
+                zero=sp.expand(rows - free_w),
+            ),
+        ]
         if psi:
             offset = sp.pi if phase == "B" else 0
             mean, half, P, Q = sp.symbols("mu delta P R", real=True)
             sum_of_sines = P * sp.sin(mean + half) + Q * sp.sin(mean - half)
             product = (P + Q) * sp.cos(half) * sp.sin(mean) + (P - Q) * sp.sin(half) * sp.cos(mean)
             steps += [
-                step("Forced motion W sin(omega_q tau + Psi" + (" + pi)" if offset else ")") + ":",
-                     sp.Eq(sym(psi)[0], forms[psi])),
-                step("Sum to product, with the mean mu and half the difference delta of the two angles:",
-                     sp.Eq(sum_of_sines, product), zero=sum_of_sines - product),
-                step("This is A sin(mu + varphi). A and varphi are no constants: they beat with omega_q - omega_d and "
-                     "follow the decay.",
-                     sp.Eq(sym(amplitude)[0], forms[amplitude]), sp.Eq(sym(slow)[0], forms[slow]),
-                     zero=_polar_zero(P, Q, half)),
-            ]  # fmt: skip
+                step(
+                    "Forced motion W sin(omega_q tau + Psi" + (" + pi)" if offset else ")") + ":",
+                    sp.Eq(sym(psi)[0], forms[psi]),
+                ),
+                step(
+                    "Sum to product, with the mean mu and half the difference delta of the two angles:",
+                    sp.Eq(sum_of_sines, product),
+                    zero=sum_of_sines - product,
+                ),
+                step(
+                    "This is A sin(mu + varphi). A and varphi are no constants: they beat with omega_q - omega_d and "
+                    "follow the decay.",
+                    sp.Eq(sym(amplitude)[0], forms[amplitude]),
+                    sp.Eq(sym(slow)[0], forms[slow]),
+                    zero=_polar_zero(P, Q, half),
+                ),
+            ]
         return Derivation(tuple(steps), forms)
 
     return derive
@@ -217,17 +238,36 @@ def _entry(region: str, title: str, reason: str, picture: Callable[[], Picture] 
     if psi:
         units = {**units, psi: "rad", amplitude: "m", slow: "rad"}
     return Entry(
-        id=f"supplement-{region}", section="3.3", title=title, place="electronic supplement, missing",
-        printed={}, units=units, verdict="reconstructed", reason=reason,
-        judge=_judge(region), derive=_derive(region), effect=_effect(region), picture=picture,
-    )  # fmt: skip
+        id=f"supplement-{region}",
+        section="3.3",
+        title=title,
+        place="electronic supplement, missing",
+        printed={},
+        units=units,
+        verdict="reconstructed",
+        reason=reason,
+        judge=_judge(region),
+        derive=_derive(region),
+        effect=_effect(region),
+        picture=picture,
+    )
 
 
 ENTRIES = (
-    _entry("redu", "Supplement: phase A decays after t_1",
-           "phi_Aredu is not pi/2 but atan2(sqrt(1 - xi^2), xi) for psi = 0: the velocity is continuous too."),
-    _entry("addredu", "Supplement: phase A grows again after t_2",
-           "Defined in words only in the text; from continuity of displacement and velocity at t_2.", _picture),
-    _entry("add", "Supplement: phase B grows again after t_3",
-           "Defined in words only in the text; from continuity of displacement and velocity at t_3."),
-)  # fmt: skip
+    _entry(
+        "redu",
+        "Supplement: phase A decays after t_1",
+        "phi_Aredu is not pi/2 but atan2(sqrt(1 - xi^2), xi) for psi = 0: the velocity is continuous too.",
+    ),
+    _entry(
+        "addredu",
+        "Supplement: phase A grows again after t_2",
+        "Defined in words only in the text; from continuity of displacement and velocity at t_2.",
+        _picture,
+    ),
+    _entry(
+        "add",
+        "Supplement: phase B grows again after t_3",
+        "Defined in words only in the text; from continuity of displacement and velocity at t_3.",
+    ),
+)

@@ -38,13 +38,19 @@ def _derive_12() -> Derivation:
     total = sp.sqrt(A_A**2 + A_B**2 + 2 * A_A * A_B * sp.cos(angle))
     return Derivation(
         (
-            step("The two oscillations are projections of vectors of length A_A and A_B; in a frame that turns with "
-                 "the first, the second turns by", angle),
-            step("Squares of the sum's two components:", square,
-                 zero=sp.expand(square - total**2).subs(sp.sin(angle) ** 2, 1 - sp.cos(angle) ** 2)),
+            step(
+                "The two oscillations are projections of vectors of length A_A and A_B; in a frame that turns with "
+                "the first, the second turns by",
+                angle,
+            ),
+            step(
+                "Squares of the sum's two components:",
+                square,
+                zero=sp.expand(square - total**2).subs(sp.sin(angle) ** 2, 1 - sp.cos(angle) ** 2),
+            ),
         ),
         {"A_Q": total},
-    )  # fmt: skip
+    )
 
 
 _RANGES_12 = {"A_A": (-5e-6, 5e-6), "A_B": (-5e-6, 5e-6), "theta_Q": (-3.0, 3.0), "t_Q": (0.0, 1e-4)}
@@ -96,7 +102,7 @@ def corrected_13() -> Forms:
     return {
         "A_A": by_region((_envelope(A[0]) * shape_A, 1, 2), (_envelope(A[1]) * shape_A, 2, 4)),
         "A_B": by_region((first, 1, 2), (free_B * shape_B, 2, 3), (_envelope(B[2]) * shape_B, 3, 4)),
-    }  # fmt: skip
+    }
 
 
 def _off_13(forms: Forms, phase: str, cycle: Cycle, region: str, time: mp.mpf) -> mp.mpf:
@@ -115,14 +121,20 @@ def _judge_13(forms: Forms) -> Iterator[Evidence]:
         return largest(abs(_off_13(forms, p, cycle, region, time)) * weights[p] for p in phases)
 
     found = worst(error)
-    yield evidence("numeric", largest(found.values()) < LIMIT,
-                   f"but for A_B in T_addredu off the lengths of the two phases' vectors, in W, by {shares(found)}; "
-                   "allowed 1 %")  # fmt: skip
+    yield evidence(
+        "numeric",
+        largest(found.values()) < LIMIT,
+        f"but for A_B in T_addredu off the lengths of the two phases' vectors, in W, by {shares(found)}; allowed 1 %",
+    )
     right, slow = corrected_13(), {omega_q: omega_n}
     gaps = [a.subs(slow) - b.subs(slow) for n in forms for a, b in zip(rows(forms[n]), rows(right[n]), strict=True)]
-    yield evidence("identity", all(vanishes(gap) for gap in gaps) and [f.args[i][1] for f in forms.values() for i in
-                   range(len(f.args))] == [f.args[i][1] for f in right.values() for i in range(len(f.args))],
-                   "row by row the amplitudes of (9) and (10) put right, for a drive at resonance")  # fmt: skip
+    yield evidence(
+        "identity",
+        all(vanishes(gap) for gap in gaps)
+        and [f.args[i][1] for f in forms.values() for i in range(len(f.args))]
+        == [f.args[i][1] for f in right.values() for i in range(len(f.args))],
+        "row by row the amplitudes of (9) and (10) put right, for a drive at resonance",
+    )
 
     def of_B(cycle: Cycle) -> float:
         return float(_off_13(forms, "B", cycle, "addredu", cycle.times("addredu", 1)[0]))
@@ -131,8 +143,12 @@ def _judge_13(forms: Forms) -> Iterator[Evidence]:
     difference = there["omega_q"] - there["omega_n"]
     near = Cycle({**there.values, "omega_q": there["omega_n"] + difference / 100, "Delta_omega": difference / 100})
     most = largest(abs(of_B(cycle)) for cycle in random_cycles(2, "section 3"))
-    yield error_size("A_B in T_addredu", lambda: (of_B(there), float(most)), "a drive at resonance, omega_q -> omega_n",
-                     lambda: of_B(near))  # fmt: skip
+    yield error_size(
+        "A_B in T_addredu",
+        lambda: (of_B(there), float(most)),
+        "a drive at resonance, omega_q -> omega_n",
+        lambda: of_B(near),
+    )
     zero = all(row.subs(x, 0) == 0 for row in rows(forms["A_A"]))
     nodes = all(row.subs(x, sp.pi / (2 * k_c)) == 0 for row in rows(forms["A_B"]))
     yield evidence("limit", zero and nodes, "A has its node at x = 0, B a quarter wave further")
@@ -142,13 +158,18 @@ def _derive_13() -> Derivation:
     forms = corrected_13()
     return Derivation(
         (
-            step("The amplitudes are what stands before the sines of (9) and (10), times the mode shapes of (11):",
-                 *rows(forms["A_A"])),
-            step("With the amplitude that continuity of the velocity gives B after t_2:", *rows(forms["A_B"]),
-                 zero=rows(forms["A_B"])[1].subs(t, t_2) - W_maxf * omega_q / omega_n * sp.cos(k_c * x)),
+            step(
+                "The amplitudes are what stands before the sines of (9) and (10), times the mode shapes of (11):",
+                *rows(forms["A_A"]),
+            ),
+            step(
+                "With the amplitude that continuity of the velocity gives B after t_2:",
+                *rows(forms["A_B"]),
+                zero=rows(forms["A_B"])[1].subs(t, t_2) - W_maxf * omega_q / omega_n * sp.cos(k_c * x),
+            ),
         ),
         forms,
-    )  # fmt: skip
+    )
 
 
 def _effect_13() -> str:
@@ -175,8 +196,10 @@ def corrected_14() -> Forms:
     A, B = rows(EQ9["w_A"]), rows(corrected_10()["w_B"])
     angles_A = [next(iter(row.atoms(sp.sin))).args[0] for row in A]
     angles_B = [
-        (omega_q * (t - t_1) + sp.pi), omega_n * (t - t_2) + sp.pi, next(iter(B[2].atoms(sp.cos, sp.sin))).args[0]
-    ]  # fmt: skip
+        (omega_q * (t - t_1) + sp.pi),
+        omega_n * (t - t_2) + sp.pi,
+        next(iter(B[2].atoms(sp.cos, sp.sin))).args[0],
+    ]
     if isinstance(next(iter(B[2].atoms(sp.cos, sp.sin))), sp.cos):
         angles_B[2] += sp.pi / 2
     signs, starts = (1, -1, 1), (t_1, t_2, t_3)
@@ -224,17 +247,21 @@ def _judge_14(forms: Forms) -> Iterator[Evidence]:
 
     found = worst(error)
     absent = ", ".join(f"T_{r}" for r in REGIONS if r in missing) or "none"
-    yield evidence("numeric", largest(found.values()) < 2 * LIMIT,
-                   f"the angle between the two phases' vectors is off by {_radians(found)}; allowed 0.02 "
-                   "rad")  # fmt: skip
+    yield evidence(
+        "numeric",
+        largest(found.values()) < 2 * LIMIT,
+        f"the angle between the two phases' vectors is off by {_radians(found)}; allowed 0.02 rad",
+    )
     yield evidence("domain", not missing, f"regions without a row: {absent}")
     off = mp.mpf(0)
     for names in (names for region in REGIONS for names in anywhere(region, 3, "eq14")):
         a, b = turning(EQ9["w_A"], names)[0], turning(corrected_10()["w_B"], names)[0]
         off = worse(off, _apart(forms, names, a, b))
-    yield evidence("identity", off < mp.mpf(10) ** -8,
-                   "is the angle between (9) and (10) put right, whatever the supplement's amplitudes and "
-                   "phases")  # fmt: skip
+    yield evidence(
+        "identity",
+        off < mp.mpf(10) ** -8,
+        "is the angle between (9) and (10) put right, whatever the supplement's amplitudes and phases",
+    )
     starts = [row_value(forms["t_Q"], anywhere(region, 1, "t_Q")[0]) for region in REGIONS]
     wanted = [anywhere(region, 1, "t_Q")[0][f"t_{i}"] for i, region in enumerate(REGIONS, 1)]
     yield evidence("continuity", starts == wanted, "t_Q is where each region starts")
@@ -250,19 +277,30 @@ def _derive_14() -> Derivation:
     forms = corrected_14()
     return Derivation(
         (
-            step("From t_1 to t_2 B turns with omega_q and leads by pi/2, A turns freely with omega_n:",
-                 rows(forms["Delta_omega"])[0], rows(forms["theta_Q"])[0],
-                 zero=[rows(forms["Delta_omega"])[0] - (omega_q - omega_n), rows(forms["theta_Q"])[0] - sp.pi / 2]),
-            step("From t_2 to t_3 A has the mean frequency and B turns freely: A runs ahead with half the difference. "
-                 "Its phase varphi drifts as well, so this half is the rate of the mean angle only, and the true rate "
-                 "is not constant:", rows(forms["Delta_omega"])[1], rows(forms["theta_Q"])[1],
-                 zero=[rows(forms["Delta_omega"])[1] - (omega_q - omega_n) / 2, rows(forms["theta_Q"])[1].diff(t)]),
-            step("From t_3 on both have the mean frequency: no frequency difference is left, only the drift of the "
-                 "slow phases:",
-                 rows(forms["Delta_omega"])[2], rows(forms["theta_Q"])[2], zero=rows(forms["Delta_omega"])[2]),
+            step(
+                "From t_1 to t_2 B turns with omega_q and leads by pi/2, A turns freely with omega_n:",
+                rows(forms["Delta_omega"])[0],
+                rows(forms["theta_Q"])[0],
+                zero=[rows(forms["Delta_omega"])[0] - (omega_q - omega_n), rows(forms["theta_Q"])[0] - sp.pi / 2],
+            ),
+            step(
+                "From t_2 to t_3 A has the mean frequency and B turns freely: A runs ahead with half the difference. "
+                "Its phase varphi drifts as well, so this half is the rate of the mean angle only, and the true rate "
+                "is not constant:",
+                rows(forms["Delta_omega"])[1],
+                rows(forms["theta_Q"])[1],
+                zero=[rows(forms["Delta_omega"])[1] - (omega_q - omega_n) / 2, rows(forms["theta_Q"])[1].diff(t)],
+            ),
+            step(
+                "From t_3 on both have the mean frequency: no frequency difference is left, only the drift of the "
+                "slow phases:",
+                rows(forms["Delta_omega"])[2],
+                rows(forms["theta_Q"])[2],
+                zero=rows(forms["Delta_omega"])[2],
+            ),
         ),
         forms,
-    )  # fmt: skip
+    )
 
 
 def _effect_14() -> str:
@@ -306,25 +344,34 @@ def _derive_15() -> Derivation:
     both = (sp.I * forced * sp.exp(sp.I * redu * t) + other) / (forced * sp.exp(sp.I * redu * t) + free)
     return Derivation(
         (
-            step("A beat repeats when the phase difference has turned once; a period is positive, also when the drive "
-                 "lies below resonance (eq. A9 has the bars):", sp.Eq(sym("T_redu")[0], period),
-                 zero=sp.expand_trig(sp.expand(turn))),
-            step("In T_addredu A is a forced vector of length F, omega_q fast, and a free one of length R, omega_n "
-                 "fast; B is free. Seen from the free ones the forced one turns with omega_q - omega_n = 2 "
-                 "Delta_omega_addredu (14), and A's length and direction repeat when that has turned once. Half of it "
-                 "is the rate of the mean angle alone; the slow phase varphi_Baddredu carries the other half.",
-                 sp.Eq(sp.Symbol("A") ** 2, length),
-                 sp.Eq(sym("T_addredu")[0], forms["T_addredu"]),
-                 zero=sp.expand_trig(sp.expand(length.subs(t, t + sp.pi / addredu) - length))),
-            step("In T_add both phases are forced and free. Their mean angles turn alike, so Delta_omega_add = 0 (14), "
-                 "but their lengths and slow phases do not stand still: seen from the free vectors both forced ones "
-                 "turn "
-                 "with omega_q - omega_n = Delta_omega_redu, and B over A repeats when they have turned once. That is "
-                 "the beat of the envelope in Sect. 5.2.3 too.", both, sp.Eq(sym("T_add")[0], forms["T_add"]),
-                 zero=sp.simplify(both.subs(t, t + 2 * sp.pi / redu) - both)),
+            step(
+                "A beat repeats when the phase difference has turned once; a period is positive, also when the drive "
+                "lies below resonance (eq. A9 has the bars):",
+                sp.Eq(sym("T_redu")[0], period),
+                zero=sp.expand_trig(sp.expand(turn)),
+            ),
+            step(
+                "In T_addredu A is a forced vector of length F, omega_q fast, and a free one of length R, omega_n "
+                "fast; B is free. Seen from the free ones the forced one turns with omega_q - omega_n = 2 "
+                "Delta_omega_addredu (14), and A's length and direction repeat when that has turned once. Half of it "
+                "is the rate of the mean angle alone; the slow phase varphi_Baddredu carries the other half.",
+                sp.Eq(sp.Symbol("A") ** 2, length),
+                sp.Eq(sym("T_addredu")[0], forms["T_addredu"]),
+                zero=sp.expand_trig(sp.expand(length.subs(t, t + sp.pi / addredu) - length)),
+            ),
+            step(
+                "In T_add both phases are forced and free. Their mean angles turn alike, so Delta_omega_add = 0 (14), "
+                "but their lengths and slow phases do not stand still: seen from the free vectors both forced ones "
+                "turn "
+                "with omega_q - omega_n = Delta_omega_redu, and B over A repeats when they have turned once. That is "
+                "the beat of the envelope in Sect. 5.2.3 too.",
+                both,
+                sp.Eq(sym("T_add")[0], forms["T_add"]),
+                zero=sp.simplify(both.subs(t, t + 2 * sp.pi / redu) - both),
+            ),
         ),
         forms,
-    )  # fmt: skip
+    )
 
 
 def _judge_15(forms: Forms) -> Iterator[Evidence]:
@@ -345,10 +392,13 @@ def _judge_15(forms: Forms) -> Iterator[Evidence]:
                 for part in (2, 3, 5):
                     close = -worse(-close, -abs(_ratio(name, difference, time + length / part) - now))
     yield evidence("domain", not problems, "; ".join(dict.fromkeys(problems)) or "positive and finite periods")
-    yield evidence("numeric", off < mp.mpf(10) ** -25 and close > mp.mpf("0.05"),
-                   "for constant amplitudes the phases' vectors stand to each other as before after each period, "
-                   f"off by {mp.nstr(off, 2)}, and not after a half, third or fifth of it, off by "
-                   f"{mp.nstr(close, 2)}")  # fmt: skip
+    yield evidence(
+        "numeric",
+        off < mp.mpf(10) ** -25 and close > mp.mpf("0.05"),
+        "for constant amplitudes the phases' vectors stand to each other as before after each period, "
+        f"off by {mp.nstr(off, 2)}, and not after a half, third or fifth of it, off by "
+        f"{mp.nstr(close, 2)}",
+    )
 
 
 def _repair_15(forms: Forms) -> Forms:
@@ -373,36 +423,67 @@ def _effect_15() -> str:
 
 ENTRIES = (
     Entry(
-        id="12", section="3.3", title="Amplitude of the vertical displacement", place="Sect. 3.3",
-        printed=EQ12, units={"A_Q": "m"}, verdict="verified",
+        id="12",
+        section="3.3",
+        title="Amplitude of the vertical displacement",
+        place="Sect. 3.3",
+        printed=EQ12,
+        units={"A_Q": "m"},
+        verdict="verified",
         reason="The law of cosines for two rotating vectors.",
-        judge=_judge_12, derive=_derive_12, effect=_effect_12,
+        judge=_judge_12,
+        derive=_derive_12,
+        effect=_effect_12,
     ),
     Entry(
-        id="13", section="3.3", title="Amplitude vectors of the two phases", place="Sect. 3.3",
-        printed=EQ13, units={"A_A": "m", "A_B": "m"}, verdict="approximation",
+        id="13",
+        section="3.3",
+        title="Amplitude vectors of the two phases",
+        place="Sect. 3.3",
+        printed=EQ13,
+        units={"A_A": "m", "A_B": "m"},
+        verdict="approximation",
         reason="The amplitudes of (9) and (10), but for A_B after t_2: it takes over (10)'s second row, which lacks "
-               "the factor omega_q/omega_n and is exact at resonance only. That row needs no "
-               "supplement; the rows with A_ABaddredu and A_Badd are judged with these as reconstructed here.",
-        judge=_judge_13, derive=_derive_13, effect=_effect_13,
+        "the factor omega_q/omega_n and is exact at resonance only. That row needs no "
+        "supplement; the rows with A_ABaddredu and A_Badd are judged with these as reconstructed here.",
+        judge=_judge_13,
+        derive=_derive_13,
+        effect=_effect_13,
     ),
     Entry(
-        id="14", section="3.3", title="Frequency difference, start and phase difference", place="Sect. 3.3",
-        printed=EQ14, units={"Delta_omega": "rad/s", "t_Q": "s", "theta_Q": "rad"}, verdict="erratum",
+        id="14",
+        section="3.3",
+        title="Frequency difference, start and phase difference",
+        place="Sect. 3.3",
+        printed=EQ14,
+        units={"Delta_omega": "rad/s", "t_Q": "s", "theta_Q": "rad"},
+        verdict="erratum",
         reason="theta_Q's one row is printed three times and is not the phase difference of (9) and (10); the row of "
-               "Delta omega in T_add is missing, where it is 0. Its angles are the missing supplement's, judged as "
-               "reconstructed here, with mean frequencies and slow phases: whether theta_Q is wrong, and that "
-               "Delta omega is 0 rather than (omega_q - omega_n) where the slow phases are counted in, hangs on that.",
-        judge=_judge_14, derive=_derive_14, effect=_effect_14, repair=_repair_14,
+        "Delta omega in T_add is missing, where it is 0. Its angles are the missing supplement's, judged as "
+        "reconstructed here, with mean frequencies and slow phases: whether theta_Q is wrong, and that "
+        "Delta omega is 0 rather than (omega_q - omega_n) where the slow phases are counted in, hangs on that.",
+        judge=_judge_14,
+        derive=_derive_14,
+        effect=_effect_14,
+        repair=_repair_14,
         found_by=("numeric", "domain", "identity"),
     ),
     Entry(
-        id="15", section="3.3", title="Beat periods in the three regions", place="Sect. 3.3",
-        printed=EQ15, units={"T_redu": "s", "T_addredu": "s", "T_add": "s"}, verdict="erratum",
+        id="15",
+        section="3.3",
+        title="Beat periods in the three regions",
+        place="Sect. 3.3",
+        printed=EQ15,
+        units={"T_redu": "s", "T_addredu": "s", "T_add": "s"},
+        verdict="erratum",
         reason="Negative for a drive below resonance (A9 has the bars that lack here); T_addredu is twice the beat, "
-               "which repeats with the whole difference; T_add divides by zero: Delta_omega_add is the rate at which "
-               "the "
-               "mean angles part, 0, while lengths and slow phases beat with the whole difference there as well.",
-        judge=_judge_15, derive=_derive_15, effect=_effect_15, repair=_repair_15, found_by=("domain", "numeric"),
+        "which repeats with the whole difference; T_add divides by zero: Delta_omega_add is the rate at which "
+        "the "
+        "mean angles part, 0, while lengths and slow phases beat with the whole difference there as well.",
+        judge=_judge_15,
+        derive=_derive_15,
+        effect=_effect_15,
+        repair=_repair_15,
+        found_by=("domain", "numeric"),
     ),
-)  # fmt: skip
+)

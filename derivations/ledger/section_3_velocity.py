@@ -46,15 +46,21 @@ def _derive_11() -> Derivation:
     return Derivation(
         (
             step("The phases' mode shapes are sin and cos; displacements add:", sp.Eq(zeta_z, _SHAPE)),
-            step("A section turns by theta, so the surface at the distance D moves along by D theta, in the paper's "
-                 "sense of x:", sp.Eq(sym("zeta_x")[0], D * rotation)),
-            step("In Timoshenko's beam, which the paper uses, the rotation is not the slope but beta/k_c times it "
-                 "(eq. 3):",
-                 sp.Eq(rotation, slender * sp.Derivative(zeta_z, x)), zero=sp.simplify(left)),
+            step(
+                "A section turns by theta, so the surface at the distance D moves along by D theta, in the paper's "
+                "sense of x:",
+                sp.Eq(sym("zeta_x")[0], D * rotation),
+            ),
+            step(
+                "In Timoshenko's beam, which the paper uses, the rotation is not the slope but beta/k_c times it "
+                "(eq. 3):",
+                sp.Eq(rotation, slender * sp.Derivative(zeta_z, x)),
+                zero=sp.simplify(left),
+            ),
             step("The printed form sets the factor to 1, as Euler and Bernoulli do."),
         ),
         EQ11,
-    )  # fmt: skip
+    )
 
 
 def _judge_11(forms: Forms) -> Iterator[Evidence]:
@@ -85,8 +91,9 @@ def _judge_11(forms: Forms) -> Iterator[Evidence]:
         q["omega_n"] = at_point(beam.resonance()["quartic"], q)
         return float(q["k_c"] / at_point(beam.rotation_ratio(), q) - 1)
 
-    yield error_size("zeta_x, by taking the slope for the rotation,", sizes, "waves far longer than the beam is high",
-                     slender)  # fmt: skip
+    yield error_size(
+        "zeta_x, by taking the slope for the rotation,", sizes, "waves far longer than the beam is high", slender
+    )
 
 
 def _effect_11() -> str:
@@ -135,11 +142,14 @@ def _derive_16() -> Derivation:
         (
             step("The tangential velocity is the time derivative of zeta_x (11):", sp.Eq(v_x, velocity)),
             step("With M_a = -w_B' and M_b = w_A' it is", parts, zero=sp.expand(parts.subs(put)) - velocity),
-            step("A sine and a cosine of the same wave are one sine:", sp.Eq(v_x, A_v * sp.sin(k_c * x + Psi_v)),
-                 zero=sp.simplify(one - sp.expand(parts))),
+            step(
+                "A sine and a cosine of the same wave are one sine:",
+                sp.Eq(v_x, A_v * sp.sin(k_c * x + Psi_v)),
+                zero=sp.simplify(one - sp.expand(parts)),
+            ),
         ),
         {"v_x": A_v * sp.sin(k_c * x + Psi_v), "A_v": _PAIR[A_v], "Psi_v": _PAIR[Psi_v]},
-    )  # fmt: skip
+    )
 
 
 def _derive_17() -> Derivation:
@@ -149,12 +159,15 @@ def _derive_17() -> Derivation:
     return Derivation(
         (
             *whole.steps,
-            step("From t_1 to t_2 the paper prints M_a and M_b without their common factor W_maxf, which leaves the "
-                 "phase alone and stands before the root:", size["redu"],
-                 zero=sp.simplify(_PAIR[A_v].subs(per_W) - size["redu"])),
+            step(
+                "From t_1 to t_2 the paper prints M_a and M_b without their common factor W_maxf, which leaves the "
+                "phase alone and stands before the root:",
+                size["redu"],
+                zero=sp.simplify(_PAIR[A_v].subs(per_W) - size["redu"]),
+            ),
         ),
         {"A_v": by_region((size["redu"], 1, 2), (size["later"], 2, 4)), "Psi_v": _PAIR[Psi_v]},
-    )  # fmt: skip
+    )
 
 
 def _judge_16(forms: Forms) -> Iterator[Evidence]:
@@ -175,8 +188,13 @@ def _judge_17(forms: Forms) -> Iterator[Evidence]:
     part = D * k_c * (M_a * sp.sin(k_c * x) + M_b * sp.cos(k_c * x))
     parts = {"v_x in T_redu": W_maxf * part.subs(per_W), "v_x later": part}
     yield agrees(wave, parts, ranges=_RANGES_17, count=12, against="M_a sin(k_c x) + M_b cos(k_c x), times D k_c")
-    sizes_there = {"W_maxf": mp.mpf("5e-6"), "M_a": mp.mpf("0.7"), "M_b": mp.mpf("0.4"), "N_a": mp.mpf(2e5),
-                   "N_b": mp.mpf(1e5)}  # fmt: skip
+    sizes_there = {
+        "W_maxf": mp.mpf("5e-6"),
+        "M_a": mp.mpf("0.7"),
+        "M_b": mp.mpf("0.4"),
+        "N_a": mp.mpf(2e5),
+        "N_b": mp.mpf(1e5),
+    }
     held = [(region, row_value(forms["A_v"], {**anywhere(region, 1, "eq17")[0], **sizes_there})) for region in REGIONS]
     at = {**anywhere("redu", 1, "eq17")[0], **sizes_there}
     wanted = {region: row_value(redu if region == "redu" else later, at) for region in REGIONS}
@@ -257,19 +275,31 @@ def _velocity_error(form: Forms, phase: str, sign: int) -> Callable[[Cycle, str,
 def _judge_rates(name: str) -> Callable[[Forms], Iterator[Evidence]]:
     phase, sign = ("B", -1) if name == "M_a" else ("A", 1)
     wide = {
-        "A_Badd": (3e-6, 9e-6), "A_ABaddredu": (3e-6, 9e-6), "t_1": (0.0, 1e-6), "t_2": (1e-4, 2e-4),
-        "t_3": (3e-4, 4e-4), "W_maxf": (4e-6, 7e-6), "t": (4e-4, 6e-4),
-    } | {s.name: (-3.0, 3.0) for s in (Theta_A, Psi_A, varphi_A, Theta_B, Psi_B, varphi_B)}  # fmt: skip
+        "A_Badd": (3e-6, 9e-6),
+        "A_ABaddredu": (3e-6, 9e-6),
+        "t_1": (0.0, 1e-6),
+        "t_2": (1e-4, 2e-4),
+        "t_3": (3e-4, 4e-4),
+        "W_maxf": (4e-6, 7e-6),
+        "t": (4e-4, 6e-4),
+    } | {s.name: (-3.0, 3.0) for s in (Theta_A, Psi_A, varphi_A, Theta_B, Psi_B, varphi_B)}
 
     def judge(forms: Forms) -> Iterator[Evidence]:
-        yield agrees(forms, rates(name), ranges=wide, count=4, tolerance=1e-20,
-                     against=f"the derivative of ({'10' if phase == 'B' else '9'}), amplitude and slow phase "
-                             "held")  # fmt: skip
+        yield agrees(
+            forms,
+            rates(name),
+            ranges=wide,
+            count=4,
+            tolerance=1e-20,
+            against=f"the derivative of ({'10' if phase == 'B' else '9'}), amplitude and slow phase held",
+        )
         found = worst(_velocity_error(forms, phase, sign))
         text = ", ".join(f"{mp.nstr(100 * value, 3)} % in T_{region}" for region, value in found.items())
-        yield evidence("error_size", largest(found.values()) < 0.25,
-                       f"off the velocity chained as complex exponentials, in omega_q W, by {text}; allowed 25 "
-                       "%")  # fmt: skip
+        yield evidence(
+            "error_size",
+            largest(found.values()) < 0.25,
+            f"off the velocity chained as complex exponentials, in omega_q W, by {text}; allowed 25 %",
+        )
 
     return judge
 
@@ -291,15 +321,19 @@ def _derive_rates(name: str) -> Callable[[], Derivation]:
         repair = _repair_18(printed) if name == "M_a" else _repair_19(printed)
         return Derivation(
             (
-                step(f"{source}. From t_1 to t_2, over W_maxf:",
-                     derived["redu"], zero=derived["redu"] - repair["redu"]),
+                step(
+                    f"{source}. From t_1 to t_2, over W_maxf:", derived["redu"], zero=derived["redu"] - repair["redu"]
+                ),
                 step("From t_2 to t_3:", derived["addredu"], zero=sp.expand(derived["addredu"] - repair["addredu"])),
-                step("From t_3 to t_4; a derivative of a sine brings its frequency down, which the print forgot. "
-                     "Amplitude and slow phase are held, what that costs is under Evidence:", derived["add"],
-                     zero=sp.expand(derived["add"] - repair["add"])),
+                step(
+                    "From t_3 to t_4; a derivative of a sine brings its frequency down, which the print forgot. "
+                    "Amplitude and slow phase are held, what that costs is under Evidence:",
+                    derived["add"],
+                    zero=sp.expand(derived["add"] - repair["add"]),
+                ),
             ),
             derived,
-        )  # fmt: skip
+        )
 
     return derive
 
@@ -335,40 +369,77 @@ def _effect_rates(name: str) -> Callable[[], str]:
 
 ENTRIES = (
     Entry(
-        id="11", section="3.3", title="Vertical and tangential displacement", place="Sect. 3.3",
-        printed=EQ11, units={"zeta_z": "m", "zeta_x": "m"}, verdict="approximation",
+        id="11",
+        section="3.3",
+        title="Vertical and tangential displacement",
+        place="Sect. 3.3",
+        printed=EQ11,
+        units={"zeta_z": "m", "zeta_x": "m"},
+        verdict="approximation",
         reason="The superposition is right. zeta_x takes the slope for the section's rotation, which Timoshenko's "
-               "beam (3) tells apart; first principles ask for the rotation, about the layers' axis. With z towards "
-               "the rotor a positive slope moves the surface to -x: the sign is "
-               "a convention.",
-        judge=_judge_11, derive=_derive_11, effect=_effect_11,
+        "beam (3) tells apart; first principles ask for the rotation, about the layers' axis. With z towards "
+        "the rotor a positive slope moves the surface to -x: the sign is "
+        "a convention.",
+        judge=_judge_11,
+        derive=_derive_11,
+        effect=_effect_11,
     ),
     Entry(
-        id="16", section="3.3", title="Tangential velocity as one sine", place="Sect. 3.3",
-        printed=_EQ16, units={"v_x": "m/s"}, verdict="verified",
+        id="16",
+        section="3.3",
+        title="Tangential velocity as one sine",
+        place="Sect. 3.3",
+        printed=_EQ16,
+        units={"v_x": "m/s"},
+        verdict="verified",
         reason="The time derivative of zeta_x is a sine and a cosine of k_c x, hence one sine.",
-        judge=_judge_16, derive=_derive_16, effect=_effect_16,
+        judge=_judge_16,
+        derive=_derive_16,
+        effect=_effect_16,
     ),
     Entry(
-        id="17", section="3.3", title="Amplitude and phase of the tangential velocity", place="Sect. 3.3",
-        printed=_EQ17, units={"A_v": "m/s", "Psi_v": "rad"}, verdict="verified",
+        id="17",
+        section="3.3",
+        title="Amplitude and phase of the tangential velocity",
+        place="Sect. 3.3",
+        printed=_EQ17,
+        units={"A_v": "m/s", "Psi_v": "rad"},
+        verdict="verified",
         reason="Polar form of M_a and M_b, both branches right; from t_1 to t_2 W_maxf stands before the root because "
-               "M_a and M_b are printed without it there.",
-        judge=_judge_17, derive=_derive_17, effect=_effect_17,
+        "M_a and M_b are printed without it there.",
+        judge=_judge_17,
+        derive=_derive_17,
+        effect=_effect_17,
     ),
     Entry(
-        id="18", section="3.3", title="Sine's part M_a of the tangential velocity", place="Sect. 3.3",
-        printed=_by_rows(_EQ18["M_a"]), units=_UNITS_FIRST, verdict="erratum",
+        id="18",
+        section="3.3",
+        title="Sine's part M_a of the tangential velocity",
+        place="Sect. 3.3",
+        printed=_by_rows(_EQ18["M_a"]),
+        units=_UNITS_FIRST,
+        verdict="erratum",
         reason="The third row lost the factor -(omega_n + omega_q)/2 and is a length, not a velocity; the second "
-               "keeps (10)'s amplitude.",
-        judge=_judge_rates("M_a"), derive=_derive_rates("M_a"), effect=_effect_rates("M_a"), repair=_repair_18,
+        "keeps (10)'s amplitude.",
+        judge=_judge_rates("M_a"),
+        derive=_derive_rates("M_a"),
+        effect=_effect_rates("M_a"),
+        repair=_repair_18,
         found_by=("dimension", "numeric", "error_size"),
     ),
     Entry(
-        id="19", section="3.3", title="Cosine's part M_b of the tangential velocity", place="Sect. 3.3",
-        printed=_by_rows(_EQ19["M_b"]), units=_UNITS_FIRST, verdict="erratum",
+        id="19",
+        section="3.3",
+        title="Cosine's part M_b of the tangential velocity",
+        place="Sect. 3.3",
+        printed=_by_rows(_EQ19["M_b"]),
+        units=_UNITS_FIRST,
+        verdict="erratum",
         reason="The second and third rows lost the factor (omega_n + omega_q)/2 and are lengths, not velocities.",
-        judge=_judge_rates("M_b"), derive=_derive_rates("M_b"), effect=_effect_rates("M_b"), repair=_repair_19,
+        judge=_judge_rates("M_b"),
+        derive=_derive_rates("M_b"),
+        effect=_effect_rates("M_b"),
+        repair=_repair_19,
         found_by=("dimension", "numeric", "error_size"),
     ),
-)  # fmt: skip
+)

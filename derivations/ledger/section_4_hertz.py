@@ -22,11 +22,23 @@ delta_0, zeta_z, A_p = sym("delta_0 zeta_z A_p")
 a_w, b_w, a_v, b_v = sp.symbols("a_w b_w a_v b_v", real=True)  # values of w_A, w_B and of their rates
 
 RANGES: dict[str, tuple[float, float]] = {
-    "rho_k": (3.0, 5.0), "zeta_zmax": (3e-6, 9e-6), "C_E": (1.5e-10, 2.5e-10), "x_m": (0.5e-3, 3e-3),
-    "x_max": (-5e-3, 5e-3), "x_xm": (-5e-3, 5e-3), "x_vm": (-5e-3, 5e-3), "delta_0": (2e-6, 8e-6),
-    "zeta_z": (2e-6, 9e-6), "A_p": (3e-6, 5e-6), "a_w": (-8e-6, 8e-6), "b_w": (-8e-6, 8e-6),
-    "a_v": (-1.5, 1.5), "b_v": (-1.5, 1.5), "s": (1.0, 1.0), "W_c": (3e-6, 9e-6),
-}  # fmt: skip
+    "rho_k": (3.0, 5.0),
+    "zeta_zmax": (3e-6, 9e-6),
+    "C_E": (1.5e-10, 2.5e-10),
+    "x_m": (0.5e-3, 3e-3),
+    "x_max": (-5e-3, 5e-3),
+    "x_xm": (-5e-3, 5e-3),
+    "x_vm": (-5e-3, 5e-3),
+    "delta_0": (2e-6, 8e-6),
+    "zeta_z": (2e-6, 9e-6),
+    "A_p": (3e-6, 5e-6),
+    "a_w": (-8e-6, 8e-6),
+    "b_w": (-8e-6, 8e-6),
+    "a_v": (-1.5, 1.5),
+    "b_v": (-1.5, 1.5),
+    "s": (1.0, 1.0),
+    "W_c": (3e-6, 9e-6),
+}
 
 
 def _crest(point: Mapping[sp.Symbol, mp.mpf]) -> tuple[mp.mpf, mp.mpf]:
@@ -46,12 +58,15 @@ def _derive_25() -> Derivation:
     return Derivation(
         (
             step("The crest has slope 0, so its curvature is the second derivative:", wave.diff(x, 2).subs(x, 0)),
-            step("The diameter of the cylinder that osculates it is twice the inverse of that:", sp.Eq(rho_k, diameter),
-                 zero=diameter * wave.diff(x, 2).subs(x, 0) + 2),
+            step(
+                "The diameter of the cylinder that osculates it is twice the inverse of that:",
+                sp.Eq(rho_k, diameter),
+                zero=diameter * wave.diff(x, 2).subs(x, 0) + 2,
+            ),
             step("n_j waves close on the circumference 2 pi r_t, so k_c = n_j/r_t:", sp.Eq(rho_k, form)),
         ),
         {"rho_k": form},
-    )  # fmt: skip
+    )
 
 
 def _judge_25(forms: Forms) -> Iterator[Evidence]:
@@ -61,8 +76,14 @@ def _judge_25(forms: Forms) -> Iterator[Evidence]:
         sagitta = 2 * height * mp.sin(k * step_x / 2) ** 2
         return (step_x**2 + sagitta**2) / sagitta
 
-    yield agrees(forms, osculating, symbols=(n_j, r_t, zeta_zmax), ranges=RANGES, tolerance=1e-11,
-                 against="the circle through three neighbouring points of the crest")  # fmt: skip
+    yield agrees(
+        forms,
+        osculating,
+        symbols=(n_j, r_t, zeta_zmax),
+        ranges=RANGES,
+        tolerance=1e-11,
+        against="the circle through three neighbouring points of the crest",
+    )
     yield identical(forms, _derive_25().forms)
 
 
@@ -97,19 +118,25 @@ def _derive_c_e() -> Derivation:
     plane = sp.factor((stress - nu * hold) / E)
     return Derivation(
         (
-            step("A contact long across the page deforms in plane strain. The stress that holds the strain "
-                 "across at 0:",
-                 sp.Eq(across, hold)),
+            step(
+                "A contact long across the page deforms in plane strain. The stress that holds the strain across at 0:",
+                sp.Eq(across, hold),
+            ),
             step("leaves along the load:", sp.Eq(strain, plane), zero=plane - stress * (1 - nu**2) / E),
             step("Both surfaces yield, so their compliances add:", sp.Eq(C_E, _C_E["C_E"])),
         ),
         {"C_E": sum(plane.subs({stress: 1, E: e, nu: m}) for e, m in ((E_eq, mu_e), (E_m, mu_m)))},
-    )  # fmt: skip
+    )
 
 
 def _judge_c_e(forms: Forms) -> Iterator[Evidence]:
-    yield agrees(forms, lambda _, point: _compliance(point), symbols=(E_eq, mu_e, E_m, mu_m), ranges=RANGES,
-                 against="the plane-strain compliance from Hooke's law solved as a linear system")  # fmt: skip
+    yield agrees(
+        forms,
+        lambda _, point: _compliance(point),
+        symbols=(E_eq, mu_e, E_m, mu_m),
+        ranges=RANGES,
+        against="the plane-strain compliance from Hooke's law solved as a linear system",
+    )
     rigid = forms["C_E"].subs({E_eq: sp.oo, mu_m: 0})
     yield evidence("limit", rigid == 1 / E_m, "a rigid stator on a layer without Poisson's effect leaves 1/E_m")
     yield identical(forms, _derive_c_e().forms)
@@ -136,16 +163,25 @@ def _derive_26() -> Derivation:
     form = width.subs(load, F_c / (n_j * b_m))
     return Derivation(
         (
-            step("Pressure p_0 sqrt(1 - s^2) on |s| < 1, s = x/a, bends the two half-planes to the slope "
-                 "-(2 C_E/pi) p_0 times the principal value"),
+            step(
+                "Pressure p_0 sqrt(1 - s^2) on |s| < 1, s = x/a, bends the two half-planes to the slope "
+                "-(2 C_E/pi) p_0 times the principal value"
+            ),
             step("which is", line_contact.gap_slope_integral(), zero=line_contact.gap_slope_integral() - sp.pi * s),
-            step("It closes the gap x^2/rho_k if the slope is -2 x/rho_k; with the load P per width that fixes the "
-                 "width:", sp.Eq(sp.Symbol("2x_m"), width), zero=width**2 - 8 * load * rho_k * C_E / sp.pi),
-            step("Each of the n_j crests carries F_c/(n_j b_m) per width; the factor sqrt(8/pi) = 1.596 is rounded to "
-                 "1.6 in print:", sp.Eq(sp.Symbol("2x_m"), form)),
+            step(
+                "It closes the gap x^2/rho_k if the slope is -2 x/rho_k; with the load P per width that fixes the "
+                "width:",
+                sp.Eq(sp.Symbol("2x_m"), width),
+                zero=width**2 - 8 * load * rho_k * C_E / sp.pi,
+            ),
+            step(
+                "Each of the n_j crests carries F_c/(n_j b_m) per width; the factor sqrt(8/pi) = 1.596 is rounded to "
+                "1.6 in print:",
+                sp.Eq(sp.Symbol("2x_m"), form),
+            ),
         ),
         {"2x_m": form},
-    )  # fmt: skip
+    )
 
 
 def _closing_width(_: str, point: Point) -> mp.mpf:
@@ -157,8 +193,10 @@ def _closing_width(_: str, point: Point) -> mp.mpf:
         return mp.quad(lambda s: mp.sqrt(1 - s**2) * mp.log(abs((at - s) / s)), [-1, 0, at, 1])
 
     with mp.workdps(15):
-        squares = [4 * point[C_E] * load * point[rho_k] / mp.pi**2 * sunk(mp.mpf(at)) / mp.mpf(at) ** 2
-                   for at in ("0.5", "0.9")]  # fmt: skip
+        squares = [
+            4 * point[C_E] * load * point[rho_k] / mp.pi**2 * sunk(mp.mpf(at)) / mp.mpf(at) ** 2
+            for at in ("0.5", "0.9")
+        ]
     if abs(squares[0] - squares[1]) > 1e-9 * squares[0]:
         return mp.nan  # the pressure does not close the gap everywhere
     return 2 * mp.sqrt(squares[0])
@@ -166,8 +204,15 @@ def _closing_width(_: str, point: Point) -> mp.mpf:
 
 def _judge_26(forms: Forms) -> Iterator[Evidence]:
     symbols = (F_c, rho_k, C_E, n_j, b_m)
-    yield agrees(forms, _closing_width, symbols=symbols, ranges=RANGES, count=2, tolerance=5e-3,
-                 against="the width that closes the gap between two half-planes, by quadrature, to 0.5 %")  # fmt: skip
+    yield agrees(
+        forms,
+        _closing_width,
+        symbols=symbols,
+        ranges=RANGES,
+        count=2,
+        tolerance=5e-3,
+        against="the width that closes the gap between two half-planes, by quadrature, to 0.5 %",
+    )
     exact = _derive_26().forms["2x_m"]
     ratio = sp.simplify(forms["2x_m"] / exact)
     constant = not ratio.free_symbols
@@ -214,21 +259,45 @@ def _picture_26() -> Picture:
 _PLACE = "Sect. 4.1"
 ENTRIES = (
     Entry(
-        id="25", section="4.1", title="Equivalent curvature diameter of the crest", place=_PLACE, printed=_EQ25,
-        units={"rho_k": "m"}, verdict="verified", judge=_judge_25, derive=_derive_25, effect=_effect_25,
+        id="25",
+        section="4.1",
+        title="Equivalent curvature diameter of the crest",
+        place=_PLACE,
+        printed=_EQ25,
+        units={"rho_k": "m"},
+        verdict="verified",
+        judge=_judge_25,
+        derive=_derive_25,
+        effect=_effect_25,
         reason="Twice the crest's radius of curvature, with m the number of crests and r_t the radius on which k_c = "
-               "m/r_t.",
+        "m/r_t.",
     ),
     Entry(
-        id="C_E", section="4.1", title="Contact compliance", place="below eq. 26", printed=_C_E,
-        units={"C_E": "1/Pa"}, verdict="verified", judge=_judge_c_e, derive=_derive_c_e, effect=_effect_c_e,
+        id="C_E",
+        section="4.1",
+        title="Contact compliance",
+        place="below eq. 26",
+        printed=_C_E,
+        units={"C_E": "1/Pa"},
+        verdict="verified",
+        judge=_judge_c_e,
+        derive=_derive_c_e,
+        effect=_effect_c_e,
         reason="The joint plane-strain compliance of two half-planes, one of which has the modulus E_eq.",
     ),
     Entry(
-        id="26", section="4.1", title="Length of the contact", place=_PLACE, printed=_EQ26, units={"2x_m": "m"},
-        verdict="approximation", judge=_judge_26, derive=_derive_26, effect=_effect_26,
+        id="26",
+        section="4.1",
+        title="Length of the contact",
+        place=_PLACE,
+        printed=_EQ26,
+        units={"2x_m": "m"},
+        verdict="approximation",
+        judge=_judge_26,
+        derive=_derive_26,
+        effect=_effect_26,
         picture=_picture_26,
         reason="Hertz's line contact with sqrt(8/pi) rounded to 1.6; its premise, bodies far thicker than the contact "
-               "is long, does not hold for the layer.",
+        "is long, does not hold for the layer.",
     ),
-)  # fmt: skip
+)

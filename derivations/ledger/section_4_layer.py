@@ -26,11 +26,23 @@ delta_0, zeta_z, A_p = sym("delta_0 zeta_z A_p")
 a_w, b_w, a_v, b_v = sp.symbols("a_w b_w a_v b_v", real=True)  # values of w_A, w_B and of their rates
 
 RANGES: dict[str, tuple[float, float]] = {
-    "rho_k": (3.0, 5.0), "zeta_zmax": (3e-6, 9e-6), "C_E": (1.5e-10, 2.5e-10), "x_m": (0.5e-3, 3e-3),
-    "x_max": (-5e-3, 5e-3), "x_xm": (-5e-3, 5e-3), "x_vm": (-5e-3, 5e-3), "delta_0": (2e-6, 8e-6),
-    "zeta_z": (2e-6, 9e-6), "A_p": (3e-6, 5e-6), "a_w": (-8e-6, 8e-6), "b_w": (-8e-6, 8e-6),
-    "a_v": (-1.5, 1.5), "b_v": (-1.5, 1.5), "s": (1.0, 1.0), "W_c": (3e-6, 9e-6),
-}  # fmt: skip
+    "rho_k": (3.0, 5.0),
+    "zeta_zmax": (3e-6, 9e-6),
+    "C_E": (1.5e-10, 2.5e-10),
+    "x_m": (0.5e-3, 3e-3),
+    "x_max": (-5e-3, 5e-3),
+    "x_xm": (-5e-3, 5e-3),
+    "x_vm": (-5e-3, 5e-3),
+    "delta_0": (2e-6, 8e-6),
+    "zeta_z": (2e-6, 9e-6),
+    "A_p": (3e-6, 5e-6),
+    "a_w": (-8e-6, 8e-6),
+    "b_w": (-8e-6, 8e-6),
+    "a_v": (-1.5, 1.5),
+    "b_v": (-1.5, 1.5),
+    "s": (1.0, 1.0),
+    "W_c": (3e-6, 9e-6),
+}
 
 
 def _crest(point: Mapping[sp.Symbol, mp.mpf]) -> tuple[mp.mpf, mp.mpf]:
@@ -47,12 +59,14 @@ def _derive_27() -> Derivation:
     left = x_max - x_m
     return Derivation(
         (
-            step("The wave is even about its crest, so both ends of the contact lie x_m from it:",
-                 zero=(sp.cos(k_c * (x - x_max)).subs(x, x_max + x_m) - sp.cos(k_c * (x - x_max)).subs(x, left))),
+            step(
+                "The wave is even about its crest, so both ends of the contact lie x_m from it:",
+                zero=(sp.cos(k_c * (x - x_max)).subs(x, x_max + x_m) - sp.cos(k_c * (x - x_max)).subs(x, left)),
+            ),
             step("x_xm is the right end; the left one, which eq. 31 and eq. 36 also need, is", left),
         ),
         _EQ27,
-    )  # fmt: skip
+    )
 
 
 def _judge_27(forms: Forms) -> Iterator[Evidence]:
@@ -66,8 +80,14 @@ def _judge_27(forms: Forms) -> Iterator[Evidence]:
             low, high = (middle, high) if mp.cos(k * (middle - point[x_max])) > level else (low, middle)
         return low
 
-    yield agrees(forms, right_end, symbols=(x_max, x_m), ranges=RANGES, tolerance=1e-20,
-                 against="where the wave falls through the layer's surface, by bisection")  # fmt: skip
+    yield agrees(
+        forms,
+        right_end,
+        symbols=(x_max, x_m),
+        ranges=RANGES,
+        tolerance=1e-20,
+        against="where the wave falls through the layer's surface, by bisection",
+    )
     yield evidence("limit", forms["x_xm"].subs(x_m, 0) == x_max, "a contact of length 0 is the crest")
 
 
@@ -88,20 +108,29 @@ def _derive_28() -> Derivation:
     return Derivation(
         (
             step("Eq. 11 at the right end of the contact (eq. 27):", sp.Eq(delta_0, form)),
-            step("With k_c x_xm = atan2(w_A, w_B) + k_c x_m this is the crest's displacement times cos(k_c x_m):",
-                 zero=sp.expand((turn[0] * a_w + turn[1] * b_w) / height - height * sp.cos(k_c * x_m)).simplify()),
+            step(
+                "With k_c x_xm = atan2(w_A, w_B) + k_c x_m this is the crest's displacement times cos(k_c x_m):",
+                zero=sp.expand((turn[0] * a_w + turn[1] * b_w) / height - height * sp.cos(k_c * x_m)).simplify(),
+            ),
         ),
         {"delta_0": form},
-    )  # fmt: skip
+    )
 
 
 def _judge_28(forms: Forms) -> Iterator[Evidence]:
     undefined = sorted(s.name for form in forms.values() for s in form.free_symbols & {x_vm})
-    yield evidence("domain", not undefined, f"every symbol is defined{', but for ' if undefined else ''}"
-                   + ", ".join(undefined))  # fmt: skip
+    yield evidence(
+        "domain", not undefined, f"every symbol is defined{', but for ' if undefined else ''}" + ", ".join(undefined)
+    )
     edge = {x_xm: sp.atan2(a_w, b_w) / k_c + x_m}
-    yield agrees(forms, lambda _, q: _crest(q)[0] * mp.cos(q[k_c] * q[x_m]), given={**_VALUES, **edge}, ranges=RANGES,
-                 symbols=(a_w, b_w, k_c, x_m), against="W_c cos(k_c x_m)")  # fmt: skip
+    yield agrees(
+        forms,
+        lambda _, q: _crest(q)[0] * mp.cos(q[k_c] * q[x_m]),
+        given={**_VALUES, **edge},
+        ranges=RANGES,
+        symbols=(a_w, b_w, k_c, x_m),
+        against="W_c cos(k_c x_m)",
+    )
     symmetric = forms["delta_0"].subs(_VALUES).subs(x_xm, sp.Symbol("e")).subs(a_w, 0)
     yield evidence("identity", symmetric - b_w * sp.cos(k_c * sp.Symbol("e")) == 0, "for a crest at x = 0 it is even")
 
@@ -127,13 +156,18 @@ def _derive_29() -> Derivation:
     form = D * sp.Derivative(_WAVE, x, t).doit().subs(x, x_xm)
     return Derivation(
         (
-            step("Tangential displacement D d(zeta_z)/dx (eq. 11); its rate is the mixed second derivative:",
-                 sp.Eq(sp.Symbol("v_x"), D * sp.Derivative(_WAVE, x, t))),
-            step("at the right end of the contact:", sp.Eq(sp.Symbol("v_xm"), form),
-                 zero=form - (D * _WAVE.diff(x)).diff(t).subs(x, x_xm)),
+            step(
+                "Tangential displacement D d(zeta_z)/dx (eq. 11); its rate is the mixed second derivative:",
+                sp.Eq(sp.Symbol("v_x"), D * sp.Derivative(_WAVE, x, t)),
+            ),
+            step(
+                "at the right end of the contact:",
+                sp.Eq(sp.Symbol("v_xm"), form),
+                zero=form - (D * _WAVE.diff(x)).diff(t).subs(x, x_xm),
+            ),
         ),
         {"v_xm": form},
-    )  # fmt: skip
+    )
 
 
 def _differences(point: Mapping[sp.Symbol, mp.mpf], h: mp.mpf) -> dict[sp.Basic, mp.mpf]:
@@ -161,8 +195,11 @@ def _judge_29(forms: Forms) -> Iterator[Evidence]:
     angle = q[k_c] * q[x_xm]
     wanted = q[D] * q[k_c] * (q[a_v] * mp.cos(angle) - q[b_v] * mp.sin(angle))
     yield evidence("limit", abs(coarse - fine) < 1e-8 * abs(fine), "has a limit for ever smaller steps")
-    yield evidence("numeric", abs(fine - wanted) < 1e-8 * abs(wanted),
-                   "is the rate of the tangential displacement, D k_c (w_A' cos k_c x - w_B' sin k_c x)")  # fmt: skip
+    yield evidence(
+        "numeric",
+        abs(fine - wanted) < 1e-8 * abs(wanted),
+        "is the rate of the tangential displacement, D k_c (w_A' cos k_c x - w_B' sin k_c x)",
+    )
 
 
 def _effect_29() -> str:
@@ -183,13 +220,19 @@ def _derive_30() -> Derivation:
     form = contact.layer_stiffness() * (sp.Max(zeta_z, delta_0) - delta_0)
     return Derivation(
         (
-            step("Where the wave stands above the undeformed surface, at delta_0, the layer of thickness h_m is "
-                 "strained by", (zeta_z - delta_0) / h_m),
-            step("times E_m it is the stress, times the width b_m the load per length; a layer that does not stick "
-                 "cannot pull:", sp.Eq(sp.Symbol("p"), form)),
+            step(
+                "Where the wave stands above the undeformed surface, at delta_0, the layer of thickness h_m is "
+                "strained by",
+                (zeta_z - delta_0) / h_m,
+            ),
+            step(
+                "times E_m it is the stress, times the width b_m the load per length; a layer that does not stick "
+                "cannot pull:",
+                sp.Eq(sp.Symbol("p"), form),
+            ),
         ),
         {"p": form},
-    )  # fmt: skip
+    )
 
 
 def _judge_30(forms: Forms) -> Iterator[Evidence]:
@@ -202,8 +245,15 @@ def _judge_30(forms: Forms) -> Iterator[Evidence]:
 
         return (energy(sunk + mp.mpf("1e-9")) - energy(sunk - mp.mpf("1e-9"))) / mp.mpf("2e-9")
 
-    yield agrees(forms, layer, symbols=(zeta_z, delta_0, E_m, h_m, b_m), ranges=RANGES, count=8, tolerance=1e-20,
-                 against="the rate of the layer's energy with its compression, 0 out of contact")  # fmt: skip
+    yield agrees(
+        forms,
+        layer,
+        symbols=(zeta_z, delta_0, E_m, h_m, b_m),
+        ranges=RANGES,
+        count=8,
+        tolerance=1e-20,
+        against="the rate of the layer's energy with its compression, 0 out of contact",
+    )
     outside = forms["p"].subs({zeta_z: 1, delta_0: 2})
     yield evidence("domain", outside.is_zero or not outside.is_negative, "the layer never pulls")
 
@@ -233,13 +283,19 @@ def _derive_31() -> Derivation:
     scale = 2 * n_j * k_N * zeta_zmax / k_c
     return Derivation(
         (
-            step("The prepressure is the sum of the pressure over the whole length of all n_j contacts, from "
-                 "x_max - x_m = 2 x_max - x_xm to x_xm:", sp.Eq(F_c, form)),
-            step("For the layer of eq. 30 that is the balance of the half-angle theta = k_c x_m:", sp.Eq(F_c, whole),
-                 zero=sp.expand_trig(sp.expand(whole / scale + balance.subs(sym("W")[0], zeta_zmax) - F_c / scale))),
+            step(
+                "The prepressure is the sum of the pressure over the whole length of all n_j contacts, from "
+                "x_max - x_m = 2 x_max - x_xm to x_xm:",
+                sp.Eq(F_c, form),
+            ),
+            step(
+                "For the layer of eq. 30 that is the balance of the half-angle theta = k_c x_m:",
+                sp.Eq(F_c, whole),
+                zero=sp.expand_trig(sp.expand(whole / scale + balance.subs(sym("W")[0], zeta_zmax) - F_c / scale)),
+            ),
         ),
         {"F_c": form},
-    )  # fmt: skip
+    )
 
 
 def _judge_31(forms: Forms) -> Iterator[Evidence]:
@@ -256,9 +312,16 @@ def _judge_31(forms: Forms) -> Iterator[Evidence]:
         return q[k_N] * q[zeta_zmax] * total
 
     at_nine = {key: form.subs(n_j, 9) for key, form in forms.items()}
-    yield agrees(at_nine, around, given=given, symbols=(k_c, k_N, zeta_zmax, theta, x_max), ranges=RANGES, count=2,
-                 tolerance=1e-14, against="the layer's pressure summed around the circumference of nine "
-                                          "crests")  # fmt: skip
+    yield agrees(
+        at_nine,
+        around,
+        given=given,
+        symbols=(k_c, k_N, zeta_zmax, theta, x_max),
+        ranges=RANGES,
+        count=2,
+        tolerance=1e-14,
+        against="the layer's pressure summed around the circumference of nine crests",
+    )
     concrete = {key: form.subs(given).doit() for key, form in forms.items()}
     derived = {key: form.subs(given).doit() for key, form in _derive_31().forms.items()}
     yield identical(concrete, derived)
@@ -294,13 +357,15 @@ def _derive_32() -> Derivation:
     responses = [sp.Symbol(f"w_{phase}^{region}") for region in phases.REGIONS for phase in phases.PHASES]
     return Derivation(
         (
-            step("k_N from eq. 31 put into eq. 30, with zeta_z - delta_0 = W_c (cos u - cos theta) (eq. 28):",
-                 sp.Eq(sp.Symbol("p"), general)),
+            step(
+                "k_N from eq. 31 put into eq. 30, with zeta_z - delta_0 = W_c (cos u - cos theta) (eq. 28):",
+                sp.Eq(sp.Symbol("p"), general),
+            ),
             step("cos u is zeta_z over the crest's height (eqs. 11, 21):", sp.Eq(sp.cos(transfer.u), _WAVE / crest)),
             step("The same holds in all three regions, each with its own responses (eqs. 9, 10):", *responses),
         ),
         {"p": form},
-    )  # fmt: skip
+    )
 
 
 @cache
@@ -325,8 +390,12 @@ def _judge_32(forms: Forms) -> Iterator[Evidence]:
     worst = beyond = least = 0.0
     for A, B in _region_values().values():
         crest = float(mp.atan2(A, B))
-        turns = np.concatenate([crest + edge + (np.arange(8000) + 0.5) / 8000 * width for edge, width in (
-            (-np.pi, np.pi - angle), (-angle, 2 * angle), (angle, np.pi - angle))])  # fmt: skip
+        turns = np.concatenate(
+            [
+                crest + edge + (np.arange(8000) + 0.5) / 8000 * width
+                for edge, width in ((-np.pi, np.pi - angle), (-angle, 2 * angle), (angle, np.pi - angle))
+            ]
+        )
         widths = np.repeat([np.pi - angle, 2 * angle, np.pi - angle], 8000) / 8000 / k
         pressed = np.real(function(turns / k, float(A), float(B), load, crests, k, angle) + 0 * turns)
         outside = np.abs(turns - crest) > angle
@@ -351,44 +420,93 @@ def _effect_32() -> str:
 _PLACE = "Sect. 4.1"
 ENTRIES = (
     Entry(
-        id="27", section="4.1", title="End of the contact", place=_PLACE, printed=_EQ27, units={"x_xm": "m"},
-        verdict="definition", judge=_judge_27, derive=_derive_27, effect=_effect_27,
+        id="27",
+        section="4.1",
+        title="End of the contact",
+        place=_PLACE,
+        printed=_EQ27,
+        units={"x_xm": "m"},
+        verdict="definition",
+        judge=_judge_27,
+        derive=_derive_27,
+        effect=_effect_27,
         reason="The right end of a contact that has two; the left one is x_max - x_m.",
     ),
     Entry(
-        id="28", section="4.1", title="Undeformed surface of the layer", place=_PLACE, printed=_EQ28,
-        units={"delta_0": "m"}, verdict="erratum", judge=_judge_28, derive=_derive_28, effect=_effect_28,
+        id="28",
+        section="4.1",
+        title="Undeformed surface of the layer",
+        place=_PLACE,
+        printed=_EQ28,
+        units={"delta_0": "m"},
+        verdict="erratum",
+        judge=_judge_28,
+        derive=_derive_28,
+        effect=_effect_28,
         repair=lambda forms: {key: form.subs(x_vm, x_xm) for key, form in forms.items()},
         found_by=("domain", "identity", "numeric"),
         reason="Printed at x_vm, a symbol that is defined nowhere; the ends of the contact are x_xm (eq. 27).",
     ),
     Entry(
-        id="29", section="4.1", title="Tangential velocity at the end of the contact", place=_PLACE, printed=_EQ29,
-        units={"v_xm": "m/s"}, verdict="erratum", judge=_judge_29, derive=_derive_29, effect=_effect_29,
+        id="29",
+        section="4.1",
+        title="Tangential velocity at the end of the contact",
+        place=_PLACE,
+        printed=_EQ29,
+        units={"v_xm": "m/s"},
+        verdict="erratum",
+        judge=_judge_29,
+        derive=_derive_29,
+        effect=_effect_29,
         repair=lambda forms: {key: form.subs(first_difference, second_difference) for key, form in forms.items()},
         found_by=("limit", "numeric"),
         known=_STEPS,
         reason="The numerator lacks its exponent 2: a first difference over dx dt has no limit.",
     ),
     Entry(
-        id="30", section="4.1", title="Pressure distribution", place=_PLACE, printed=_EQ30, units={"p": "N/m"},
-        verdict="erratum", judge=_judge_30, derive=_derive_30, effect=_effect_30, repair=_repair_30,
+        id="30",
+        section="4.1",
+        title="Pressure distribution",
+        place=_PLACE,
+        printed=_EQ30,
+        units={"p": "N/m"},
+        verdict="erratum",
+        judge=_judge_30,
+        derive=_derive_30,
+        effect=_effect_30,
+        repair=_repair_30,
         found_by=("dimension", "numeric", "domain"),
         reason="k_f is undefined and A_p the ceramic's section; the product has no dimension that eq. 31 could "
-               "integrate to a force, and nothing keeps the layer from pulling. A Winkler layer has E_m b_m/h_m.",
+        "integrate to a force, and nothing keeps the layer from pulling. A Winkler layer has E_m b_m/h_m.",
     ),
     Entry(
-        id="31", section="4.1", title="Balance with the prepressure", place=_PLACE, printed=_EQ31,
-        units={"F_c": "N"}, verdict="erratum", judge=_judge_31, derive=_derive_31, effect=_effect_31,
+        id="31",
+        section="4.1",
+        title="Balance with the prepressure",
+        place=_PLACE,
+        printed=_EQ31,
+        units={"F_c": "N"},
+        verdict="erratum",
+        judge=_judge_31,
+        derive=_derive_31,
+        effect=_effect_31,
         size=lambda: ("the contact half-angle", float(_half_angle_31() / operating_point()["theta"] - 1)),
-        repair=_repair_31, found_by=("numeric", "identity"),
+        repair=_repair_31,
+        found_by=("numeric", "identity"),
         reason="Sums over one half of one contact; the prepressure rests on both halves of all crests. Eq. 36, which "
-               "has the factor 2 m, contradicts it.",
+        "has the factor 2 m, contradicts it.",
     ),
     Entry(
-        id="32", section="4.1", title="Pressure in the three regions", place=_PLACE, printed={},
-        units={"p": "N/m"}, verdict="reconstructed", judge=_judge_32,
-        derive=_derive_32, effect=_effect_32,
+        id="32",
+        section="4.1",
+        title="Pressure in the three regions",
+        place=_PLACE,
+        printed={},
+        units={"p": "N/m"},
+        verdict="reconstructed",
+        judge=_judge_32,
+        derive=_derive_32,
+        effect=_effect_32,
         reason="Missing from the text; follows from eqs. 28, 30 and 31, put right, with the phases' responses.",
     ),
-)  # fmt: skip
+)

@@ -39,13 +39,19 @@ def _derive_33() -> Derivation:
     return Derivation(
         (
             step("Eq. 16 with A_v cos(Psi_v) and A_v sin(Psi_v) for M_a and M_b; v_x over D k_c is", speed),
-            step("It is largest or smallest where its slope vanishes, half a wave apart:", sp.Eq(slope, 0),
-                 zero=(first.simplify(), sp.expand(slope.subs(x, x + sp.pi / k_c) + slope))),
-            step("The first is a peak if M_b > 0 and else a trough: there v_x over D k_c is", value,
-                 zero=sp.simplify(value - M_b * sp.sqrt(1 + (M_a / M_b) ** 2))),
+            step(
+                "It is largest or smallest where its slope vanishes, half a wave apart:",
+                sp.Eq(slope, 0),
+                zero=(first.simplify(), sp.expand(slope.subs(x, x + sp.pi / k_c) + slope)),
+            ),
+            step(
+                "The first is a peak if M_b > 0 and else a trough: there v_x over D k_c is",
+                value,
+                zero=sp.simplify(value - M_b * sp.sqrt(1 + (M_a / M_b) ** 2)),
+            ),
         ),
         {"row 1": _EQ33["row 1"], "row 2": sp.Eq(phi_vm2, (_ROW + sp.pi) / k_c)},
-    )  # fmt: skip
+    )
 
 
 def _extrema(a: float, b: float) -> list[float]:
@@ -73,8 +79,12 @@ def _judge_33(forms: Forms) -> Iterator[Evidence]:
         for form, at in zip(forms.values(), wanted, strict=True):
             found = complex(evaluate(form.rhs, {M_a: a, M_b: b, k_c: K}))
             worst = worse(worst, abs(K * found - at))
-    yield evidence("numeric", worst < 1e-6, "the extrema in (-pi/2, 3 pi/2)/k_c, in order, by scanning v_x for all "
-                                            f"signs of M_a, M_b: off by {rounded(worst)} rad at most")  # fmt: skip
+    yield evidence(
+        "numeric",
+        worst < 1e-6,
+        "the extrema in (-pi/2, 3 pi/2)/k_c, in order, by scanning v_x for all "
+        f"signs of M_a, M_b: off by {rounded(worst)} rad at most",
+    )
     slopes = [(M_a * sp.cos(k_c * f.rhs) - M_b * sp.sin(k_c * f.rhs)) for f in forms.values()]
     yield evidence("identity", all(s.simplify() == 0 for s in slopes), "the slope of v_x vanishes in both rows")
 
@@ -93,9 +103,10 @@ def _rows_34(ratio: sp.Expr, a: sp.Symbol, b: sp.Symbol, covers_zero: bool) -> s
     arc = sp.asin(ratio)
     middle = sp.And(a >= 0 if covers_zero else a > 0, b <= 0)
     return sp.Piecewise(
-        ((arc - Psi_v) / k_c, b >= 0), ((-sp.pi - arc - Psi_v) / k_c, middle),
+        ((arc - Psi_v) / k_c, b >= 0),
+        ((-sp.pi - arc - Psi_v) / k_c, middle),
         ((sp.pi - arc - Psi_v) / k_c, sp.And(a < 0, b <= 0)),
-    )  # fmt: skip
+    )
 
 
 _EQ34: Forms = {
@@ -112,16 +123,28 @@ def _derive_34() -> Derivation:
     redu, other = D * k_c * W * sp.sqrt(N_a**2 + N_b**2), D * k_c * sp.sqrt(M_a**2 + M_b**2)
     return Derivation(
         (
-            step("The rotor's speed meets v_x = A_v sin(k_c x + Psi_v) (eq. 16) at either arcsine, up to whole waves:",
-                 *roots, zero=[sp.expand_trig(amplitude * sp.sin(root + Psi_v)).simplify() - v_xp for root in roots]),
-            step("A_v has the factor W_maxf in T_redu (eq. 17), where M_a and M_b are in 1/s; eq. 34 leaves it out:",
-                 sp.Eq(amplitude, redu), sp.Eq(amplitude, other)),
-            step("In all there are two nonsliding points a wave, symmetric about the peak of v_x (closed form, u from "
-                 "the crest):", *transfer.nonsliding_points()),
+            step(
+                "The rotor's speed meets v_x = A_v sin(k_c x + Psi_v) (eq. 16) at either arcsine, up to whole waves:",
+                *roots,
+                zero=[sp.expand_trig(amplitude * sp.sin(root + Psi_v)).simplify() - v_xp for root in roots],
+            ),
+            step(
+                "A_v has the factor W_maxf in T_redu (eq. 17), where M_a and M_b are in 1/s; eq. 34 leaves it out:",
+                sp.Eq(amplitude, redu),
+                sp.Eq(amplitude, other),
+            ),
+            step(
+                "In all there are two nonsliding points a wave, symmetric about the peak of v_x (closed form, u from "
+                "the crest):",
+                *transfer.nonsliding_points(),
+            ),
         ),
-        {"x_px_redu": _rows_34(v_xp / redu, N_a, N_b, True), "x_px": _rows_34(v_xp / other, M_a, M_b, True),
-         "lambda": 2 * sp.pi / k_c},
-    )  # fmt: skip
+        {
+            "x_px_redu": _rows_34(v_xp / redu, N_a, N_b, True),
+            "x_px": _rows_34(v_xp / other, M_a, M_b, True),
+            "lambda": 2 * sp.pi / k_c,
+        },
+    )
 
 
 def _judge_34(forms: Forms) -> Iterator[Evidence]:
@@ -135,8 +158,15 @@ def _judge_34(forms: Forms) -> Iterator[Evidence]:
             psi = mp.mpf(angle)
             size = mp.mpf(2.5e5) if redu else mp.mpf("1.4")
             speed = stiff * K * size * (height if redu else 1)
-            known = {D: stiff, k_c: mp.mpf(K), W: height, v_xp: ratio * speed, Psi_v: psi,
-                     a: size * mp.cos(psi), b: size * mp.sin(psi)}  # fmt: skip
+            known = {
+                D: stiff,
+                k_c: mp.mpf(K),
+                W: height,
+                v_xp: ratio * speed,
+                Psi_v: psi,
+                a: size * mp.cos(psi),
+                b: size * mp.sin(psi),
+            }
             found = evaluate(form, {s: known[s] for s in form.free_symbols})
             turned.append(complex(K * found).real)
             worst[key] = worse(worst[key], abs(speed * mp.sin(K * found + psi) / speed - ratio))
@@ -215,13 +245,20 @@ def _rows_35() -> sp.Expr:
     second = sp.And(x_max < phi_vm2, phi_vm2 < x_xm)
     beyond = sp.And(x_max > phi_vm2, phi_vm2 < x_xm)
     return sp.Piecewise(
-        (x_px, x_xm <= phi_vm1), (x_px, sp.And(both, rising)), (x_px, sp.And(both, falling)),
-        (mirrored, sp.And(first, slowing)), (mirrored, sp.And(first, hastening)),
-        (mirrored, sp.And(second, rising)), (mirrored, sp.And(second, falling)),
-        (shifted, sp.And(second, v_xmax > 0)), (shifted, sp.And(second, slowing)), (shifted, sp.And(second, hastening)),
-        (shifted, sp.And(beyond, hastening)), (shifted, sp.And(beyond, v_xmax < 0)),
+        (x_px, x_xm <= phi_vm1),
+        (x_px, sp.And(both, rising)),
+        (x_px, sp.And(both, falling)),
+        (mirrored, sp.And(first, slowing)),
+        (mirrored, sp.And(first, hastening)),
+        (mirrored, sp.And(second, rising)),
+        (mirrored, sp.And(second, falling)),
+        (shifted, sp.And(second, v_xmax > 0)),
+        (shifted, sp.And(second, slowing)),
+        (shifted, sp.And(second, hastening)),
+        (shifted, sp.And(beyond, hastening)),
+        (shifted, sp.And(beyond, v_xmax < 0)),
         evaluate=False,
-    )  # fmt: skip
+    )
 
 
 EQ35: Forms = {"x_p": _rows_35()}
@@ -234,14 +271,20 @@ def _derive_35() -> Derivation:
     falls, rises = transfer.nonsliding_points()
     return Derivation(
         (
-            step("All nonsliding points, as angles from the crest, are up to whole turns", falls, rises,
-                 zero=[sp.cos(at - phi) - sp.Max(-1, sp.Min(1, c)) for at in (falls, rises)]),
-            step("Where just one lies between the crest and the end of the contact, v_x falls through v if the crest "
-                 "is faster than the rotor, and rises through it if it is slower; no further case is needed:",
-                 sp.Eq(sp.Symbol("x_p"), form)),
+            step(
+                "All nonsliding points, as angles from the crest, are up to whole turns",
+                falls,
+                rises,
+                zero=[sp.cos(at - phi) - sp.Max(-1, sp.Min(1, c)) for at in (falls, rises)],
+            ),
+            step(
+                "Where just one lies between the crest and the end of the contact, v_x falls through v if the crest "
+                "is faster than the rotor, and rises through it if it is slower; no further case is needed:",
+                sp.Eq(sp.Symbol("x_p"), form),
+            ),
         ),
         {"x_p": form},
-    )  # fmt: skip
+    )
 
 
 def _single_states(count: int) -> list[tuple[State, float]]:
@@ -254,10 +297,18 @@ def _known_35(s: State) -> dict[sp.Basic, float]:
     _, a, b = _paper_angles(s)
     first = math.atan(a / b)
     return {
-        x_px: _position_34(s) / K, phi_vm1: first / K, phi_vm2: (first + math.pi) / K, x_max: s.crest / K,
-        x_xm: (s.crest + s.theta) / K, v_xm: math.cos(s.theta - s.phi), v_xmax: math.cos(s.phi), v_xp: s.c,
-        R_v: 1.0, phi: s.phi, k_c: K,
-    }  # fmt: skip
+        x_px: _position_34(s) / K,
+        phi_vm1: first / K,
+        phi_vm2: (first + math.pi) / K,
+        x_max: s.crest / K,
+        x_xm: (s.crest + s.theta) / K,
+        v_xm: math.cos(s.theta - s.phi),
+        v_xmax: math.cos(s.phi),
+        v_xp: s.c,
+        R_v: 1.0,
+        phi: s.phi,
+        k_c: K,
+    }
 
 
 def _tally_35(form: sp.Expr, count: int = 150) -> Counter[str]:
@@ -277,10 +328,17 @@ def _tally_35(form: sp.Expr, count: int = 150) -> Counter[str]:
 def _judge_35(forms: Forms) -> Iterator[Evidence]:
     tally = _tally_35(forms["x_p"])
     total = sum(tally.values())
-    yield evidence("domain", not tally["none"], f"gives a point in {total - tally['none']} of {total} random states "
-                                                "with one nonsliding point between crest and end")  # fmt: skip
-    yield evidence("numeric", not tally["wrong"], f"right in {tally['right']} of these, by scanning and bisection; "
-                                                  f"wrong in {tally['wrong']}")  # fmt: skip
+    yield evidence(
+        "domain",
+        not tally["none"],
+        f"gives a point in {total - tally['none']} of {total} random states "
+        "with one nonsliding point between crest and end",
+    )
+    yield evidence(
+        "numeric",
+        not tally["wrong"],
+        f"right in {tally['right']} of these, by scanning and bisection; wrong in {tally['wrong']}",
+    )
 
 
 def _kind_35(form: sp.Expr) -> Callable[[History], list[str]]:
@@ -353,8 +411,12 @@ def _cuts_35() -> list[Quantity]:
     return [
         *(against(end, level) for end in (0, 1) for level in (0, 1)),
         *(beside(end, turn) for end in (0, 1) for turn in (0, np.pi)),
-        steeper, turned(np.pi / 2), turned(np.pi), lambda h: h.w_A, lambda h: h.w_B,
-    ]  # fmt: skip
+        steeper,
+        turned(np.pi / 2),
+        turned(np.pi),
+        lambda h: h.w_A,
+        lambda h: h.w_B,
+    ]
 
 
 def _effect_35() -> str:
@@ -378,24 +440,53 @@ def _effect_35() -> str:
 _PLACE = "Sect. 4.2.2"
 ENTRIES = (
     Entry(
-        id="33", section="4.2.2", title="Peaks and troughs of the tangential velocity", place=_PLACE, printed=_EQ33,
-        units={}, verdict="erratum", judge=_judge_33, derive=_derive_33, effect=_effect_33, known=transfer.DIMENSIONS,
+        id="33",
+        section="4.2.2",
+        title="Peaks and troughs of the tangential velocity",
+        place=_PLACE,
+        printed=_EQ33,
+        units={},
+        verdict="erratum",
+        judge=_judge_33,
+        derive=_derive_33,
+        effect=_effect_33,
+        known=transfer.DIMENSIONS,
         repair=lambda forms: {"row 1": forms["row 1"], "row 2": forms["row 2"].subs(phi_vm1, phi_vm2)},
         found_by=("domain",),
         reason="Both rows define phi_vm1, so it has two values and phi_vm2 of eq. 35 none; the second is phi_vm2.",
     ),
     Entry(
-        id="34", section="4.2.2", title="Position of a nonsliding point", place=_PLACE, printed=_EQ34,
-        units={"x_px_redu": "m", "x_px": "m", "lambda": "m"}, verdict="erratum", judge=_judge_34, derive=_derive_34,
-        effect=_effect_34, known=transfer.DIMENSIONS, repair=_repair_34, found_by=("dimension", "numeric", "domain"),
+        id="34",
+        section="4.2.2",
+        title="Position of a nonsliding point",
+        place=_PLACE,
+        printed=_EQ34,
+        units={"x_px_redu": "m", "x_px": "m", "lambda": "m"},
+        verdict="erratum",
+        judge=_judge_34,
+        derive=_derive_34,
+        effect=_effect_34,
+        known=transfer.DIMENSIONS,
+        repair=_repair_34,
+        found_by=("dimension", "numeric", "domain"),
         reason="Lacks W_maxf in T_redu, where eq. 17 takes it out of M_a and M_b, and a row for M_a = 0 > M_b; gives "
-               "one of two solutions.",
+        "one of two solutions.",
     ),
     Entry(
-        id="35", section="4.2.2", title="The only nonsliding point", place=_PLACE, printed=EQ35, units={"x_p": "m"},
-        verdict="erratum", judge=_judge_35, derive=_derive_35, effect=_effect_35, known=transfer.DIMENSIONS,
-        repair=lambda _: _derive_35().forms, found_by=("dimension", "domain", "numeric"),
+        id="35",
+        section="4.2.2",
+        title="The only nonsliding point",
+        place=_PLACE,
+        printed=EQ35,
+        units={"x_p": "m"},
+        verdict="erratum",
+        judge=_judge_35,
+        derive=_derive_35,
+        effect=_effect_35,
+        known=transfer.DIMENSIONS,
+        repair=lambda _: _derive_35().forms,
+        found_by=("dimension", "domain", "numeric"),
         reason="Adds 2 pi to a length, leaves most states without a row, and uses the undefined phi_vm2. One "
-               "expression replaces the table. Repeated rows are transcribed once; the text breaks off.",
+        "expression replaces the table. Repeated rows are transcribed once; the text breaks off.",
     ),
-)  # fmt: skip
+)

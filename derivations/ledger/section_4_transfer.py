@@ -70,42 +70,73 @@ def _derive_36() -> Derivation:
     steady = transfer.steady_wave_fraction()
     return Derivation(
         (
-            step("Let u = k_c (x - x_max) count from the crest, v_A and v_B be the rates of w_A and w_B. The crest's "
-                 "height, its rate, and the determinant over D k_c are",
-                 *(sp.Eq(symbol, value) for symbol, value in states_at.items())),
-            step("The tangential velocity D d2(zeta_z)/dx dt of eq. 11 becomes, about the crest,",
-                 sp.Eq(sp.Symbol("v_xx"), speed),
-                 zero=_about_the_crest() - sp.expand(speed.subs(states_at))),
-            step("Both terms together are one cosine, R cos(u - phi): the surface is fastest at phi, below phi_v.",
-                 sp.Eq(R_v, largest), sp.Eq(phi, angle),
-                 zero=sp.simplify(largest * (sp.cos(u) * sp.cos(angle) + sp.sin(u) * sp.sin(angle)) - speed)),
+            step(
+                "Let u = k_c (x - x_max) count from the crest, v_A and v_B be the rates of w_A and w_B. The crest's "
+                "height, its rate, and the determinant over D k_c are",
+                *(sp.Eq(symbol, value) for symbol, value in states_at.items()),
+            ),
+            step(
+                "The tangential velocity D d2(zeta_z)/dx dt of eq. 11 becomes, about the crest,",
+                sp.Eq(sp.Symbol("v_xx"), speed),
+                zero=_about_the_crest() - sp.expand(speed.subs(states_at)),
+            ),
+            step(
+                "Both terms together are one cosine, R cos(u - phi): the surface is fastest at phi, below phi_v.",
+                sp.Eq(R_v, largest),
+                sp.Eq(phi, angle),
+                zero=sp.simplify(largest * (sp.cos(u) * sp.cos(angle) + sp.sin(u) * sp.sin(angle)) - speed),
+            ),
             step("phi is 0 or pi only while the crest's height does not change. In a beat it does."),
-            step("Friction on an element b_m dx of the contact is mu p dx along v_xx - v_xp, and the contact "
-                 "reaches from x_max - x_m = 2 x_max - x_xm to x_xm, at n_j crests:",
-                 sp.Eq(sp.Symbol("f_n"), form)),
-            step("The pressure is p ~ cos u - cos theta, theta = k_c x_m (eqs. 28, 30). The share of the load left "
-                 "of u is", sp.Eq(C(u), share),
-                 zero=(sp.simplify(share.diff(u) - press / load), sp.simplify(share.subs(u, -theta)),
-                       sp.simplify(share.subs(u, theta) - 1))),
-            step("The surface is faster than the rotor where cos(u - phi) > v_xp/R: from phi - a to phi + a with",
-                 sp.Eq(a, sp.acos(v_xp / R_v)), zero=sp.cos(phi + sp.acos(c) - phi) - c),
-            step("This stretch drives with its share of the load and all the rest brakes, so of mu F_c there remains",
-                 sp.Eq(f, 2 * (C(phi + a) - C(phi - a)) - 1),
-                 zero=sp.expand((falls - rises) - (1 - (falls - rises)) - whole)),
-            step("with C cut off at the ends of the contact, and the same stretch one turn to either side: the closed "
-                 "form of all transfer cases."),
-            step("Eq. 36 instead doubles the right half. For phi - a < 0 < phi + a < theta that gives",
-                 sp.Eq(sp.Symbol("f_printed"), 4 * (C(phi + a) - C(0)) - 1),
-                 zero=sp.expand(doubled - 2 * (2 * (falls - sp.Rational(1, 2)) - sp.Rational(1, 2)))),
-            step("The two differ by 2 [C(phi + a) + C(phi - a) - 1], which is 0 for phi = 0 and grows with phi, "
-                 "as C does:",
-                 zero=(sp.simplify(doubled - whole - 2 * (falls + rises - 1)),
-                       sp.simplify((falls + rises - 1).subs(phi, 0)))),
-            step("So eq. 36 is right for every rotor on a steady wave alone, where f becomes", sp.Eq(f, steady),
-                 zero=sp.simplify(whole.subs(phi, 0) - steady)),
+            step(
+                "Friction on an element b_m dx of the contact is mu p dx along v_xx - v_xp, and the contact "
+                "reaches from x_max - x_m = 2 x_max - x_xm to x_xm, at n_j crests:",
+                sp.Eq(sp.Symbol("f_n"), form),
+            ),
+            step(
+                "The pressure is p ~ cos u - cos theta, theta = k_c x_m (eqs. 28, 30). The share of the load left "
+                "of u is",
+                sp.Eq(C(u), share),
+                zero=(
+                    sp.simplify(share.diff(u) - press / load),
+                    sp.simplify(share.subs(u, -theta)),
+                    sp.simplify(share.subs(u, theta) - 1),
+                ),
+            ),
+            step(
+                "The surface is faster than the rotor where cos(u - phi) > v_xp/R: from phi - a to phi + a with",
+                sp.Eq(a, sp.acos(v_xp / R_v)),
+                zero=sp.cos(phi + sp.acos(c) - phi) - c,
+            ),
+            step(
+                "This stretch drives with its share of the load and all the rest brakes, so of mu F_c there remains",
+                sp.Eq(f, 2 * (C(phi + a) - C(phi - a)) - 1),
+                zero=sp.expand((falls - rises) - (1 - (falls - rises)) - whole),
+            ),
+            step(
+                "with C cut off at the ends of the contact, and the same stretch one turn to either side: the closed "
+                "form of all transfer cases."
+            ),
+            step(
+                "Eq. 36 instead doubles the right half. For phi - a < 0 < phi + a < theta that gives",
+                sp.Eq(sp.Symbol("f_printed"), 4 * (C(phi + a) - C(0)) - 1),
+                zero=sp.expand(doubled - 2 * (2 * (falls - sp.Rational(1, 2)) - sp.Rational(1, 2))),
+            ),
+            step(
+                "The two differ by 2 [C(phi + a) + C(phi - a) - 1], which is 0 for phi = 0 and grows with phi, "
+                "as C does:",
+                zero=(
+                    sp.simplify(doubled - whole - 2 * (falls + rises - 1)),
+                    sp.simplify((falls + rises - 1).subs(phi, 0)),
+                ),
+            ),
+            step(
+                "So eq. 36 is right for every rotor on a steady wave alone, where f becomes",
+                sp.Eq(f, steady),
+                zero=sp.simplify(whole.subs(phi, 0) - steady),
+            ),
         ),
         {"f_n": form},
-    )  # fmt: skip
+    )
 
 
 def _about_the_crest() -> sp.Expr:
@@ -121,9 +152,16 @@ def _concrete(s: State) -> dict[sp.Basic, sp.Basic]:
     """Eq. 36's functions and symbols for a state, with a prepressure of 180 N on nine crests."""
     turn = k_c * (x - x_max)
     load = transfer.pressure_distribution().replace(sp.Max, lambda *terms: next(t for t in terms if t != 0))
-    numbers = {F_c: sp.Integer(180), n_j: sp.Integer(9), k_c: sp.Integer(300), mu: sp.Rational(1, 4),
-               theta: sp.Float(s.theta, 20), x_max: sp.Float(s.crest / K, 20),
-               x_xm: sp.Float((s.crest + s.theta) / K, 20), v_xp: sp.Float(s.c, 20)}  # fmt: skip
+    numbers = {
+        F_c: sp.Integer(180),
+        n_j: sp.Integer(9),
+        k_c: sp.Integer(300),
+        mu: sp.Rational(1, 4),
+        theta: sp.Float(s.theta, 20),
+        x_max: sp.Float(s.crest / K, 20),
+        x_xm: sp.Float((s.crest + s.theta) / K, 20),
+        v_xp: sp.Float(s.c, 20),
+    }
     return {
         p: load.subs(u, turn).subs(numbers),
         v_xx: sp.cos(turn - sp.Float(s.phi, 20)).subs(numbers),
@@ -138,8 +176,11 @@ def _judge_36(forms: Forms) -> Iterator[Evidence]:
     chosen = list(states(4, "36"))
     found = [float(integrals_done(form, _concrete(s))) / scale for s in chosen]
     brute = float(np.max([abs(f - brute_fraction(s, whole=True)) for f, s in zip(found, chosen, strict=True)]))
-    yield evidence("numeric", brute < 1e-3, f"the friction of all elements summed by brute force: off by {brute:.1e} "
-                                            "of mu F_c at most")  # fmt: skip
+    yield evidence(
+        "numeric",
+        brute < 1e-3,
+        f"the friction of all elements summed by brute force: off by {brute:.1e} of mu F_c at most",
+    )
     fractions = [float(closed(s.phi, s.c, s.theta)) for s in chosen]
     exact = float(np.max(np.abs(np.subtract(found, fractions))))
     yield evidence("derivation", exact < 1e-10, f"the closed form of the friction fraction: off by {rounded(exact)}")
@@ -204,12 +245,17 @@ def _derive_37() -> Derivation:
     form = sp.sign(v_xx - v_xp)
     return Derivation(
         (
-            step("Friction on the rotor points where the surface moves relative to it, whichever way the rotor runs:",
-                 form, zero=[form.subs({v_xx: a, v_xp: b}) - (1 if a > b else -1)
-                             for a, b in ((2, 1), (1, 2), (1, -1), (-2, -1), (1, 0), (-1, 0))]),
+            step(
+                "Friction on the rotor points where the surface moves relative to it, whichever way the rotor runs:",
+                form,
+                zero=[
+                    form.subs({v_xx: a, v_xp: b}) - (1 if a > b else -1)
+                    for a, b in ((2, 1), (1, 2), (1, -1), (-2, -1), (1, 0), (-1, 0))
+                ],
+            ),
         ),
         {"sign": form},
-    )  # fmt: skip
+    )
 
 
 def _judge_37(forms: Forms) -> Iterator[Evidence]:
@@ -239,11 +285,15 @@ def _effect_37() -> str:
 # --- Figs. 7 and 8 ------------------------------------------------------------------------------------------
 def _derive_cases() -> Derivation:
     steps = [
-        step("Eq. 36's closed form on the half zone 0 < u < theta, C its share of the load:",
-             transfer.friction_fraction(sp.Function("C")(u))),
-        step("The text tells cases apart by the rotor's direction, the sign of v_x - v at the crest and at the end of "
-             "the contact, and (eq. 35) by whether v_x has an extremum between them: 2 x 2 x 2 x 2 cases."),
-    ]  # fmt: skip
+        step(
+            "Eq. 36's closed form on the half zone 0 < u < theta, C its share of the load:",
+            transfer.friction_fraction(sp.Function("C")(u)),
+        ),
+        step(
+            "The text tells cases apart by the rotor's direction, the sign of v_x - v at the crest and at the end of "
+            "the contact, and (eq. 35) by whether v_x has an extremum between them: 2 x 2 x 2 x 2 cases."
+        ),
+    ]
     forms = {}
     for number, case in enumerate(transfer.CASES, 1):
         forms[f"f_{number}"] = case.fraction()
@@ -270,8 +320,12 @@ def _judge_cases(forms: Forms) -> Iterator[Evidence]:
     samples = _case_samples()
     counts = Counter(key for key, *_ in samples)
     empty = [key for key in forms if not counts[key]]
-    yield evidence("domain", not empty, f"each case occurs among random states, {min(counts.values())} times at least; "
-                   f"every state is in one{f'; none in {empty}' if empty else ''}")  # fmt: skip
+    yield evidence(
+        "domain",
+        not empty,
+        f"each case occurs among random states, {min(counts.values())} times at least; "
+        f"every state is in one{f'; none in {empty}' if empty else ''}",
+    )
     brute = exact = 0.0
     for key, s, by_force, by_form in samples:
         found = complex(numeric(forms[key], (phi, c, theta))(s.phi, s.c, s.theta))
@@ -322,15 +376,24 @@ def _derive_38() -> Derivation:
     energy, power = J * _omega**2 / 2, f_nall * r_c * _omega - T_load * _omega
     return Derivation(
         (
-            step("The rotor's kinetic energy grows by the power of the friction at the contact radius, where its "
-                 "surface runs at r_c omega_p, less that of the load:", sp.Eq(sp.Derivative(energy, t), power)),
-            step("Over omega_p that is the balance of torques:", _EQ38["balance"],
-                 zero=sp.expand(energy.diff(t) - power - _omega * (J * _omega.diff(t) - f_nall * r_c + T_load))),
-            step("The same with the closed form of the friction:", sp.Eq(_omega.diff(t), transfer.torque_balance()),
-                 zero=J * transfer.torque_balance() - r_c * mu * F_c * transfer.f_net + T_load),
+            step(
+                "The rotor's kinetic energy grows by the power of the friction at the contact radius, where its "
+                "surface runs at r_c omega_p, less that of the load:",
+                sp.Eq(sp.Derivative(energy, t), power),
+            ),
+            step(
+                "Over omega_p that is the balance of torques:",
+                _EQ38["balance"],
+                zero=sp.expand(energy.diff(t) - power - _omega * (J * _omega.diff(t) - f_nall * r_c + T_load)),
+            ),
+            step(
+                "The same with the closed form of the friction:",
+                sp.Eq(_omega.diff(t), transfer.torque_balance()),
+                zero=J * transfer.torque_balance() - r_c * mu * F_c * transfer.f_net + T_load,
+            ),
         ),
         {"balance": _EQ38["balance"], **_FORCES},
-    )  # fmt: skip
+    )
 
 
 def _judge_38(forms: Forms) -> Iterator[Evidence]:
@@ -372,11 +435,14 @@ def _derive_reverse() -> Derivation:
     return Derivation(
         (
             step("Forward, the driving zone (plus, v_x > v) pushes along +x, and f_t - f_b is the force along +x."),
-            step("Reverse, Fig. 8 calls driving (plus) where v_x < v; it pushes along -x, so the force along +x is",
-                 form, zero=form.subs(v_xp, -1) - (f_b - f_t)),
+            step(
+                "Reverse, Fig. 8 calls driving (plus) where v_x < v; it pushes along -x, so the force along +x is",
+                form,
+                zero=form.subs(v_xp, -1) - (f_b - f_t),
+            ),
         ),
         {"f_nall": form},
-    )  # fmt: skip
+    )
 
 
 def _judge_reverse(forms: Forms) -> Iterator[Evidence]:
@@ -391,8 +457,13 @@ def _judge_reverse(forms: Forms) -> Iterator[Evidence]:
         found = float(forms["f_nall"].subs(known))
         way = "forward" if s.c > 0 else "reverse"
         worst[way] = worse(worst[way], abs(found - brute_fraction(s, whole=True, steps=20001)))
-    yield evidence("numeric", largest(worst.values()) < 1e-9, "the signed sum of eq. 36, off by "
-                   + ", ".join(f"{error:.2g} {way}" for way, error in worst.items()) + " of mu F_c")  # fmt: skip
+    yield evidence(
+        "numeric",
+        largest(worst.values()) < 1e-9,
+        "the signed sum of eq. 36, off by "
+        + ", ".join(f"{error:.2g} {way}" for way, error in worst.items())
+        + " of mu F_c",
+    )
     backward = forms["f_nall"].subs({f_t: 1, f_b: 0, v_xp: -1})
     yield evidence("limit", backward == -1, "a reverse rotor driven on its whole contact is pushed along -x")
 
@@ -407,40 +478,83 @@ def _effect_reverse() -> str:
 
 ENTRIES = (
     Entry(
-        id="36", section="4.2.3", title="Friction on the rotor", place="Sect. 4.2.3", printed=_EQ36, units={"f_n": "N"},
-        verdict="erratum", judge=_judge_36, derive=_derive_36, effect=_effect_36, picture=_picture_36, size=_size_36,
+        id="36",
+        section="4.2.3",
+        title="Friction on the rotor",
+        place="Sect. 4.2.3",
+        printed=_EQ36,
+        units={"f_n": "N"},
+        verdict="erratum",
+        judge=_judge_36,
+        derive=_derive_36,
+        effect=_effect_36,
+        picture=_picture_36,
+        size=_size_36,
         known=transfer.DIMENSIONS,
         repair=lambda forms: {key: _whole_zone(form) for key, form in forms.items()},
         found_by=("numeric", "derivation"),
         reason="Twice the right half of the contact is the whole where v_x is even about the crest, or where all of "
-               "the contact slides one way; in a beat the crest's height changes, and v_x is not even.",
+        "the contact slides one way; in a beat the crest's height changes, and v_x is not even.",
     ),
     Entry(
-        id="37", section="4.2.3", title="Sign of the friction", place="Sect. 4.2.3", printed=_EQ37, units={"sign": "1"},
-        verdict="erratum", judge=_judge_37, derive=_derive_37, effect=_effect_37, known=transfer.DIMENSIONS,
+        id="37",
+        section="4.2.3",
+        title="Sign of the friction",
+        place="Sect. 4.2.3",
+        printed=_EQ37,
+        units={"sign": "1"},
+        verdict="erratum",
+        judge=_judge_37,
+        derive=_derive_37,
+        effect=_effect_37,
+        known=transfer.DIMENSIONS,
         repair=lambda _: {"sign": sp.Piecewise((1, v_xx - v_xp > 0), (-1, v_xx - v_xp < 0), (0, True))},
         found_by=("domain",),
         reason="The conditions on v_xp are empty but exclude the rotor at rest, so nothing could start.",
     ),
     Entry(
-        id="transfer-cases", section="4.2.3", title="The sixteen transfer models of Figs. 7 and 8",
-        place="Sect. 4.2.3, a and b", printed={}, units={f"f_{i}": "1" for i in range(1, 17)}, verdict="reconstructed",
-        judge=_judge_cases, derive=_derive_cases, effect=_effect_cases, known=transfer.DIMENSIONS,
+        id="transfer-cases",
+        section="4.2.3",
+        title="The sixteen transfer models of Figs. 7 and 8",
+        place="Sect. 4.2.3, a and b",
+        printed={},
+        units={f"f_{i}": "1" for i in range(1, 17)},
+        verdict="reconstructed",
+        judge=_judge_cases,
+        derive=_derive_cases,
+        effect=_effect_cases,
+        known=transfer.DIMENSIONS,
         reason="The text names what tells the cases apart but not their forces; each is a corollary of one "
-               "closed form.",
+        "closed form.",
     ),
     Entry(
-        id="38", section="4.2.3", title="Torque balance of the rotor", place="Sect. 4.2.3", printed=_EQ38,
-        units={"f_nall": "N", "M_n": "N*m", "omega_p": "rad/s"}, verdict="verified", judge=_judge_38,
-        derive=_derive_38, effect=_effect_38,
+        id="38",
+        section="4.2.3",
+        title="Torque balance of the rotor",
+        place="Sect. 4.2.3",
+        printed=_EQ38,
+        units={"f_nall": "N", "M_n": "N*m", "omega_p": "rad/s"},
+        verdict="verified",
+        judge=_judge_38,
+        derive=_derive_38,
+        effect=_effect_38,
         known={**transfer.DIMENSIONS, _omega: parse_unit("rad/s").dimension},
         reason="Angular momentum of the rotor, for forward motion; the reverse model needs the sign judged apart.",
     ),
     Entry(
-        id="reverse-model", section="4.2.3", title="Driving and braking zone of the reverse model",
-        place="Sect. 4.2.3, b, and below eq. 38", printed=_REVERSE, units={"f_nall": "N"}, verdict="erratum",
-        judge=_judge_reverse, derive=_derive_reverse, effect=_effect_reverse, known=transfer.DIMENSIONS,
-        repair=lambda forms: {"f_nall": sp.sign(v_xp) * forms["f_nall"]}, found_by=("numeric", "limit"),
+        id="reverse-model",
+        section="4.2.3",
+        title="Driving and braking zone of the reverse model",
+        place="Sect. 4.2.3, b, and below eq. 38",
+        printed=_REVERSE,
+        units={"f_nall": "N"},
+        verdict="erratum",
+        judge=_judge_reverse,
+        derive=_derive_reverse,
+        effect=_effect_reverse,
+        known=transfer.DIMENSIONS,
+        repair=lambda forms: {"f_nall": sp.sign(v_xp) * forms["f_nall"]},
+        found_by=("numeric", "limit"),
         reason="Where the rotor runs backward, the driving zone pushes along -x, and f_t - f_b changes its sign.",
     ),
-)  # fmt: skip
+)

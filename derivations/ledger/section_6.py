@@ -51,12 +51,14 @@ def _derive_39() -> Derivation:
     residual = sp.Sum(v[i] - v_s, (i, 1, 5)).doit()
     return Derivation(
         (
-            step("The mean is what the samples deviate from by nothing in all:",
-                 sp.Eq(sp.Sum(v[i] - v_s, (i, 1, I_all)), 0),
-                 zero=residual.subs(v_s, _EQ39["v_s"].subs(I_all, 5).doit())),
+            step(
+                "The mean is what the samples deviate from by nothing in all:",
+                sp.Eq(sp.Sum(v[i] - v_s, (i, 1, I_all)), 0),
+                zero=residual.subs(v_s, _EQ39["v_s"].subs(I_all, 5).doit()),
+            ),
         ),
         _EQ39,
-    )  # fmt: skip
+    )
 
 
 def _judge_39(forms: Forms) -> Iterator[Evidence]:
@@ -87,11 +89,14 @@ def _derive_40() -> Derivation:
     form = _EQ40["sigma_s"]
     return Derivation(
         (
-            step("The standard deviation in units of the mean does not depend on the unit of speed:", form,
-                 zero=form.subs({S_k: scale * S_k, v_s: scale * v_s}, simultaneous=True) - form),
+            step(
+                "The standard deviation in units of the mean does not depend on the unit of speed:",
+                form,
+                zero=form.subs({S_k: scale * S_k, v_s: scale * v_s}, simultaneous=True) - form,
+            ),
         ),
         _EQ40,
-    )  # fmt: skip
+    )
 
 
 def _judge_40(forms: Forms) -> Iterator[Evidence]:
@@ -122,12 +127,15 @@ def _derive_41() -> Derivation:
     gap = _VARIANCE.subs(four).doit().subs(v_s, mean) - mean_square.subs(four).doit() + mean**2
     return Derivation(
         (
-            step("The variance over all I samples is the mean square less the square of the mean:",
-                 sp.Eq(S_k**2, mean_square - v_s**2), zero=sp.expand(gap)),
+            step(
+                "The variance over all I samples is the mean square less the square of the mean:",
+                sp.Eq(S_k**2, mean_square - v_s**2),
+                zero=sp.expand(gap),
+            ),
             step("Eq. 40 calls its root S_k:", sp.Eq(S_k**2, _VARIANCE)),
         ),
         {"variance": sp.Eq(S_k**2, _VARIANCE)},
-    )  # fmt: skip
+    )
 
 
 def _judge_41(forms: Forms) -> Iterator[Evidence]:
@@ -199,12 +207,15 @@ def _derive_42() -> Derivation:
     return Derivation(
         (
             step("Eq. A5 with the displacements of eq. 11 does not depend on x:", sp.Eq(Q_q, value)),
-            step("At the crest zeta_x = 0, so Q is the crest's displacement times its tangential velocity:",
-                 sp.Eq(zeta_zmax, crest[zeta_zmax]), sp.Eq(v_xmax, crest[v_xmax]),
-                 zero=sp.expand((zeta_zmax * v_xmax).subs(crest) - value)),
+            step(
+                "At the crest zeta_x = 0, so Q is the crest's displacement times its tangential velocity:",
+                sp.Eq(zeta_zmax, crest[zeta_zmax]),
+                sp.Eq(v_xmax, crest[v_xmax]),
+                zero=sp.expand((zeta_zmax * v_xmax).subs(crest) - value),
+            ),
         ),
         _EQ42,
-    )  # fmt: skip
+    )
 
 
 def _judge_42(forms: Forms) -> Iterator[Evidence]:
@@ -217,8 +228,14 @@ def _judge_42(forms: Forms) -> Iterator[Evidence]:
         along_rate = point[D] * point[k_c] * (point[_V_A] * cosine - point[_V_B] * sine)
         return along_rate * up - up_rate * along
 
-    yield agrees(forms, anywhere, given=_crest_values(), ranges=_RANGES, symbols=(_W_A, _W_B, _V_A, _V_B, D, k_c, x),
-                 against="eq. A5 at a random place x")  # fmt: skip
+    yield agrees(
+        forms,
+        anywhere,
+        given=_crest_values(),
+        ranges=_RANGES,
+        symbols=(_W_A, _W_B, _V_A, _V_B, D, k_c, x),
+        against="eq. A5 at a random place x",
+    )
     concrete = {key: form.subs(_crest_values()) for key, form in forms.items()}
     yield identical(concrete, {"Q_q": determinant.phase_determinant(_W_A, _V_A, _W_B, _V_B)})
 
@@ -270,9 +287,11 @@ def cycle_totals(start: Start) -> dict[sp.Symbol, float]:
 def _totals(Q: Array, dt: float) -> dict[sp.Symbol, float]:
     forward, backward = Q[Q > 0], Q[Q < 0]
     return {
-        q_plus: float(forward.sum()) * dt, q_minus: -float(backward.sum()) * dt,
-        p_plus: float((forward**2).sum()) * dt, p_minus: float((backward**2).sum()) * dt,
-    }  # fmt: skip
+        q_plus: float(forward.sum()) * dt,
+        q_minus: -float(backward.sum()) * dt,
+        p_plus: float((forward**2).sum()) * dt,
+        p_minus: float((backward**2).sum()) * dt,
+    }
 
 
 def _synthetic(bias: float) -> tuple[Array, float]:
@@ -286,11 +305,14 @@ def _derive_43() -> Derivation:
     form = _EQ43["Q_aver"]
     return Derivation(
         (
-            step("Forward less backward over both, per cycle time; both sums are positive, so |.| changes nothing:",
-                 sp.Eq(Q_aver, average), zero=form - average),
+            step(
+                "Forward less backward over both, per cycle time; both sums are positive, so |.| changes nothing:",
+                sp.Eq(Q_aver, average),
+                zero=form - average,
+            ),
         ),
         {"Q_aver": form},
-    )  # fmt: skip
+    )
 
 
 def _judge_43(forms: Forms) -> Iterator[Evidence]:
@@ -342,14 +364,19 @@ def _derive_44() -> Derivation:
     printed = _EQ44["Q_vib"]
     return Derivation(
         (
-            step("The ratio of root sums; the difference of the squares may have either sign, so its magnitude stands "
-                 "under the root, and Q_aver brings the direction:", sp.Eq(sp.Symbol("Q_vib"), form),
-                 zero=form.subs(Q_aver, average) - volatility),
-            step("For Y > 1 that is the printed form:",
-                 zero=[(form - printed).subs({p_plus: a, p_minus: b}).simplify() for a, b in ((3, 2), (7, 1))]),
+            step(
+                "The ratio of root sums; the difference of the squares may have either sign, so its magnitude stands "
+                "under the root, and Q_aver brings the direction:",
+                sp.Eq(sp.Symbol("Q_vib"), form),
+                zero=form.subs(Q_aver, average) - volatility,
+            ),
+            step(
+                "For Y > 1 that is the printed form:",
+                zero=[(form - printed).subs({p_plus: a, p_minus: b}).simplify() for a, b in ((3, 2), (7, 1))],
+            ),
         ),
         {"Q_vib": form},
-    )  # fmt: skip
+    )
 
 
 def _judge_44(forms: Forms) -> Iterator[Evidence]:
@@ -391,43 +418,105 @@ def _effect_44() -> str:
 
 ENTRIES = (
     Entry(
-        id="39", section="6.1", title="Mean speed", place="Sect. 6.1", printed=_EQ39, units={"v_s": "rad/s"},
-        verdict="definition", judge=_judge_39, derive=_derive_39, effect=_effect_39, known=_KNOWN,
+        id="39",
+        section="6.1",
+        title="Mean speed",
+        place="Sect. 6.1",
+        printed=_EQ39,
+        units={"v_s": "rad/s"},
+        verdict="definition",
+        judge=_judge_39,
+        derive=_derive_39,
+        effect=_effect_39,
+        known=_KNOWN,
         reason="The mean of I samples.",
     ),
     Entry(
-        id="40", section="6.1", title="Speed volatility", place="Sect. 6.1", printed=_EQ40, units={"sigma_s": "1"},
-        verdict="definition", judge=_judge_40, derive=_derive_40, effect=_effect_40, known=_KNOWN,
+        id="40",
+        section="6.1",
+        title="Speed volatility",
+        place="Sect. 6.1",
+        printed=_EQ40,
+        units={"sigma_s": "1"},
+        verdict="definition",
+        judge=_judge_40,
+        derive=_derive_40,
+        effect=_effect_40,
+        known=_KNOWN,
         reason="Standard deviation over mean, in per cent.",
     ),
     Entry(
-        id="41", section="6.1", title="Variance of the speed", place="Sect. 6.1", printed=_EQ41, units={},
-        verdict="erratum", judge=_judge_41, derive=_derive_41, effect=_effect_41, known=_KNOWN,
-        repair=lambda forms: {"variance": forms["variance"].subs(S_s, S_k)}, found_by=("domain",),
+        id="41",
+        section="6.1",
+        title="Variance of the speed",
+        place="Sect. 6.1",
+        printed=_EQ41,
+        units={},
+        verdict="erratum",
+        judge=_judge_41,
+        derive=_derive_41,
+        effect=_effect_41,
+        known=_KNOWN,
+        repair=lambda forms: {"variance": forms["variance"].subs(S_s, S_k)},
+        found_by=("domain",),
         reason="Defines S_s^2; what eq. 40 uses and the text announces is S_k^2.",
     ),
     Entry(
-        id="Q(t)", section="6.1", title="Forward and backward part of Q", place="above eq. 42", printed=_Q_T,
-        units={"Q_plus": "m^2/s", "Q_minus": "m^2/s"}, verdict="definition", judge=_judge_q_t, derive=_derive_q_t,
-        effect=_effect_q_t, known=_KNOWN, reason="Splits Q by its sign.",
+        id="Q(t)",
+        section="6.1",
+        title="Forward and backward part of Q",
+        place="above eq. 42",
+        printed=_Q_T,
+        units={"Q_plus": "m^2/s", "Q_minus": "m^2/s"},
+        verdict="definition",
+        judge=_judge_q_t,
+        derive=_derive_q_t,
+        effect=_effect_q_t,
+        known=_KNOWN,
+        reason="Splits Q by its sign.",
     ),
     Entry(
-        id="42", section="6.1", title="The determinant at the crest", place="Sect. 6.1", printed=_EQ42,
-        units={"Q_q": "m^2/s"}, verdict="verified", judge=_judge_42, derive=_derive_42, effect=_effect_42,
+        id="42",
+        section="6.1",
+        title="The determinant at the crest",
+        place="Sect. 6.1",
+        printed=_EQ42,
+        units={"Q_q": "m^2/s"},
+        verdict="verified",
+        judge=_judge_42,
+        derive=_derive_42,
+        effect=_effect_42,
         known=_KNOWN | transfer.DIMENSIONS,
         reason="An identity with eq. A5 at every instant, if v_xmax is the tangential velocity; eq. 22 prints another.",
     ),
     Entry(
-        id="43", section="6.1", title="Speed determinant", place="Sect. 6.1", printed=_EQ43, units={"Q_aver": "1/s"},
-        verdict="definition", judge=_judge_43, derive=_derive_43, effect=_effect_43, known=_KNOWN,
+        id="43",
+        section="6.1",
+        title="Speed determinant",
+        place="Sect. 6.1",
+        printed=_EQ43,
+        units={"Q_aver": "1/s"},
+        verdict="definition",
+        judge=_judge_43,
+        derive=_derive_43,
+        effect=_effect_43,
+        known=_KNOWN,
         reason="Share of forward over backward turning, per cycle time; Table 4 prints it without its unit, 1/s.",
     ),
     Entry(
-        id="44", section="6.1", title="Volatility determinant", place="Sect. 6.1", printed=_EQ44,
+        id="44",
+        section="6.1",
+        title="Volatility determinant",
+        place="Sect. 6.1",
+        printed=_EQ44,
         units={"Q_vib": "1/s"},
-        verdict="erratum", judge=_judge_44, derive=_derive_44, effect=_effect_44, known=_KNOWN,
+        verdict="erratum",
+        judge=_judge_44,
+        derive=_derive_44,
+        effect=_effect_44,
+        known=_KNOWN,
         repair=lambda forms: {"Q_vib": forms["Q_vib"].subs(p_plus - p_minus, sp.Abs(p_plus - p_minus))},
         found_by=("domain", "numeric"),
         reason="Imaginary when backward turning prevails (Y < 1); needs the magnitude of the difference.",
     ),
-)  # fmt: skip
+)

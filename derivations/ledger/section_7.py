@@ -48,7 +48,7 @@ def _derive_45() -> Derivation:
             step(f"For {_DRIVE_HZ} Hz and {_FREE_HZ} Hz that is {_value_ms(_PERIOD):.5f} ms, rounded", rounded),
         ),
         {"T_redu": _PERIOD, "T_redu/ms": rounded},
-    )  # fmt: skip
+    )
 
 
 def _judge_45(forms: Forms) -> Iterator[Evidence]:
@@ -91,15 +91,21 @@ def _derive_decay() -> Derivation:
     return Derivation(
         (
             step("The free vibration falls as", decay),
-            step("N of its periods apart the velocity has fallen by the ratio r_N:",
-                 sp.Eq(sp.log(ratio), logarithm), zero=logarithm - sp.log(1 / decay.subs(t, cycles * period)).expand(
-                     force=True)),
-            step("Solved for the damping ratio:", sp.Eq(xi, form),
-                 zero=sp.simplify((back**2).subs(sp.log(ratio), sp.Symbol("l", positive=True))
-                                  - sp.Symbol("l", positive=True) ** 2)),
+            step(
+                "N of its periods apart the velocity has fallen by the ratio r_N:",
+                sp.Eq(sp.log(ratio), logarithm),
+                zero=logarithm - sp.log(1 / decay.subs(t, cycles * period)).expand(force=True),
+            ),
+            step(
+                "Solved for the damping ratio:",
+                sp.Eq(xi, form),
+                zero=sp.simplify(
+                    (back**2).subs(sp.log(ratio), sp.Symbol("l", positive=True)) - sp.Symbol("l", positive=True) ** 2
+                ),
+            ),
         ),
         {"xi": form},
-    )  # fmt: skip
+    )
 
 
 def _judge_decay(forms: Forms) -> Iterator[Evidence]:
@@ -112,10 +118,11 @@ def _judge_decay(forms: Forms) -> Iterator[Evidence]:
         fall = speed(peaks[0]) / speed(peaks[1])
         found = evaluate(forms["xi"], {ratio: fall, cycles: mp.mpf(5)})
     del displacement
-    yield evidence("numeric", abs(found - mp.mpf("0.006")) < 1e-12,
-                   "gives back 0.006 from two velocity peaks, "
-                   "five periods "
-                   "apart, of the oscillator's free motion")  # fmt: skip
+    yield evidence(
+        "numeric",
+        abs(found - mp.mpf("0.006")) < 1e-12,
+        "gives back 0.006 from two velocity peaks, five periods apart, of the oscillator's free motion",
+    )
     d = sp.Symbol("d", positive=True)
     small = sp.series(forms["xi"].subs(ratio, sp.exp(d)), d, 0, 2)
     first = d / (2 * sp.pi * cycles)
@@ -134,15 +141,32 @@ def _effect_decay() -> str:
 
 ENTRIES = (
     Entry(
-        id="45", section="7.4", title="Measured beat period", place="Sect. 7.4", printed=_EQ45, units={"T_redu": "s"},
-        verdict="erratum", judge=_judge_45, derive=_derive_45, effect=_effect_45,
-        repair=lambda forms: {**forms, "T_redu/ms": sp.Float("0.189")}, found_by=("numeric",),
+        id="45",
+        section="7.4",
+        title="Measured beat period",
+        place="Sect. 7.4",
+        printed=_EQ45,
+        units={"T_redu": "s"},
+        verdict="erratum",
+        judge=_judge_45,
+        derive=_derive_45,
+        effect=_effect_45,
+        repair=lambda forms: {**forms, "T_redu/ms": sp.Float("0.189")},
+        found_by=("numeric",),
         reason="The formula holds; 45 kHz and 39.703 kHz give 0.18879 ms, which rounds to 0.189 ms.",
     ),
     Entry(
-        id="decay", section="7.3", title="Damping ratio from the velocity's decay", place="Sect. 7.3, in words",
-        printed={}, units={"xi": "1"}, verdict="reconstructed", judge=_judge_decay, derive=_derive_decay,
-        effect=_effect_decay, known={ratio: Dimension(), cycles: Dimension()},
+        id="decay",
+        section="7.3",
+        title="Damping ratio from the velocity's decay",
+        place="Sect. 7.3, in words",
+        printed={},
+        units={"xi": "1"},
+        verdict="reconstructed",
+        judge=_judge_decay,
+        derive=_derive_decay,
+        effect=_effect_decay,
+        known={ratio: Dimension(), cycles: Dimension()},
         reason="Named, not printed: the logarithmic decrement of the free vibration.",
     ),
-)  # fmt: skip
+)

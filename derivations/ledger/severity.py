@@ -40,9 +40,9 @@ SEVERITIES: tuple[Word, ...] = ("typographical", "conditional", "quantitative", 
 SIGNS = 6
 """A repair by a symbol changes so many letters, numbers, signs or bars of a printed row at most."""
 
-_SUPPLEMENT = frozenset(sym(
-    "A_ABaddredu Theta_Baddredu Psi_Aaddredu varphi_Baddredu A_Badd Theta_Badd Psi_Badd varphi_Badd"
-))  # fmt: skip
+_SUPPLEMENT = frozenset(
+    sym("A_ABaddredu Theta_Baddredu Psi_Aaddredu varphi_Baddredu A_Badd Theta_Badd Psi_Badd varphi_Badd")
+)
 
 
 @dataclass(frozen=True)
@@ -71,23 +71,44 @@ def _states(cycle: Cycle) -> dict[str, list[Mapping[str, mp.mpf]]]:
     totals = {symbol.name: mp.mpf(value) for symbol, value in cycle_totals("steady").items()}
     forward, backward, squares, others = (totals[name] for name in ("q_plus", "q_minus", "p_plus", "p_minus"))
     whole = {
-        **totals, "X": forward / backward, "Y": squares / others, "A_p": cycle["b_p"] * cycle["h_p"],
-        "Q_aver": (forward - backward) / (forward + backward) / (sum(cycle.durations())), "T": sum(cycle.durations()),
-        "Delta_omega_redu": cycle["omega_q"] - cycle["omega_n"], "Delta_omega_add": mp.mpf(0),
-        "Delta_omega_addredu": (cycle["omega_q"] - cycle["omega_n"]) / 2, "x": _PLACE,
-    }  # fmt: skip
+        **totals,
+        "X": forward / backward,
+        "Y": squares / others,
+        "A_p": cycle["b_p"] * cycle["h_p"],
+        "Q_aver": (forward - backward) / (forward + backward) / (sum(cycle.durations())),
+        "T": sum(cycle.durations()),
+        "Delta_omega_redu": cycle["omega_q"] - cycle["omega_n"],
+        "Delta_omega_add": mp.mpf(0),
+        "Delta_omega_addredu": (cycle["omega_q"] - cycle["omega_n"]) / 2,
+        "x": _PLACE,
+    }
     found: dict[str, list[Mapping[str, mp.mpf]]] = {}
     for region in REGIONS:
         found[region] = []
         for tau in cycle.times(region, 5):
             (a, va), (b, vb) = (cycle.response(p, region, tau) for p in "AB")
             k, W = cycle["k_c"], cycle["W"]
-            found[region].append({
-                **context(cycle, region, tau), **whole, "w_A": a, "w_B": b, "v_A": va, "v_B": vb, "M_a": -vb, "M_b": va,
-                "N_a": -vb / W, "N_b": va / W, "P_A": a, "P_B": b, "p_A": a / W, "p_B": b / W,
-                "x_max": mp.atan2(a, b) / k, "zeta_z": a * mp.sin(k * _PLACE) + b * mp.cos(k * _PLACE),
-                "zeta_x": cycle["D"] * k * (a * mp.cos(k * _PLACE) - b * mp.sin(k * _PLACE)),
-            })  # fmt: skip
+            found[region].append(
+                {
+                    **context(cycle, region, tau),
+                    **whole,
+                    "w_A": a,
+                    "w_B": b,
+                    "v_A": va,
+                    "v_B": vb,
+                    "M_a": -vb,
+                    "M_b": va,
+                    "N_a": -vb / W,
+                    "N_b": va / W,
+                    "P_A": a,
+                    "P_B": b,
+                    "p_A": a / W,
+                    "p_B": b / W,
+                    "x_max": mp.atan2(a, b) / k,
+                    "zeta_z": a * mp.sin(k * _PLACE) + b * mp.cos(k * _PLACE),
+                    "zeta_x": cycle["D"] * k * (a * mp.cos(k * _PLACE) - b * mp.sin(k * _PLACE)),
+                }
+            )
     return found
 
 

@@ -51,23 +51,29 @@ def _derive_r() -> Derivation:
     gap = sp.Abs(2 * sp.pi * radius - sp.nsimplify(p["l_s"], rational=True))
     return Derivation(
         (
-            step("The perimeter l_s = 188.4 mm of the same table is the circumference, to its rounding:",
-                 sp.Eq(sp.Symbol("l_s"), 2 * sp.pi * sp.Symbol("R")),
-                 zero=sp.floor(gap * 10**4)),
+            step(
+                "The perimeter l_s = 188.4 mm of the same table is the circumference, to its rounding:",
+                sp.Eq(sp.Symbol("l_s"), 2 * sp.pi * sp.Symbol("R")),
+                zero=sp.floor(gap * 10**4),
+            ),
             step("so the 60 mm are the diameter, as the motor's name says:", sp.Eq(sp.Symbol("R"), radius * unit("m"))),
         ),
         {"R": radius * unit("m")},
-    )  # fmt: skip
+    )
 
 
 def _judge_r(forms: Forms) -> Iterator[Evidence]:
     p, radius = usual(), _figure_of(forms["R"])
     around = 2 * np.pi * radius
-    yield evidence("numeric", abs(around - p["l_s"]) < 1.5e-4, f"2 pi R = {1000 * around:.1f} mm, the table's l_s is "
-                   f"{1000 * p['l_s']:.1f} mm (pi taken as 3.14)")  # fmt: skip
+    yield evidence(
+        "numeric",
+        abs(around - p["l_s"]) < 1.5e-4,
+        f"2 pi R = {1000 * around:.1f} mm, the table's l_s is {1000 * p['l_s']:.1f} mm (pi taken as 3.14)",
+    )
     turns = p["n_j"] / radius * p["l_s"] / p["n_j"]  # k_c lambda, with nine waves on the perimeter
-    yield evidence("identity", abs(turns - 2 * np.pi) < 0.005,
-                   f"k_c = n_j/R times the wavelength is {turns:.4f}, 2 pi is needed")  # fmt: skip
+    yield evidence(
+        "identity", abs(turns - 2 * np.pi) < 0.005, f"k_c = n_j/R times the wavelength is {turns:.4f}, 2 pi is needed"
+    )
 
 
 def _effect_r() -> str:
@@ -90,11 +96,14 @@ def _derive_heights() -> Derivation:
     return Derivation(
         (
             step("Eq. 2's modulus (1 - k_t)^3 E_e, k_t = h_t/h_e, needs teeth lower than the whole beam:", k_t < 1),
-            step("With the text's h_t for the teeth and h_e for the beam:", sp.Eq(k_t, sp.Rational(20, 45)),
-                 zero=sp.Rational(2, 1) / sp.Rational(45, 10) - sp.Rational(4, 9)),
+            step(
+                "With the text's h_t for the teeth and h_e for the beam:",
+                sp.Eq(k_t, sp.Rational(20, 45)),
+                zero=sp.Rational(2, 1) / sp.Rational(45, 10) - sp.Rational(4, 9),
+            ),
         ),
         {"h_tooth": _HEIGHTS["h_beam"], "h_beam": _HEIGHTS["h_tooth"]},
-    )  # fmt: skip
+    )
 
 
 def _judge_heights(forms: Forms) -> Iterator[Evidence]:
@@ -134,12 +143,15 @@ def _derive_shear() -> Derivation:
     stretch = (tau + nu * tau) / E
     return Derivation(
         (
-            step("Pure shear is a pull and an equal push across it at 45 degrees; its angle is twice their strain:",
-                 sp.Eq(tau / G, 2 * stretch), zero=tau / (E / (2 * (1 + nu))) - 2 * stretch),
+            step(
+                "Pure shear is a pull and an equal push across it at 45 degrees; its angle is twice their strain:",
+                sp.Eq(tau / G, 2 * stretch),
+                zero=tau / (E / (2 * (1 + nu))) - 2 * stretch,
+            ),
             step("so in an isotropic body G = E/(2 (1 + mu)):", *(sp.Symbol(key) for key in _SHEAR)),
         ),
         {key: _shear(key) * unit("Pa") for key in _SHEAR},
-    )  # fmt: skip
+    )
 
 
 def _judge_shear(forms: Forms) -> Iterator[Evidence]:
@@ -150,12 +162,18 @@ def _judge_shear(forms: Forms) -> Iterator[Evidence]:
         principal = (1 + ratio) / modulus
         off[key] = 1 / (2 * _figure_of(form)) / principal - 1
         ratios[key] = modulus / (2 * _figure_of(form)) - 1
-    yield evidence("numeric", largest(abs(o) for o in off.values()) < 1e-12,
-                   "energy of pure shear is that of its principal stresses: off by "
-                   + ", ".join(f"{key} {100 * o:+.1f} %" for key, o in off.items()))  # fmt: skip
-    yield evidence("domain", all(-1 < nu < 0.5 for nu in ratios.values()),
-                   "Poisson's ratio E/(2 G) - 1 lies between -1 and 0.5: "
-                   + ", ".join(f"{key} {nu:.3f}" for key, nu in ratios.items()))  # fmt: skip
+    yield evidence(
+        "numeric",
+        largest(abs(o) for o in off.values()) < 1e-12,
+        "energy of pure shear is that of its principal stresses: off by "
+        + ", ".join(f"{key} {100 * o:+.1f} %" for key, o in off.items()),
+    )
+    yield evidence(
+        "domain",
+        all(-1 < nu < 0.5 for nu in ratios.values()),
+        "Poisson's ratio E/(2 G) - 1 lies between -1 and 0.5: "
+        + ", ".join(f"{key} {nu:.3f}" for key, nu in ratios.items()),
+    )
 
 
 def _effect_shear() -> str:
@@ -174,8 +192,10 @@ def _effect_shear() -> str:
 
 
 # --- units of the densities ---------------------------------------------------------------------------------
-_DENSITY: Forms = {f"rho_{part}": sp.Integer(value) * unit("kg") * unit("m") ** 3
-                   for part, value in (("e", 8900), ("p", 7500), ("m", 2100))}  # fmt: skip
+_DENSITY: Forms = {
+    f"rho_{part}": sp.Integer(value) * unit("kg") * unit("m") ** 3
+    for part, value in (("e", 8900), ("p", 7500), ("m", 2100))
+}
 
 
 def _derive_density() -> Derivation:
@@ -187,12 +207,17 @@ def _derive_density() -> Derivation:
 def _judge_density(forms: Forms) -> Iterator[Evidence]:
     found = {key: _figure_of(form) for key, form in forms.items()}
     hertz = resonance_with({key: found[key] for key in ("rho_e", "rho_p")}).real
-    yield evidence("numeric", abs(hertz / _MEASURED_HZ - 1) < 0.05,
-                   f"with these figures in kg/m^3 the modelled resonance is {hertz / 1000:.2f} kHz, 39.703 kHz was "
-                   "measured")  # fmt: skip
-    yield evidence("data", found == {"rho_e": 8900.0, "rho_p": 7500.0, "rho_m": 2100.0}
-                   and all(1000 < value < 2.2e4 for value in found.values()),
-                   "the figures that the motor file takes from the table, between water and osmium")  # fmt: skip
+    yield evidence(
+        "numeric",
+        abs(hertz / _MEASURED_HZ - 1) < 0.05,
+        f"with these figures in kg/m^3 the modelled resonance is {hertz / 1000:.2f} kHz, 39.703 kHz was measured",
+    )
+    yield evidence(
+        "data",
+        found == {"rho_e": 8900.0, "rho_p": 7500.0, "rho_m": 2100.0}
+        and all(1000 < value < 2.2e4 for value in found.values()),
+        "the figures that the motor file takes from the table, between water and osmium",
+    )
 
 
 def _effect_density() -> str:
@@ -213,8 +238,11 @@ def _judge_j(forms: Forms) -> Iterator[Evidence]:
     radius = p["r_c"]
     layer = p["rho_m"] * p["b_m"] * p["h_m"] * 2 * np.pi * radius * radius**2
     disk = np.pi * p["R"] ** 4 / 2 * p["rho_e"] * (p["h_e"] + p["h_p"])
-    yield evidence("limit", layer < value < disk, f"between the layer's own {layer:.1e} and a solid metal disk's "
-                                                  f"{disk:.1e} kg m^2, as thick as the stator")  # fmt: skip
+    yield evidence(
+        "limit",
+        layer < value < disk,
+        f"between the layer's own {layer:.1e} and a solid metal disk's {disk:.1e} kg m^2, as thick as the stator",
+    )
     yield evidence("data", value == p["J"], "the figure that the motor file takes from the table")
 
 
@@ -237,11 +265,14 @@ def _derive_kappa() -> Derivation:
     p, form = usual(), sp.Rational(50, 80)  # (h_e + h_p)/b_e in tenths of a millimetre
     return Derivation(
         (
-            step("Height of the composite beam over its width, from the same table:", form,
-                 zero=sp.nsimplify((p["h_e"] + p["h_p"]) / p["b_e"], rational=True, tolerance=1e-9) - form),
+            step(
+                "Height of the composite beam over its width, from the same table:",
+                form,
+                zero=sp.nsimplify((p["h_e"] + p["h_p"]) / p["b_e"], rational=True, tolerance=1e-9) - form,
+            ),
         ),
         {"b_over_h": form},
-    )  # fmt: skip
+    )
 
 
 def _judge_kappa(forms: Forms) -> Iterator[Evidence]:
@@ -277,21 +308,26 @@ def _derive_voltage() -> Derivation:
     swing = wave.subs(angle, sp.pi / 2) - wave.subs(angle, -sp.pi / 2)
     return Derivation(
         (
-            step("Peak to peak a sine swings by twice its amplitude:", sp.Eq(sp.Symbol("U_pp"), swing),
-                 zero=swing - 2 * amplitude),
+            step(
+                "Peak to peak a sine swings by twice its amplitude:",
+                sp.Eq(sp.Symbol("U_pp"), swing),
+                zero=swing - 2 * amplitude,
+            ),
             step("Sect. 7.1 says 400 V peak to peak, eq. 7 takes the amplitude:", sp.Integer(200) * unit("V")),
         ),
         {"U_s": sp.Integer(200) * unit("V")},
-    )  # fmt: skip
+    )
 
 
 def _judge_voltage(forms: Forms) -> Iterator[Evidence]:
     amplitude = _figure_of(forms["U_s"])
     wave = amplitude * np.sin(np.linspace(0, 2 * np.pi, 10001))
     swing = float(wave.max() - wave.min())
-    yield evidence("numeric", abs(swing - 400) < 1e-3,
-                   f"as the amplitude of eq. 7 it swings by {swing:.0f} V; Sects. 7.1 and 7.2 drive with 400 V peak "
-                   "to peak")  # fmt: skip
+    yield evidence(
+        "numeric",
+        abs(swing - 400) < 1e-3,
+        f"as the amplitude of eq. 7 it swings by {swing:.0f} V; Sects. 7.1 and 7.2 drive with 400 V peak to peak",
+    )
     yield evidence("data", amplitude in (200.0, 400.0), "400 V or half of it")
 
 
@@ -306,45 +342,95 @@ def _entry(name: str, **fields: Any) -> Entry:  # noqa: ANN401
 
 ENTRIES = (
     _entry(
-        "R", title="Stator radius", printed=_R, units={"R": "m"}, verdict="erratum", judge=_judge_r, derive=_derive_r,
-        effect=_effect_r, repair=lambda forms: {"R": forms["R"] / 2}, found_by=("numeric", "identity"),
+        "R",
+        title="Stator radius",
+        printed=_R,
+        units={"R": "m"},
+        verdict="erratum",
+        judge=_judge_r,
+        derive=_derive_r,
+        effect=_effect_r,
+        repair=lambda forms: {"R": forms["R"] / 2},
+        found_by=("numeric", "identity"),
         reason="The 60 mm are the diameter: the perimeter is pi times 60 mm.",
     ),
     _entry(
-        "heights", title="Heights of teeth and beam", printed=_HEIGHTS, units={"h_tooth": "m", "h_beam": "m"},
-        verdict="erratum", judge=_judge_heights, derive=_derive_heights, effect=_effect_heights,
-        repair=lambda forms: {"h_tooth": forms["h_beam"], "h_beam": forms["h_tooth"]}, found_by=("domain", "numeric"),
+        "heights",
+        title="Heights of teeth and beam",
+        printed=_HEIGHTS,
+        units={"h_tooth": "m", "h_beam": "m"},
+        verdict="erratum",
+        judge=_judge_heights,
+        derive=_derive_heights,
+        effect=_effect_heights,
+        repair=lambda forms: {"h_tooth": forms["h_beam"], "h_beam": forms["h_tooth"]},
+        found_by=("domain", "numeric"),
         reason="The descriptions of h_t and h_e are swapped: h_t = 2 mm is the tooth height, h_e = 4.5 mm the beam's.",
     ),
     _entry(
-        "isotropy", title="E, G and mu of one material", printed=_SHEAR, units={"G_e": "Pa", "G_p": "Pa"},
-        verdict="erratum", judge=_judge_shear, derive=_derive_shear, effect=_effect_shear,
+        "isotropy",
+        title="E, G and mu of one material",
+        printed=_SHEAR,
+        units={"G_e": "Pa", "G_p": "Pa"},
+        verdict="erratum",
+        judge=_judge_shear,
+        derive=_derive_shear,
+        effect=_effect_shear,
         repair=lambda forms: {key: form * _shear(key) / usual()[key] for key, form in forms.items()},
         found_by=("numeric", "domain"),
         reason="E = 2 G (1 + mu) fails by a fifth for both materials; E and G would need a Poisson's ratio above 0.5.",
     ),
     _entry(
-        "densities", title="Unit of the densities", printed=_DENSITY, units=dict.fromkeys(_DENSITY, "kg/m^3"),
-        verdict="erratum", judge=_judge_density, derive=_derive_density, effect=_effect_density,
+        "densities",
+        title="Unit of the densities",
+        printed=_DENSITY,
+        units=dict.fromkeys(_DENSITY, "kg/m^3"),
+        verdict="erratum",
+        judge=_judge_density,
+        derive=_derive_density,
+        effect=_effect_density,
         repair=lambda forms: {key: form.subs(unit("m"), 1 / unit("m")) for key, form in forms.items()},
-        found_by=("dimension",), reason="Printed in kg m^3; kg/m^3 is meant.",
+        found_by=("dimension",),
+        reason="Printed in kg m^3; kg/m^3 is meant.",
     ),
     _entry(
-        "J", title="Unit of the rotor's inertia", printed=_J, units={"J": "kg*m^2"}, verdict="erratum", judge=_judge_j,
-        derive=_derive_j, effect=_effect_j,
-        repair=lambda forms: {"J": forms["J"] * unit("kg") * unit("m") ** 2}, found_by=("dimension",),
+        "J",
+        title="Unit of the rotor's inertia",
+        printed=_J,
+        units={"J": "kg*m^2"},
+        verdict="erratum",
+        judge=_judge_j,
+        derive=_derive_j,
+        effect=_effect_j,
+        repair=lambda forms: {"J": forms["J"] * unit("kg") * unit("m") ** 2},
+        found_by=("dimension",),
         reason="Printed without a unit; in kg m^2 the figure is that of a light rotor.",
     ),
     _entry(
-        "kappa", title="Height-width ratio", printed=_KAPPA, units={"b_over_h": "1"}, verdict="erratum",
-        judge=_judge_kappa, derive=_derive_kappa, effect=_effect_kappa, repair=lambda _: _derive_kappa().forms,
+        "kappa",
+        title="Height-width ratio",
+        printed=_KAPPA,
+        units={"b_over_h": "1"},
+        verdict="erratum",
+        judge=_judge_kappa,
+        derive=_derive_kappa,
+        effect=_effect_kappa,
+        repair=lambda _: _derive_kappa().forms,
         found_by=("numeric", "limit"),
         reason="The row repeats symbol and figure of the shear correction; no height of the section over its "
-               "width is 0.9.",
+        "width is 0.9.",
     ),
     _entry(
-        "U_s", title="Voltage", printed=_U_S, units={"U_s": "V"}, verdict="erratum", judge=_judge_voltage,
-        derive=_derive_voltage, effect=_effect_voltage, repair=lambda forms: {"U_s": forms["U_s"] / 2},
-        found_by=("numeric",), reason="400 V is peak to peak (Sect. 7.1); eq. 7 takes the amplitude.",
+        "U_s",
+        title="Voltage",
+        printed=_U_S,
+        units={"U_s": "V"},
+        verdict="erratum",
+        judge=_judge_voltage,
+        derive=_derive_voltage,
+        effect=_effect_voltage,
+        repair=lambda forms: {"U_s": forms["U_s"] / 2},
+        found_by=("numeric",),
+        reason="400 V is peak to peak (Sect. 7.1); eq. 7 takes the amplitude.",
     ),
-)  # fmt: skip
+)

@@ -69,14 +69,19 @@ def _derive_2() -> Derivation:
     fitted = power_law()
     return Derivation(
         (
-            step("log(W_maxf/W_max) = log C_f - varsigma log F_c; least squares make varsigma the negative slope of "
-                 "the logarithms about their means (three points written out):", -slope,
-                 zero=[sp.simplify(solved[b] + slope), sp.simplify(solved[a] - (mean_y - slope * mean_x))]),
-            step(f"Table 2's seven points: C_f = {fitted['C_f']:.3f}, varsigma = {fitted['varsigma']:.4f}; printed are "
-                 "14.926 and 0.678."),
+            step(
+                "log(W_maxf/W_max) = log C_f - varsigma log F_c; least squares make varsigma the negative slope of "
+                "the logarithms about their means (three points written out):",
+                -slope,
+                zero=[sp.simplify(solved[b] + slope), sp.simplify(solved[a] - (mean_y - slope * mean_x))],
+            ),
+            step(
+                f"Table 2's seven points: C_f = {fitted['C_f']:.3f}, varsigma = {fitted['varsigma']:.4f}; printed are "
+                "14.926 and 0.678."
+            ),
         ),
         {"C_f": sp.Float(fitted["C_f"]), "varsigma": sp.Float(fitted["varsigma"])},
-    )  # fmt: skip
+    )
 
 
 def _judge_2(forms: Forms) -> Iterator[Evidence]:
@@ -84,19 +89,29 @@ def _judge_2(forms: Forms) -> Iterator[Evidence]:
     fitted, resampled = power_law(), resampled_interval()
     low, high = fitted["varsigma"] - fitted["varsigma_width"], fitted["varsigma"] + fitted["varsigma_width"]
     inside = low <= exponent <= high and fitted["C_f_low"] <= factor <= fitted["C_f_high"]
-    yield evidence("data", inside and refitted(fitted),
-                   f"least squares give C_f = {fitted['C_f']:.3f} ({fitted['C_f_low']:.3f} to "
-                                   f"{fitted['C_f_high']:.3f}) and varsigma = {fitted['varsigma']:.4f} ({low:.4f} to "
-                                   f"{high:.4f}) at 95 %; residuals drawn anew {resampled['C_f'][0]:.3f} to "
-                                   f"{resampled['C_f'][1]:.3f} and {resampled['varsigma'][0]:.4f} to "
-                                   f"{resampled['varsigma'][1]:.4f}")  # fmt: skip
-    yield evidence("numeric", reachable_by_rounding(factor, exponent),
-                   "some amplitudes that round to Table 2 have exactly this fit (linear program)")  # fmt: skip
+    yield evidence(
+        "data",
+        inside and refitted(fitted),
+        f"least squares give C_f = {fitted['C_f']:.3f} ({fitted['C_f_low']:.3f} to "
+        f"{fitted['C_f_high']:.3f}) and varsigma = {fitted['varsigma']:.4f} ({low:.4f} to "
+        f"{high:.4f}) at 95 %; residuals drawn anew {resampled['C_f'][0]:.3f} to "
+        f"{resampled['C_f'][1]:.3f} and {resampled['varsigma'][0]:.4f} to "
+        f"{resampled['varsigma'][1]:.4f}",
+    )
+    yield evidence(
+        "numeric",
+        reachable_by_rounding(factor, exponent),
+        "some amplitudes that round to Table 2 have exactly this fit (linear program)",
+    )
     free = usual()["W_max"] * 1e6
     misses = factor * _FORCE**-exponent * free - _AMPLITUDE
     worst = int(np.abs(misses).argmax())
-    yield evidence("error_size", abs(misses[worst]) < 0.1, f"misses the points by {misses[worst]:+.3f} um at most, at "
-                   f"{_FORCE[worst]:.0f} N; the table's half digit is 0.05 um")  # fmt: skip
+    yield evidence(
+        "error_size",
+        abs(misses[worst]) < 0.1,
+        f"misses the points by {misses[worst]:+.3f} um at most, at "
+        f"{_FORCE[worst]:.0f} N; the table's half digit is 0.05 um",
+    )
 
 
 def _effect_2() -> str:
@@ -117,14 +132,17 @@ def _derive_3() -> Derivation:
     first, second = 14, 20
     return Derivation(
         (
-            step("A phase cannot get more pulses than the cycle has, n <= m, and both must overlap, 2 n >= m: of the "
-                 "two unlabelled 'Number' rows, 14 and 20, only the first can be n.",
-                 sp.Symbol("n") <= sp.Symbol("m"), 2 * sp.Symbol("n") >= sp.Symbol("m"),
-                 zero=sp.Integer(0 if first <= second <= 2 * first and not second <= first else 1)),
+            step(
+                "A phase cannot get more pulses than the cycle has, n <= m, and both must overlap, 2 n >= m: of the "
+                "two unlabelled 'Number' rows, 14 and 20, only the first can be n.",
+                sp.Symbol("n") <= sp.Symbol("m"),
+                2 * sp.Symbol("n") >= sp.Symbol("m"),
+                zero=sp.Integer(0 if first <= second <= 2 * first and not second <= first else 1),
+            ),
             step("Sect. 6.2 names m = 20 and n = 14."),
         ),
         {"n": sp.Integer(first), "m": sp.Integer(second)},
-    )  # fmt: skip
+    )
 
 
 def _judge_3(forms: Forms) -> Iterator[Evidence]:
@@ -133,8 +151,11 @@ def _judge_3(forms: Forms) -> Iterator[Evidence]:
     yield evidence("data", {m, n} == {20, 14}, "the two figures of the table")
     p = values()
     seconds = [pulses / (p["omega_q"] / (2 * math.pi)) for pulses in (m - n, m - n, 2 * n - m)]
-    yield evidence("numeric", min(seconds) >= 0 and abs(sum(seconds) - p["T"]) < 1e-12, "the regions last "
-                   + ", ".join(f"{1e3 * s:.4f}" for s in seconds) + " ms, together T_Qall")  # fmt: skip
+    yield evidence(
+        "numeric",
+        min(seconds) >= 0 and abs(sum(seconds) - p["T"]) < 1e-12,
+        "the regions last " + ", ".join(f"{1e3 * s:.4f}" for s in seconds) + " ms, together T_Qall",
+    )
 
 
 def _effect_3() -> str:
@@ -148,8 +169,9 @@ _TABLE_4: Forms = {"v_s": 633 * unit("arcsec"), "v_range": 400 * unit("arcsec") 
 
 def _derive_4() -> Derivation:
     forms = {"v_s": _TABLE_4["v_s"] / unit("s"), "v_range": _TABLE_4["v_range"]}
-    return Derivation((step("A speed is an angle per time; 'acr s' is a second of arc without the second:",
-                            *forms.values()),), forms)  # fmt: skip
+    return Derivation(
+        (step("A speed is an angle per time; 'acr s' is a second of arc without the second:", *forms.values()),), forms
+    )
 
 
 def _judge_4(forms: Forms) -> Iterator[Evidence]:
@@ -158,8 +180,9 @@ def _judge_4(forms: Forms) -> Iterator[Evidence]:
     spread = 0.173 * mean
     named = all(speed.is_number for speed in speeds)
     yield evidence("numeric", named and (mean, width) == (633, 400), f"{mean:g} and {width:g} arcsec/s")
-    yield evidence("limit", width >= 2 * spread, "the range is at least two standard deviations at 17.3 %: "
-                                                 f"{width / spread:.2f}")  # fmt: skip
+    yield evidence(
+        "limit", width >= 2 * spread, f"the range is at least two standard deviations at 17.3 %: {width / spread:.2f}"
+    )
 
 
 def _effect_4() -> str:
@@ -180,11 +203,14 @@ def _derive_5() -> Derivation:
     forms = {key: 2 * sp.pi * form for key, form in _TABLE_5.items()}
     return Derivation(
         (
-            step("Sects. 6.2, 8.3 and the conclusions vary Delta omega from 2 pi 2800 to 2 pi 3300 rad/s; Table 5's "
-                 "figures are these without 2 pi, in Hz:", *forms.values()),
+            step(
+                "Sects. 6.2, 8.3 and the conclusions vary Delta omega from 2 pi 2800 to 2 pi 3300 rad/s; Table 5's "
+                "figures are these without 2 pi, in Hz:",
+                *forms.values(),
+            ),
         ),
         forms,
-    )  # fmt: skip
+    )
 
 
 def _judge_5(forms: Forms) -> Iterator[Evidence]:
@@ -210,27 +236,61 @@ def _effect_5() -> str:
 
 ENTRIES = (
     Entry(
-        id="table-2", section="7.1", title="Constants of the amplitude law", place="Table 2 and above",
+        id="table-2",
+        section="7.1",
+        title="Constants of the amplitude law",
+        place="Table 2 and above",
         printed=_TABLE_2,
-        units={}, verdict="empirical", judge=_judge_2, derive=_derive_2, effect=_effect_2,
+        units={},
+        verdict="empirical",
+        judge=_judge_2,
+        derive=_derive_2,
+        effect=_effect_2,
         reason="Within the 95 % intervals of the fit, and exactly the fit of some amplitudes that round to the table.",
     ),
     Entry(
-        id="table-3", section="8.2", title="The two unlabelled numbers", place="Table 3", printed={}, units={},
-        verdict="reconstructed", judge=_judge_3, derive=_derive_3, effect=_effect_3,
+        id="table-3",
+        section="8.2",
+        title="The two unlabelled numbers",
+        place="Table 3",
+        printed={},
+        units={},
+        verdict="reconstructed",
+        judge=_judge_3,
+        derive=_derive_3,
+        effect=_effect_3,
         reason="Two rows are called 'Number', 14 and 20: n and m, as only that order gives a cycle.",
     ),
     Entry(
-        id="table-4", section="8.2", title="Units of the measured speeds", place="Table 4", printed=_TABLE_4,
-        units={"v_s": "rad/s", "v_range": "rad/s"}, verdict="erratum", judge=_judge_4, derive=_derive_4,
-        effect=_effect_4, repair=lambda forms: {**forms, "v_s": forms["v_s"] / unit("s")},
+        id="table-4",
+        section="8.2",
+        title="Units of the measured speeds",
+        place="Table 4",
+        printed=_TABLE_4,
+        units={"v_s": "rad/s", "v_range": "rad/s"},
+        verdict="erratum",
+        judge=_judge_4,
+        derive=_derive_4,
+        effect=_effect_4,
+        repair=lambda forms: {**forms, "v_s": forms["v_s"] / unit("s")},
         found_by=("dimension", "numeric"),
-        known=UNITS, reason="The mean speed is printed in 'acr s', an angle; arcsec/s is meant, as in the next row.",
+        known=UNITS,
+        reason="The mean speed is printed in 'acr s', an angle; arcsec/s is meant, as in the next row.",
     ),
     Entry(
-        id="table-5", section="8.3.2", title="Unit of the frequency difference", place="Table 5", printed=_TABLE_5,
-        units=dict.fromkeys(_TABLE_5, "rad/s"), verdict="erratum", judge=_judge_5, derive=_derive_5, effect=_effect_5,
-        repair=lambda forms: {key: 2 * sp.pi * form for key, form in forms.items()}, found_by=("domain", "numeric"),
-        known=UNITS, reason="Printed in rad/s; the figures are Hz.",
+        id="table-5",
+        section="8.3.2",
+        title="Unit of the frequency difference",
+        place="Table 5",
+        printed=_TABLE_5,
+        units=dict.fromkeys(_TABLE_5, "rad/s"),
+        verdict="erratum",
+        judge=_judge_5,
+        derive=_derive_5,
+        effect=_effect_5,
+        repair=lambda forms: {key: 2 * sp.pi * form for key, form in forms.items()},
+        found_by=("domain", "numeric"),
+        known=UNITS,
+        reason="Printed in rad/s; the figures are Hz.",
     ),
-)  # fmt: skip
+)

@@ -37,7 +37,7 @@ from derivations.ledger.notation import (
     condition,
     expression,
     lines,
-)  # fmt: skip
+)
 from derivations.nomenclature import NOMENCLATURE
 
 __all__ = ["Copy", "checksum", "copy_of", "differences", "load", "mends", "other_readings", "read", "second"]
@@ -388,8 +388,10 @@ def _totals(rows: _Rows, resolve: _Resolve) -> dict[str, sp.Basic]:
 
 
 _OF_REGION = {
-    "redu": (("omega_n", "omega_q"), 0), "addredu": (("mean", "omega_n"), 1), "add": (("mean", "mean"), 2),
-}  # fmt: skip
+    "redu": (("omega_n", "omega_q"), 0),
+    "addredu": (("mean", "omega_n"), 1),
+    "add": (("mean", "mean"), 2),
+}
 
 
 def _of_24(rows: _Rows, resolve: _Resolve, data: Data) -> dict[str, sp.Basic]:
@@ -410,10 +412,14 @@ def _of_24(rows: _Rows, resolve: _Resolve, data: Data) -> dict[str, sp.Basic]:
         drift = _row_in(fourteen["Delta_omega"], span)
         drift = s["Delta_omega_add"] if drift is None else drift
         values = {
-            s["W_a"]: _covering(rows["W_a"], span), s["W_b"]: _covering(rows["W_b"], span),
-            s["omega_a"]: s[rates[0]], s["omega_b"]: s[rates[1]], s["Delta_omega"]: drift,
-            s["t_Q"]: _row_in(fourteen["t_Q"], span), turn: rows["Delta_varphi_Q"][index][0],
-        }  # fmt: skip
+            s["W_a"]: _covering(rows["W_a"], span),
+            s["W_b"]: _covering(rows["W_b"], span),
+            s["omega_a"]: s[rates[0]],
+            s["omega_b"]: s[rates[1]],
+            s["Delta_omega"]: drift,
+            s["t_Q"]: _row_in(fourteen["t_Q"], span),
+            turn: rows["Delta_varphi_Q"][index][0],
+        }
         if _interval(rows["Delta_varphi_Q"][index][1]) != span:
             raise NotationError("(24) the angle's rows")
         (wave,) = general.atoms(sp.sin)
@@ -437,9 +443,18 @@ def _covering(rows: list[tuple[sp.Basic, str]], span: tuple[str, str]) -> sp.Bas
 
 
 _FINISH: dict[str, Callable[[_Rows, _Resolve], dict[str, sp.Basic]]] = {
-    "17": _of_17, "18": _by_region, "19": _by_region, "23": _of_23, "33": _of_33, "34": _of_34,
-    "Q(t)": _of_q_t, "43": _totals, "44": _totals, "A14": _totals, "A16": _totals,
-}  # fmt: skip
+    "17": _of_17,
+    "18": _by_region,
+    "19": _by_region,
+    "23": _of_23,
+    "33": _of_33,
+    "34": _of_34,
+    "Q(t)": _of_q_t,
+    "43": _totals,
+    "44": _totals,
+    "A14": _totals,
+    "A16": _totals,
+}
 
 
 # --- the comparison -----------------------------------------------------------------------------------------

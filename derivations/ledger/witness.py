@@ -56,9 +56,16 @@ def beam(layered: bool = False, **changed: Any) -> dict[str, mp.mpf]:  # noqa: A
     mass = lost * v["rho_e"] * v["b_e"] * h_e + v["rho_p"] * v["b_p"] * v["h_p"]
     shear = lost * v["G_e"] * v["b_e"] * h_e + v["G_p"] * v["b_p"] * v["h_p"]
     return {
-        "D": axis, "EI": _moments(bends, axis, 2), "I_z": second, "A": area, "rho": mass / area, "G": shear / area,
-        "rho A": mass, "rho I": mass / area * second, "shear": v["kappa"] * shear,
-    }  # fmt: skip
+        "D": axis,
+        "EI": _moments(bends, axis, 2),
+        "I_z": second,
+        "A": area,
+        "rho": mass / area,
+        "G": shear / area,
+        "rho A": mass,
+        "rho I": mass / area * second,
+        "shear": v["kappa"] * shear,
+    }
 
 
 def resonance(b: Mapping[str, mp.mpf], k: mp.mpf, k_f: mp.mpf) -> tuple[mp.mpf, mp.mpf]:

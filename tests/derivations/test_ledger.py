@@ -75,11 +75,18 @@ def test_the_shipped_ledger_is_what_is_proved_now(records):
 def toy(**changes):
     x, _ = nomenclature.sym("x t")
     base = {
-        "id": "0", "section": "", "title": "", "place": "", "printed": {"x": x}, "units": {"x": "m"},
-        "verdict": "verified", "reason": "",
+        "id": "0",
+        "section": "",
+        "title": "",
+        "place": "",
+        "printed": {"x": x},
+        "units": {"x": "m"},
+        "verdict": "verified",
+        "reason": "",
         "judge": lambda forms: [model.Evidence("numeric", forms["x"] == x, "")],
-        "derive": lambda: model.Derivation((model.Step("premise"),), {"x": x}), "effect": lambda: "",
-    }  # fmt: skip
+        "derive": lambda: model.Derivation((model.Step("premise"),), {"x": x}),
+        "effect": lambda: "",
+    }
     return model.Entry(**{**base, **changes})
 
 
@@ -300,7 +307,11 @@ def test_records_do_not_depend_on_the_hash_seed(name):
     for seed in ("1", "4242"):
         done = subprocess.run(
             [sys.executable, "-m", "derivations", "verify", "--equation", name, "--json"],
-            cwd=ROOT, env={**os.environ, "PYTHONHASHSEED": seed}, capture_output=True, text=True, check=True,
-        )  # fmt: skip
+            cwd=ROOT,
+            env={**os.environ, "PYTHONHASHSEED": seed},
+            capture_output=True,
+            text=True,
+            check=True,
+        )
         texts.add(done.stdout)
     assert len(texts) == 1

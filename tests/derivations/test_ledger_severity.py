@@ -39,8 +39,16 @@ def test_a_figure_changes_in_quantitative_errata_and_in_none_that_is_typographic
 
 
 def test_a_verdict_that_hangs_on_a_doubtful_sign_says_both_outcomes():
-    for name, outcome in {"14": "erratum", "22": "verified", "24": "erratum", "28": "verified", "29": "verified",
-                          "33": "verified", "41": "verified", "table-1-densities": "verified"}.items():  # fmt: skip
+    for name, outcome in {
+        "14": "erratum",
+        "22": "verified",
+        "24": "erratum",
+        "28": "verified",
+        "29": "verified",
+        "33": "verified",
+        "41": "verified",
+        "table-1-densities": "verified",
+    }.items():
         r = BY_ID[name]
         assert r["copy"] == "doubtful", name
         assert {o["verdict"] for o in r["other_readings"]} == {outcome}, name
@@ -142,8 +150,9 @@ def test_an_erratum_that_the_rule_makes_an_approximation_is_not_confirmed():
 # --- what is said of it -------------------------------------------------------------------------------------
 def test_filters_agree_with_the_records():
     for word in SEVERITIES:
-        assert {r["id"] for r in filtered(RECORDS, severity=word)} == {i for i, r in BY_ID.items() if
-                                                                        r["severity"] == word}  # fmt: skip
+        assert {r["id"] for r in filtered(RECORDS, severity=word)} == {
+            i for i, r in BY_ID.items() if r["severity"] == word
+        }
     assert {r["verdict"] for r in filtered(RECORDS, verdict="empirical")} == {"empirical"}
     assert filtered(RECORDS, verdict="verified", severity="structural") == []
 

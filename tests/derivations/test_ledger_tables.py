@@ -59,8 +59,10 @@ def test_rounding_reaches_the_printed_constants_but_not_others():
     assert not tables_2_to_5.reachable_by_rounding(14.926, 0.678, half_digit=0.001)
 
 
-@pytest.mark.parametrize(("value", "text", "expected"), [(0.18879, "0.188", False), (0.18879, "0.189", True),
-                                                         (0.1885, "0.188", True), (0.18879, "0.19", True)])  # fmt: skip
+@pytest.mark.parametrize(
+    ("value", "text", "expected"),
+    [(0.18879, "0.188", False), (0.18879, "0.189", True), (0.1885, "0.188", True), (0.18879, "0.19", True)],
+)
 def test_rounding_to_the_last_digit(value, text, expected):
     assert section_7.rounds_to(value, text) is expected
 
@@ -145,11 +147,43 @@ def test_table_1s_density_as_printed_fails_by_its_unit_alone():
 
 
 LABELS = [
-    "39", "40", "41", "Q(t)", "42", "43", "44", "45", "decay", "A10", "A11", "A12", "A14", "A15", "A16", "A17",
-    "table-1-R", "table-1-heights", "table-1-isotropy", "table-1-densities", "table-1-J", "table-1-kappa",
-    "table-1-U_s", "table-2", "table-3", "table-4", "table-5", "claim-half-beat", "claim-crest", "claim-proportional",
-    "claim-contact", "claim-T_Qall", "claim-one-beat", "claim-add-beat", "claim-z", "claim-Q_vib",
-]  # fmt: skip
+    "39",
+    "40",
+    "41",
+    "Q(t)",
+    "42",
+    "43",
+    "44",
+    "45",
+    "decay",
+    "A10",
+    "A11",
+    "A12",
+    "A14",
+    "A15",
+    "A16",
+    "A17",
+    "table-1-R",
+    "table-1-heights",
+    "table-1-isotropy",
+    "table-1-densities",
+    "table-1-J",
+    "table-1-kappa",
+    "table-1-U_s",
+    "table-2",
+    "table-3",
+    "table-4",
+    "table-5",
+    "claim-half-beat",
+    "claim-crest",
+    "claim-proportional",
+    "claim-contact",
+    "claim-T_Qall",
+    "claim-one-beat",
+    "claim-add-beat",
+    "claim-z",
+    "claim-Q_vib",
+]
 
 
 @pytest.mark.parametrize("label", LABELS)

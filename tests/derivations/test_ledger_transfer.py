@@ -148,8 +148,12 @@ def test_the_path_of_a_point_is_the_turned_ellipse():
     half = np.linalg.svd(np.stack([zeta_x / D_k, zeta_z])[:, :-1], compute_uv=False) * np.sqrt(2 / 399)
     assert half[0] * half[1] == pytest.approx(W_a * W_b * np.sin(delta), rel=1e-9)
     back = ellipse.turned_back(*sp.symbols("X Z"), sp.Float(k_x))
-    conic = sp.lambdify(sp.symbols("X Z"), ellipse.invariant().subs(back, simultaneous=True).subs(
-        {ellipse.W_a: W_a, ellipse.W_b: W_b, ellipse.delta: delta}))  # fmt: skip
+    conic = sp.lambdify(
+        sp.symbols("X Z"),
+        ellipse.invariant()
+        .subs(back, simultaneous=True)
+        .subs({ellipse.W_a: W_a, ellipse.W_b: W_b, ellipse.delta: delta}),
+    )
     assert np.abs(conic(zeta_x / D_k, zeta_z)).max() < 1e-12
 
 

@@ -49,8 +49,15 @@ orbit_reference = lazily("orbit_reference")
 ROOT = Path(__file__).parents[2]
 STARTS = ("periodic", "steady", "rest")
 NUMBERS = (3, 6, 7, 10, 11, 13, 14, 16, 17, 18, 19, 20, 21, 22, 23, "25b", "26b", "27b", 29, 30, 31, 32)
-FIGURES = {*(f"figure-{n}" for n in NUMBERS), "table-1", "table-2", "table-4", "map-periodic", "contact-zone",
-           "speed-determinant"}  # fmt: skip
+FIGURES = {
+    *(f"figure-{n}" for n in NUMBERS),
+    "table-1",
+    "table-2",
+    "table-4",
+    "map-periodic",
+    "contact-zone",
+    "speed-determinant",
+}
 J = 4.5e-6  # kg m^2, Table 1
 
 
@@ -87,9 +94,12 @@ def evaluated(motor, index, point):
     start, lead, phase, level = index
     contact, resonance, foundation, amplitude = COMBINATIONS[level]
     drive = ts.Drive(
-        start=STARTS[start], phase_lead=LEADS[lead], switching_phase=[*PHASES.values()][phase],
-        prepressure=POINTS.prepressure[point], frequency_difference=POINTS.difference[point],
-    )  # fmt: skip
+        start=STARTS[start],
+        phase_lead=LEADS[lead],
+        switching_phase=[*PHASES.values()][phase],
+        prepressure=POINTS.prepressure[point],
+        frequency_difference=POINTS.difference[point],
+    )
     options = {"contact": contact, "resonance": resonance, "foundation": foundation, "amplitude": amplitude}
     if resonance == MEASURED:
         shift = [
@@ -145,9 +155,11 @@ def test_a_loaded_motor_s_speed_and_what_an_encoder_reads_by_an_independent_orbi
     start, lead = index
     point = POINTS.figure_21.start if start else POINTS.figure_21.stop - 1
     drive = ts.Drive(
-        start=STARTS[start], phase_lead=LEADS[lead], prepressure=POINTS.prepressure[point],
+        start=STARTS[start],
+        phase_lead=LEADS[lead],
+        prepressure=POINTS.prepressure[point],
         frequency_difference=POINTS.difference[point],
-    )  # fmt: skip
+    )
     motor = trum60.with_values({"rotor_inertia": J + 0.3 * 0.030 / 9.80665})
     other = orbit_reference.Reference(motor, drive, ts.evaluate(motor, drive, tolerance=1e-6))
     orbit, reads = other.orbit(), orbit_reference.encoder_readings(other, ENCODER)
@@ -253,9 +265,11 @@ def test_what_is_measured_is_judged_with_the_load_and_what_is_simulated_without(
     with_load, without = np.zeros((3, 3, 2, 2, 1), bool), np.zeros((3, 3, 2, 2, 1), bool)
     with_load[1:], without[0] = True, True
     for holds, measured, verdict in (
-        (with_load, True, REPRODUCED), (with_load, False, CONTRADICTED), (without, True, CONTRADICTED),
+        (with_load, True, REPRODUCED),
+        (with_load, False, CONTRADICTED),
+        (without, True, CONTRADICTED),
         (without, False, REPRODUCED),
-    ):  # fmt: skip
+    ):
         corners = np.repeat(holds, 4, axis=-1)
         claim = judged(ONE, of_rotor(ByInertia(holds, corners, holds[0], corners[0], measured), "", (DEFAULT,)))
         assert claim.verdict == verdict
@@ -508,10 +522,13 @@ def section_by_hand(h_e, h_t):
     rho, G = (k_d * 8900 * A_e + rho_p * A_p) / A, (k_d * 46.8e9 * A_e + G_p * A_p) / A
     k, shear = 9 / 0.03, 0.9 * G * A
     # determinant of the harmonic wave in eqs. 3: (shear k^2 - rho A w^2)(EI k^2 + shear - rho I w^2) = (shear k)^2
-    squares = np.roots([
-        rho * A * rho * I_z, -(rho * A * (EI * k**2 + shear) + rho * I_z * shear * k**2),
-        shear * k**2 * (EI * k**2 + shear) - (shear * k) ** 2,
-    ])  # fmt: skip
+    squares = np.roots(
+        [
+            rho * A * rho * I_z,
+            -(rho * A * (EI * k**2 + shear) + rho * I_z * shear * k**2),
+            shear * k**2 * (EI * k**2 + shear) - (shear * k) ** 2,
+        ]
+    )
     return EI, np.sqrt(squares.min()) / (2 * np.pi)
 
 
@@ -579,7 +596,7 @@ def test_a_is_far_from_its_amplitude_before_it_is_switched_off_as_the_motor_keep
     for _ in range(12):  # until the cycle repeats itself
         states, y = integrate_regions(
             y, f_n, 3000.0, 0.006, np.zeros(1), np.ones(1), 20, 14, np.array([1 - 1e-6]), rtol=1e-8
-        )  # fmt: skip
+        )
         y = y.reshape(4, 1)
     last = states[2, 0, :, 0]
     forced = steady_state(f_n, 3000.0, 0.0, 1.0, 0.0)[:, 0]
@@ -659,10 +676,14 @@ def test_places_as_fast_as_the_rotor_by_the_data_set_of_simulate(trum60, judgeme
 
 def test_the_rotor_alone_is_not_what_was_measured_by_evaluate(trum60, judgements):
     alone, loaded = (
-        ts.evaluate(trum60.with_values({"rotor_inertia": J + inertia}), ts.Drive(start="rest", phase_lead=-1),
-                    sampling_period=2e-3, tolerance=1e-5)
+        ts.evaluate(
+            trum60.with_values({"rotor_inertia": J + inertia}),
+            ts.Drive(start="rest", phase_lead=-1),
+            sampling_period=2e-3,
+            tolerance=1e-5,
+        )
         for inertia in (0.0, 0.3 * 0.030 / 9.80665)
-    )  # fmt: skip
+    )
     speed = 100 * (loaded.mean_speed / alone.mean_speed - 1)
     claim = judgements["rotor-alone"]
     assert claim.verdict == CONTRADICTED

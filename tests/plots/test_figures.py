@@ -357,8 +357,11 @@ def test_figs_30_31_average_over_the_encoder_and_carry_the_weight_and_31_is_at_3
     }
     for anchor, place in (("figure-30", 10), ("figure-31", 3)):
         (x, speed), (_, sigma) = (by_label(drawn[anchor].axes[i], READ[2]) for i in (0, 2))
-        setting = {"frequency_difference": float(x[place])} if anchor == "figure-30" else {
-            "prepressure": float(x[place]), "frequency_difference": 3300.0}  # fmt: skip
+        setting = (
+            {"frequency_difference": float(x[place])}
+            if anchor == "figure-30"
+            else {"prepressure": float(x[place]), "frequency_difference": 3300.0}
+        )
         drive = ts.Drive(**setting, start="rest", phase_lead=-1)
         orbit = reference(drive, inertia=WEIGHT).orbit()
         assert speed[place] * SPEED == pytest.approx(orbit.mean, abs=2e-3 * orbit.largest)

@@ -24,9 +24,28 @@ __all__ = [
 _FLAG = {name: 1 << bit for bit, name in enumerate(ORBIT_FLAGS)}
 # What the driver takes and gives, by the names that this module uses
 _INPUTS = (
-    "omega_n", "Delta_omega", "xi", "psi", "s", "m", "n", "a_A", "b_A", "a_B", "b_B", "W", "D", "k_c",
-    "engagement_per_height", "W_full", "hertz", "push", "drag", "tolerance", "held",
-)  # fmt: skip
+    "omega_n",
+    "Delta_omega",
+    "xi",
+    "psi",
+    "s",
+    "m",
+    "n",
+    "a_A",
+    "b_A",
+    "a_B",
+    "b_B",
+    "W",
+    "D",
+    "k_c",
+    "engagement_per_height",
+    "W_full",
+    "hertz",
+    "push",
+    "drag",
+    "tolerance",
+    "held",
+)
 _OUTPUTS = ("mean", "low", "high", "variance", "contact", "held", "start", "level", "error", "flags")
 _OF_HISTORY = ("low", "high", "start", "level")
 expect("an orbit's inputs", _INPUTS, signature("rotor_orbit")[0])

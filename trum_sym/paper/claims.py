@@ -108,9 +108,17 @@ def judged(statement: Statement, finding: Finding) -> Claim:
         if finding.assumed is not None:
             conditions = _conditions(verdict, here, finding.assumed, conditions, finding.assumed_of)
     return Claim(
-        statement.id, statement.place, statement.quote, finding.computed, conditions, verdict, statement.anchor,
-        holds, known, finding.rotor,
-    )  # fmt: skip
+        statement.id,
+        statement.place,
+        statement.quote,
+        finding.computed,
+        conditions,
+        verdict,
+        statement.anchor,
+        holds,
+        known,
+        finding.rotor,
+    )
 
 
 def _verdict(holds: Truth, corners: Truth | None = None, possible: Truth | None = None) -> str:

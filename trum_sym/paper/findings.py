@@ -123,18 +123,20 @@ def of_rotor(found: ByInertia, computed: str, levels: tuple[int, ...], undecidab
     """
     if not found.measured:
         return Finding(
-            found.holds[0], computed, levels, found.corners if found.corners is None else found.corners[0],
-            undecidable=undecidable, rotor=found,
-        )  # fmt: skip
+            found.holds[0],
+            computed,
+            levels,
+            found.corners if found.corners is None else found.corners[0],
+            undecidable=undecidable,
+            rotor=found,
+        )
     ends = found.holds[RIG]
     if found.corners is None:
         corners, of = np.moveaxis(ends, 0, -1).reshape(*ends.shape[1:4], -1), f"load's inertia ({_LOAD_SPAN})"
     else:
         corners = np.moveaxis(found.corners[RIG], 0, -1).reshape(*ends.shape[1:4], -1)
         of = f"friction (0.2 to 0.3), contact radius (25 to 30 mm) and load's inertia ({_LOAD_SPAN})"
-    return Finding(
-        ends.all(axis=0), computed, levels, corners, of, np.asarray(ends.any(axis=0)), undecidable, found
-    )  # fmt: skip
+    return Finding(ends.all(axis=0), computed, levels, corners, of, np.asarray(ends.any(axis=0)), undecidable, found)
 
 
 def by_load(values: Array, form: str) -> str:
@@ -211,10 +213,13 @@ class Context:
     ) -> tuple[Array, ...]:
         difference = 3000.0
         drive = Drive(
-            frequency_difference=difference, periods=pulses[0], on_periods=pulses[1], start=start,
+            frequency_difference=difference,
+            periods=pulses[0],
+            on_periods=pulses[1],
+            start=start,
             phase_lead=np.array(LEADS)[:, None, None, None],
             switching_phase=np.array([*PHASES.values()])[:, None, None],
-        )  # fmt: skip
+        )
         values = modal_values(2 * np.pi * resonance, self.motor.damping_ratio.value, drive)
         regions = call("trum_regions", values)
         lengths = [np.asarray(regions[f"time_{name}"]) for name in ("redu", "addredu", "add")]
@@ -245,8 +250,9 @@ class Context:
         prepressure: Array,
         difference: Array,
         inertia: Array = LOAD_INERTIA,
-        load_torque: float = 0.3, phases: tuple[float, ...] = (*PHASES.values(),),
-    ) -> Mapping[str, Array]:  # fmt: skip
+        load_torque: float = 0.3,
+        phases: tuple[float, ...] = (*PHASES.values(),),
+    ) -> Mapping[str, Array]:
         """Figures of :meth:`evaluated` by (load's inertia, start, phase lead, switching phase, ...)."""
         rest = np.broadcast_shapes(*(np.shape(p.value) for _, p in motor.parameters()), np.shape(prepressure))
         total = np.asarray(motor.rotor_inertia.value) + inertia.reshape(-1, *(1,) * len(rest))
@@ -256,19 +262,26 @@ class Context:
         return {name: np.moveaxis(value, 3, 0) for name, value in found.items()}
 
     def evaluated(
-        self, motor: Motor, prepressure: Array, difference: Array, load_torque: float = 0.3,
+        self,
+        motor: Motor,
+        prepressure: Array,
+        difference: Array,
+        load_torque: float = 0.3,
         phases: tuple[float, ...] = (*PHASES.values(),),
-    ) -> Mapping[str, Array]:  # fmt: skip
+    ) -> Mapping[str, Array]:
         """Figures by (start, phase lead, switching phase, ...), the rest as motor and drive broadcast."""
         inner = np.broadcast_shapes(*(np.shape(p.value) for _, p in motor.parameters()), np.shape(prepressure))
         outer = (-1, 1, *(1,) * len(inner))
         parts = []
         for start in STARTS:
             setting = Drive(
-                prepressure=prepressure, frequency_difference=difference, start=start,
+                prepressure=prepressure,
+                frequency_difference=difference,
+                start=start,
                 phase_lead=np.array(LEADS).reshape(outer),
-                switching_phase=np.array(phases).reshape(outer[:1] + outer[2:]), load_torque=load_torque,
-            )  # fmt: skip
+                switching_phase=np.array(phases).reshape(outer[:1] + outer[2:]),
+                load_torque=load_torque,
+            )
             parts.append(self._figures(motor, setting))
         return {name: np.stack([part[name] for part in parts]) for name in parts[0]}
 
@@ -282,9 +295,12 @@ class Context:
         read = encoder_deviations(arrays, orbit.raw, time) / np.asarray(case.symbols["r_c"])
         size = np.abs(orbit.mean_speed)
         found = {
-            **cycle_sums(case.values), "mean_speed": orbit.mean_speed, "encoder_volatility": read / size,
-            "speed_volatility": np.sqrt(orbit.variance) / size, "swing": orbit.max_speed - orbit.min_speed,
-        }  # fmt: skip
+            **cycle_sums(case.values),
+            "mean_speed": orbit.mean_speed,
+            "encoder_volatility": read / size,
+            "speed_volatility": np.sqrt(orbit.variance) / size,
+            "swing": orbit.max_speed - orbit.min_speed,
+        }
         return {name: np.broadcast_to(np.asarray(value), case.shape) for name, value in found.items()}
 
     @cached_property

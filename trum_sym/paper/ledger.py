@@ -9,8 +9,16 @@ from typing import Any
 from trum_sym.errors import ParameterError
 
 __all__ = [
-    "SEVERITIES", "VERDICTS", "counted", "filtered", "ledger_page", "load_ledger", "select", "table", "written_out",
-]  # fmt: skip
+    "SEVERITIES",
+    "VERDICTS",
+    "counted",
+    "filtered",
+    "ledger_page",
+    "load_ledger",
+    "select",
+    "table",
+    "written_out",
+]
 
 Record = dict[str, Any]
 VERDICTS = ("verified", "approximation", "erratum", "definition", "reconstructed", "empirical")
@@ -67,9 +75,10 @@ def filtered(records: list[Record], *, verdict: str | None = None, severity: str
         if value is not None and value not in allowed:
             raise ParameterError(name, value, f"one of {', '.join(allowed)}")
     return [
-        r for r in records if (verdict is None or r["verdict"] == verdict)
-        and (severity is None or r["severity"] == severity)
-    ]  # fmt: skip
+        r
+        for r in records
+        if (verdict is None or r["verdict"] == verdict) and (severity is None or r["severity"] == severity)
+    ]
 
 
 def counted(records: list[Record]) -> str:
@@ -77,10 +86,12 @@ def counted(records: list[Record]) -> str:
     by_severity = [(word, sum(r["severity"] == word for r in records)) for word in SEVERITIES]
     by_copy = [(word, sum(r["copy"] == word for r in records)) for word in ("clear", "doubtful", "missing")]
     errata = sum(count for _, count in by_severity)
-    return "\n".join((
-        f"{errata} errata: {', '.join(f'{count} {word}' for word, count in by_severity)}",
-        f"copy of the paper's text: {', '.join(f'{count} {word}' for word, count in by_copy)}",
-    ))  # fmt: skip
+    return "\n".join(
+        (
+            f"{errata} errata: {', '.join(f'{count} {word}' for word, count in by_severity)}",
+            f"copy of the paper's text: {', '.join(f'{count} {word}' for word, count in by_copy)}",
+        )
+    )
 
 
 def table(records: list[Record]) -> str:

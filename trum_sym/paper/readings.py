@@ -256,10 +256,12 @@ def _of_start(
     motor: Motor, start: Start, resonance: Array, amplitude: Array, symbols: Mapping[str, Any], progress: bool
 ) -> dict[str, Array]:
     drive = Drive(
-        prepressure=POINTS.prepressure, frequency_difference=POINTS.difference, start=start,
+        prepressure=POINTS.prepressure,
+        frequency_difference=POINTS.difference,
+        start=start,
         phase_lead=np.array(LEADS)[:, None, None, None],
         switching_phase=np.array([*PHASES.values()])[:, None, None],
-    )  # fmt: skip
+    )
     values = modal_values(2 * np.pi * resonance, motor.damping_ratio.value, drive)
     timing = call("trum_drive", values)
     sums = call_in_blocks("cycle_sums", {**values, "panels": PANELS_PER_PERIOD})

@@ -55,9 +55,10 @@ def _pattern(c: Context, region: int, expected: tuple[int, ...], span: float = 1
         for i, start in enumerate(("periodic", "steady", "rest"))
     ]
     return Finding(
-        holds, f"sign of Q's integral over the quarters of the first {1e3 * span / _DIFFERENCE:.3f} ms, lead +1, "
+        holds,
+        f"sign of Q's integral over the quarters of the first {1e3 * span / _DIFFERENCE:.3f} ms, lead +1, "
         f"stated {' '.join(words[s] for s in expected)}: {', '.join(shown)}",
-    )  # fmt: skip
+    )
 
 
 def _pattern_addredu(c: Context) -> Finding:
@@ -174,9 +175,12 @@ def half_angles(c: Context) -> Array:
     """Contact half-angle over the cycle of Table 3, rad, by (start, phase lead, switching phase, 1, time)."""
     symbols = c.motor.symbols()
     touching = {
-        **call("trum_layer_stiffness", symbols), **call("trum_wavenumber", symbols), "F_c": 180.0,
-        "n_j": c.motor.crests.value, "W": _heights(c),
-    }  # fmt: skip
+        **call("trum_layer_stiffness", symbols),
+        **call("trum_wavenumber", symbols),
+        "F_c": 180.0,
+        "n_j": c.motor.crests.value,
+        "W": _heights(c),
+    }
     return np.asarray(call("contact_half_angle", touching)["theta"])
 
 

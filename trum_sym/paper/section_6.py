@@ -111,9 +111,14 @@ def predicts(speed: str, determinant: str, where: str) -> Check:
         drives = figures[speed].shape[-1]
         own, read = (rank_correlation(figures[name], figures[determinant]) for name in (speed, SAMPLED[speed]))
         found = ByInertia(
-            read[..., None] >= _FOLLOWS, None, own[0, ..., None] >= _FOLLOWS, None, measured=True,
-            correlation=read[:, :, :, 0], speed_correlation=own[:, :, :, 0],
-        )  # fmt: skip
+            read[..., None] >= _FOLLOWS,
+            None,
+            own[0, ..., None] >= _FOLLOWS,
+            None,
+            measured=True,
+            correlation=read[:, :, :, 0],
+            speed_correlation=own[:, :, :, 0],
+        )
         box = "160 to 210 N, 2800 to 3300 Hz" if where == "box" else "100 to 220 N, -5000 to 5000 Hz"
         return of_rotor(
             found,

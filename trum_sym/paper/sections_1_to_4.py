@@ -126,8 +126,10 @@ def _linear_stator(c: Context) -> Finding:
     halved = {name: 0.5 * float(getattr(c.motor, name).value) for name in ("voltage", "free_amplitude")}
     ratio, shift = np.empty((2, len(levels)))
     for i, index in enumerate(levels):
-        full, half = (solve_stator(motor, Drive(), Levels(*COMBINATIONS[index]))  # type: ignore[arg-type]
-                      for motor in (c.motor, c.motor.with_values(halved)))  # fmt: skip
+        full, half = (
+            solve_stator(motor, Drive(), Levels(*COMBINATIONS[index]))  # type: ignore[arg-type]
+            for motor in (c.motor, c.motor.with_values(halved))
+        )
         ratio[i] = np.asarray(half.W) / np.asarray(full.W)
         shift[i] = np.asarray(half.omega_n) / np.asarray(full.omega_n) - 1
     at, forced = levels.index(DEFAULT), levels.index(_FORCED)
@@ -187,10 +189,13 @@ def _amplitudes(c: Context, pulses: tuple[int, int], region: int, before: bool =
     both = []
     for start in STARTS:
         values, forced = (
-            modal_values(2 * np.pi * f_n, c.motor.damping_ratio.value, Drive(
-                start=begin, periods=m, on_periods=on, phase_lead=lead, switching_phase=phase))
+            modal_values(
+                2 * np.pi * f_n,
+                c.motor.damping_ratio.value,
+                Drive(start=begin, periods=m, on_periods=on, phase_lead=lead, switching_phase=phase),
+            )
             for begin, on in ((start, n), (_STEADY, m))
-        )  # fmt: skip
+        )
         regions = call("trum_regions", values)
         lengths = [float(np.asarray(regions[f"time_{name}"]).flat[0]) for name in ("redu", "addredu", "add")]
         time = sum(lengths[:region]) + lengths[region] * (np.arange(2000) + 0.5) / 2000
@@ -340,9 +345,13 @@ def _curvature(c: Context) -> Finding:
 
 
 def _steady_angle(c: Context) -> float:
-    values = {"F_c": 180.0, "W": c.readings.amplitude[DEFAULT, POINTS.table_3], "n_j": c.motor.crests.value,
-              "k_N": call("trum_layer_stiffness", c.motor.symbols())["k_N"],
-              "k_c": call("trum_wavenumber", c.motor.symbols())["k_c"]}  # fmt: skip
+    values = {
+        "F_c": 180.0,
+        "W": c.readings.amplitude[DEFAULT, POINTS.table_3],
+        "n_j": c.motor.crests.value,
+        "k_N": call("trum_layer_stiffness", c.motor.symbols())["k_N"],
+        "k_c": call("trum_wavenumber", c.motor.symbols())["k_c"],
+    }
     return float(np.asarray(call("contact_half_angle", values)["theta"]))
 
 
@@ -358,8 +367,10 @@ def _points(motor: Motor) -> Array:
         speed = history(case.arguments, orbit.raw, count)["speed"]
         cycle = np.asarray(call("trum_drive", case.values)["T"])[..., None]
         time = np.minimum(cycle * (np.arange(count) + 1) / count, np.nextafter(cycle, 0))
-        wide = {name: value if np.ndim(value) == 0 else np.asarray(value)[..., None]
-                for name, value in case.arguments.items()}  # fmt: skip
+        wide = {
+            name: value if np.ndim(value) == 0 else np.asarray(value)[..., None]
+            for name, value in case.arguments.items()
+        }
         now = surface_and_contact(wide, response(time, wide, wide["D"], wide["k_c"]))
         place = np.linspace(0, 1, 129) * np.asarray(now["theta"])[..., None]
         slip = np.asarray(now["R_v"])[..., None] * np.cos(place + np.asarray(now["phi"])[..., None]) - speed[..., None]
@@ -399,10 +410,14 @@ def _reverses(c: Context) -> Finding:
 def _rotor_alone(c: Context) -> Finding:
     """Mean speed and encoder's volatility by eq. 38 with the weight's inertia, over those with J alone."""
     change, corners = (
-        np.stack([np.asarray(figures[name])[RIG, ..., POINTS.table_3] / figures[name][:1, ..., POINTS.table_3] - 1
-                  for name in ("mean_speed", "encoder_volatility")])
+        np.stack(
+            [
+                np.asarray(figures[name])[RIG, ..., POINTS.table_3] / figures[name][:1, ..., POINTS.table_3] - 1
+                for name in ("mean_speed", "encoder_volatility")
+            ]
+        )
         for figures in (c.readings.loaded, c.ranges)
-    )  # fmt: skip
+    )
     holds, at = np.all(np.abs(change) < _NEAR, axis=(0, 1)), change[:, 0, :, :, 0, DEFAULT]
     J = float(np.asarray(c.motor.rotor_inertia.value))
     words = (

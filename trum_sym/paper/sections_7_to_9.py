@@ -260,9 +260,11 @@ def _range(c: Context) -> Finding:
 def _higher(c: Context) -> Finding:
     del c
     return Finding(
-        _holds(False), "measured and simulated curves are pictures only; Table 4 has one point of one of them",
-        levels=(DEFAULT,), undecidable="the text gives no figures of Figs. 21, 23, 30 and 31",
-    )  # fmt: skip
+        _holds(False),
+        "measured and simulated curves are pictures only; Table 4 has one point of one of them",
+        levels=(DEFAULT,),
+        undecidable="the text gives no figures of Figs. 21, 23, 30 and 31",
+    )
 
 
 def _with_prepressure(c: Context) -> Finding:
@@ -270,8 +272,10 @@ def _with_prepressure(c: Context) -> Finding:
     curves = c.readings.resonance_frequency[list(levels), POINTS.figure_23]
     one = c.readings.resonance_frequency[DEFAULT, POINTS.figure_23]
     return Finding(
-        rises(curves), f"{one[0]:.0f} Hz at 160 N to {one[-1]:.0f} Hz at 210 N at the default level", levels=levels,
-    )  # fmt: skip
+        rises(curves),
+        f"{one[0]:.0f} Hz at 160 N to {one[-1]:.0f} Hz at 210 N at the default level",
+        levels=levels,
+    )
 
 
 def _low_speed(c: Context) -> Finding:
@@ -319,15 +323,15 @@ def _all_trends(c: Context) -> Finding:
     def every(name: str) -> Truth:
         return np.asarray(np.all([getattr(part, name) for part in parts], axis=0))
 
-    found = ByInertia(
-        every("holds"), every("corners"), every("speed_holds"), every("speed_corners"), measured=True
-    )  # fmt: skip
+    found = ByInertia(every("holds"), every("corners"), every("speed_holds"), every("speed_corners"), measured=True)
     counts = np.sum([part.holds for part in parts if part is not None], axis=0)
     most = " / ".join(str(row.max()) for row in counts)
     return of_rotor(
-        found, "six comparisons, v_s with Q_aver and the encoder's sigma_s with Q_vib over frequency difference, "
-        f"prepressure and Table 5's drives; of them the best reading has, step by step, {LOADS} {most}", ROTOR_LEVELS,
-    )  # fmt: skip
+        found,
+        "six comparisons, v_s with Q_aver and the encoder's sigma_s with Q_vib over frequency difference, "
+        f"prepressure and Table 5's drives; of them the best reading has, step by step, {LOADS} {most}",
+        ROTOR_LEVELS,
+    )
 
 
 _BOTH = {"a": ("mean_speed", "q_average"), "b": ("speed_volatility", "q_volatility")}

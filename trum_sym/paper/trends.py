@@ -67,7 +67,7 @@ def trends(context: Context) -> list[Trend]:
     which = np.concatenate([np.arange(part.start, part.stop) for part in points])
     found = context.loaded(
         context.motor, POINTS.prepressure[which], POINTS.difference[which], inertias(), phases=(0.0,)
-    )  # fmt: skip
+    )
     rows = []
     for i, start in enumerate(STARTS):
         for j, lead in enumerate(LEADS):

@@ -92,9 +92,12 @@ def _span(values: Array) -> dict[str, Any]:
 
 @styled
 def prediction(
-    motor: Motor | None = None, drive: Drive | None = None, *, sampling_period: float | None = None,
+    motor: Motor | None = None,
+    drive: Drive | None = None,
+    *,
+    sampling_period: float | None = None,
     axes: Panels = None,
-) -> Figure:  # fmt: skip
+) -> Figure:
     """Does Q_aver predict v_s, and Q_vib sigma_s?  Over the box and around it, with rank correlations.
 
     Parameters

@@ -52,9 +52,20 @@ def judge(motor: Motor, progress: bool = False) -> Judged | None:
     rows = tuple(_row(str(number), record) for number, record in enumerate(records, 1))
     chosen = best(found, judged)
     head = (
-        "", *AXES, "f_n (Hz)", "Q_aver (1/s)", "off", "Q_vib (1/s)", "off", "v_s (arcsec/s)", "with load", "σ_s (%)",
-        "with load", "farther of both determinants", "open claims that hold",
-    )  # fmt: skip
+        "",
+        *AXES,
+        "f_n (Hz)",
+        "Q_aver (1/s)",
+        "off",
+        "Q_vib (1/s)",
+        "off",
+        "v_s (arcsec/s)",
+        "with load",
+        "σ_s (%)",
+        "with load",
+        "farther of both determinants",
+        "open claims that hold",
+    )
     numeric = (0, *range(8, len(head)))
     caption = (
         "Sorted by the farther of both determinants from Table 4's, which need neither friction nor contact radius. "
@@ -96,18 +107,27 @@ def _cells(judged: list[Claim]) -> Table:
     loads = " and ".join(f"{value:.1e}" for value in LOAD_INERTIA[1:])
     names = tuple(f"{start}, lead {lead:+.0f}".replace("-", "−") for start in STARTS for lead in LEADS)
     rows = tuple(
-        (row.place, row.id, *(cell.replace("-", "−") for cells in row.cells for cell in cells), row.verdicts[0],
-         row.verdicts[1], row.verdict)
+        (
+            row.place,
+            row.id,
+            *(cell.replace("-", "−") for cells in row.cells for cell in cells),
+            row.verdicts[0],
+            row.verdicts[1],
+            row.verdict,
+        )
         for row in varied(judged)
-    )  # fmt: skip
+    )
     return Table(
-        "claims-inertia", "Claims on the rotor, by what is read of its speed and by the load's inertia",
+        "claims-inertia",
+        "Claims on the rotor, by what is read of its speed and by the load's inertia",
         "+ holds in all switching phases, levels and corners of what is assumed, o in some, − in none. First letter: "
         "the speed itself of a rotor without a load; second: what the encoder of 2 ms reads of it, for what was "
         f"measured; third and fourth: that with a load's inertia of {loads} kg m². The measured motor pulls a weight "
         "by a string (Sect. 8.1), so what is said of it is judged by the last two, of the simulation by the "
-        "second.", ("place", "claim", *names, "by the speed", "by the encoder", "judged"), rows,
-    )  # fmt: skip
+        "second.",
+        ("place", "claim", *names, "by the speed", "by the encoder", "judged"),
+        rows,
+    )
 
 
 def _trends(context: Context) -> Table:
@@ -119,14 +139,15 @@ def _trends(context: Context) -> Table:
         start = trend.follows_from
         cells.append("never" if start is None else "always" if start == 0 else f"{start:.1e}")
     return Table(
-        "trends-inertia", "Trends by the load's inertia",
+        "trends-inertia",
+        "Trends by the load's inertia",
         "Rank correlation of v_s with Q_aver and of σ_s with Q_vib at the default level, A at its crest, without a "
         f"load's inertia and with {LOAD_INERTIA[1]:.1e} and {LOAD_INERTIA[2]:.1e} kg m²; from: the inertia (kg m²) "
         f"from which on it is at least {FOLLOWS}. "
         "Six drives over 2800 to 3300 Hz at 180 N, and six over 160 to 210 N at 3000 Hz.",
         ("start, phase lead", "over", *(word for pair in PAIRS for word in (pair, "from"))),
         tuple((*key, *cells) for key, cells in rows.items()),
-    )  # fmt: skip
+    )
 
 
 def _row(name: str, record: dict[str, Any]) -> tuple[str, ...]:
@@ -136,12 +157,21 @@ def _row(name: str, record: dict[str, Any]) -> tuple[str, ...]:
     def plain(value: float) -> str:
         return f"{value:.5g}".replace("-", "−")
 
-    speed, volatility = ([plain(value / unit) for value in record[name][:2]]
-                         for name, unit in (("mean_speed", ARCSEC), ("speed_volatility", 0.01)))  # fmt: skip
+    speed, volatility = (
+        [plain(value / unit) for value in record[name][:2]]
+        for name, unit in (("mean_speed", ARCSEC), ("speed_volatility", 0.01))
+    )
     known = len(record["holds"]) + len(record["fails"])
     return (
-        name, *(str(record[axis]) for axis in AXES), plain(record["f_n Hz"]),
-        plain(record["q_average"]), percent("q_average off %"), plain(record["q_volatility"]),
-        percent("q_volatility off %"), *speed, *volatility, f"{record['distance %']:.2f} %",
+        name,
+        *(str(record[axis]) for axis in AXES),
+        plain(record["f_n Hz"]),
+        plain(record["q_average"]),
+        percent("q_average off %"),
+        plain(record["q_volatility"]),
+        percent("q_volatility off %"),
+        *speed,
+        *volatility,
+        f"{record['distance %']:.2f} %",
         f"{len(record['holds'])} of {known}",
-    )  # fmt: skip
+    )
