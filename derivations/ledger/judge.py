@@ -6,6 +6,7 @@ against the premises (the equation of motion it solves, an integral taken numeri
 
 from __future__ import annotations
 
+import math
 import random
 from collections.abc import Callable, Iterable, Mapping
 from functools import cache, reduce
@@ -217,7 +218,8 @@ def error_size(
     """
     there, most = relative()
     left = closer()
-    ok = abs(there) <= APPROXIMATION_LIMIT and abs(left) <= abs(there) / 10
+    # math.isfinite: what is not a number anywhere in the domain speaks against the form
+    ok = abs(there) <= APPROXIMATION_LIMIT and abs(left) <= abs(there) / 10 and math.isfinite(most)
     detail = (
         f"{name} is off by {100 * there:+.3g} % at the operating point, {100 * most:.3g} % at most over the domain; it "
         f"vanishes for {limit}: {100 * left:+.2g} % a hundred times closer; allowed {100 * APPROXIMATION_LIMIT:g} % at "

@@ -181,20 +181,21 @@ def _resolver(block: Mapping[str, Any], data: Data) -> Callable[[str, tuple[sp.E
             return sp.Function(read_as, real=True)(arguments[-1])
         if name in block.get("functions", ()):
             return sp.Function(read_as)(*arguments)
-        if read_as not in NOMENCLATURE:
-            if shown not in _ARGUMENTS:
-                raise NotationError(f"{name} of {', '.join(shown)}")
-            return sp.Symbol(read_as)
-        symbol = NOMENCLATURE[read_as].symbol
-        if isinstance(symbol, AppliedUndef):
-            if shown and shown != tuple(str(a) for a in symbol.args) and shown != ("x", "t"):
-                raise NotationError(f"{name} of {', '.join(shown)}")
-            return symbol
-        if shown not in _ARGUMENTS:
-            raise NotationError(f"{name} of {', '.join(shown)}")
-        return symbol
+        return _symbol(name, read_as, shown)
 
     return resolve
+
+
+def _symbol(name: str, read_as: str, shown: tuple[str, ...]) -> sp.Expr:
+    """The nomenclature's symbol, or one of that name, with the arguments that the text shows."""
+    symbol = NOMENCLATURE[read_as].symbol if read_as in NOMENCLATURE else sp.Symbol(read_as)
+    if isinstance(symbol, AppliedUndef):
+        allowed = not shown or shown in (tuple(str(a) for a in symbol.args), ("x", "t"))
+    else:
+        allowed = shown in _ARGUMENTS
+    if not allowed:
+        raise NotationError(f"{name} of {', '.join(shown)}")
+    return symbol
 
 
 def _units() -> dict[str, sp.Expr]:

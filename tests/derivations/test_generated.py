@@ -279,7 +279,7 @@ def test_compiled_kernel_agrees_with_its_expression_at_50_digits(name):
 
 
 def test_a_call_whose_structs_lack_an_argument_or_have_it_twice_is_not_generated():
-    kernel = next(kernel for kernel in kernels() if kernel.name == "trum_filling")
+    kernel = kernels()["trum_filling"]
     layer = driver.Struct("layer", "layer", ("W_c", "engagement", "fullness"), "a layer")
     height = driver.Struct("height", "height", ("engagement_per_height", "W_c"), "twice")
     for structs, name in (((layer,), "engagement_per_height is in 0"), ((layer, height), "W_c is in 2")):

@@ -9,14 +9,16 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-import sympy as sp
+from lazily import lazily
 
-from derivations.ledger import ENTRIES, entry
-from derivations.ledger.judge import error_size, usual
-from derivations.ledger.model import APPROXIMATION_LIMIT, Evidence, confirm
-from derivations.ledger.referee import review
-from derivations.ledger.severity import SIGNS, severity, would_approximate
 from trum_sym.paper.ledger import SEVERITIES, filtered, load_ledger
+
+sp = lazily("sympy")
+ledger = lazily("derivations.ledger")
+judge = lazily("derivations.ledger.judge")
+model = lazily("derivations.ledger.model")
+referee = lazily("derivations.ledger.referee")
+severity = lazily("derivations.ledger.severity")
 
 ROOT = Path(__file__).parents[2]
 RECORDS = load_ledger()
@@ -66,7 +68,7 @@ def test_a_verdict_that_hangs_on_a_doubtful_sign_says_both_outcomes():
     ],
 )
 def test_severity_follows_from_print_and_mend(name, word, size):
-    found = severity(confirm(entry(name)))
+    found = severity.severity(model.confirm(ledger.entry(name)))
     assert found is not None
     assert found.word == word
     if size is not None:
@@ -75,20 +77,20 @@ def test_severity_follows_from_print_and_mend(name, word, size):
 
 def test_a_typographical_erratum_whose_figure_changes_is_not_typographical_any_more():
     """The same entry with a factor 2 beside its name."""
-    honest = entry("28")
+    honest = ledger.entry("28")
     twice = replace(honest, printed={"delta_0": 2 * honest.printed["delta_0"]})
-    found = severity(confirm(twice))
+    found = severity.severity(model.confirm(twice))
     assert found is not None
     assert found.word != "typographical"
 
 
 def test_a_fault_outside_the_supplement_is_not_conditional(monkeypatch):
     monkeypatch.setattr("derivations.ledger.severity.other_readings", lambda _: iter(()))
-    honest = entry("24")
-    assert severity(confirm(honest)).word == "conditional"
+    honest = ledger.entry("24")
+    assert severity.severity(model.confirm(honest)).word == "conditional"
     first, *rest = honest.printed["Q_q"].args
     doubled = {"Q_q": sp.Piecewise((2 * first[0], first[1]), *rest, evaluate=False)}
-    found = severity(confirm(replace(honest, printed=doubled)))
+    found = severity.severity(model.confirm(replace(honest, printed=doubled)))
     assert found is not None
     assert found.word != "conditional"
 
@@ -97,54 +99,60 @@ def test_a_repair_by_a_symbol_is_of_few_signs():
     for r in RECORDS:
         changed = re.match(r"mended by (\d+) sign", r["severity_detail"] or "")
         if changed:
-            assert 1 <= int(changed[1]) <= SIGNS, r["id"]
+            assert 1 <= int(changed[1]) <= severity.SIGNS, r["id"]
 
 
 # --- one rule for approximations ----------------------------------------------------------------------------
 def test_the_limit_is_how_far_table_1_contradicts_itself():
-    p = usual()
+    p = judge.usual()
     off = [abs(1 - p[f"G_{x}"] * 2 * (1 + p[f"mu_{x}"]) / p[f"E_{x}"]) for x in "ep"]
-    assert all(round(gap, 1) == APPROXIMATION_LIMIT for gap in off), off
+    assert all(round(gap, 1) == model.APPROXIMATION_LIMIT for gap in off), off
 
 
 def test_approximations_state_a_size_within_the_limit():
-    for e in ENTRIES:
+    for e in ledger.ENTRIES:
         if e.verdict == "approximation":
-            sizes = [found.size for found in confirm(e).printed if found.size is not None]
+            sizes = [found.size for found in model.confirm(e).printed if found.size is not None]
             assert sizes, e.id
-            assert all(abs(size) <= APPROXIMATION_LIMIT for size in sizes), e.id
+            assert all(abs(size) <= model.APPROXIMATION_LIMIT for size in sizes), e.id
+
+
+def test_an_error_that_is_no_number_somewhere_in_the_domain_is_noticed():
+    assert not judge.error_size("x", lambda: (0.1, float("nan")), "y -> 0", lambda: 0.001).ok
 
 
 @pytest.mark.parametrize(
     ("there", "left", "ok"), [(0.19, 0.001, True), (-0.19, 0.001, True), (0.21, 0.001, False), (0.1, 0.05, False)]
 )
 def test_an_error_is_small_and_vanishes_in_its_limit(there, left, ok):
-    assert error_size("x", lambda: (there, 9.0), "y -> 0", lambda: left).ok == ok
+    assert judge.error_size("x", lambda: (there, 9.0), "y -> 0", lambda: left).ok == ok
 
 
 def test_an_approximation_that_is_off_by_more_is_an_erratum():
-    honest = entry("26")
-    coarse = Evidence("error_size", True, "", 0.3)
-    found = confirm(replace(honest, judge=lambda forms: [*honest.judge(forms), coarse]))
+    honest = ledger.entry("26")
+    coarse = model.Evidence("error_size", True, "", 0.3)
+    found = model.confirm(replace(honest, judge=lambda forms: [*honest.judge(forms), coarse]))
     assert any("30 % at Table 3's point: an erratum" in problem for problem in found.problems)
-    unsized = confirm(replace(honest, judge=lambda _: [Evidence("error_size", True, ""), Evidence("limit", True, "")]))
+    unsized = model.confirm(
+        replace(honest, judge=lambda _: [model.Evidence("error_size", True, ""), model.Evidence("limit", True, "")])
+    )
     assert any("states the size" in problem for problem in unsized.problems)
 
 
 def test_an_erratum_that_the_rule_makes_an_approximation_is_not_confirmed():
     """A_B of (13) short of omega_q/omega_n: off by 7 %, exact at resonance, no other fault."""
-    honest = entry("13")
+    honest = ledger.entry("13")
     right = honest.derive().forms
     assert right != honest.printed
 
     def judge(forms):
-        yield Evidence("numeric", forms == right, "")
-        yield Evidence("limit", True, "")
+        yield model.Evidence("numeric", forms == right, "")
+        yield model.Evidence("limit", True, "")
 
     called = replace(honest, verdict="erratum", judge=judge, repair=lambda _: right, found_by=("numeric",))
-    result = confirm(called)
-    assert "omega_q -> omega_n" in (would_approximate(result) or "")
-    assert any("by the rule an approximation" in problem for problem in review(result).problems)
+    result = model.confirm(called)
+    assert "omega_q -> omega_n" in (severity.would_approximate(result) or "")
+    assert any("by the rule an approximation" in problem for problem in referee.review(result).problems)
 
 
 # --- what is said of it -------------------------------------------------------------------------------------

@@ -16,6 +16,7 @@ from test_generated import exact_outputs, kernels, random_arguments
 
 import trum_sym as ts
 from trum_sym.console import main
+from trum_sym.inputs.motor import SPECS
 from trum_sym.model.kernels import call
 
 SPEEDS = ("mean_speed", "min_speed", "max_speed")
@@ -195,13 +196,13 @@ def test_bad_input_is_one_line_that_names_the_field(example, argument, words):
 def test_the_c_library_refuses_what_the_package_refuses(example):
     for line in (
         *c_coverage.edges(),
-        *(f"{name}={value}" for name in ts.motor.SPECS for value in ("-1", "0", "1e309")),
+        *(f"{name}={value}" for name in SPECS for value in ("-1", "0", "1e309")),
     ):
         arguments = line.split()
         numbers = [a for a in arguments if a.count("=") == 1 and a.split("=")[1] and "tolerance" not in a]
         if len(numbers) < len(arguments) or not numbers or "nothing" in line or "forced" in line:
             continue
-        optional = [name for name, spec in ts.motor.SPECS.items() if not spec.required]
+        optional = [name for name, spec in SPECS.items() if not spec.required]
         if any(f"{name}=0" == a for name in optional for a in arguments):
             continue  # in C, 0 stands for not measured
         try:

@@ -17,6 +17,7 @@ import trum_sym as ts
 from trum_sym import plots
 from trum_sym.errors import ParameterError
 from trum_sym.inputs.units import ARCSEC
+from trum_sym.paper.cycle import solve
 from trum_sym.plots.motion import SECTION_5
 from trum_sym.plots.transfer import MODELS
 from trum_sym.report.catalogue import PICTURES
@@ -280,7 +281,7 @@ def test_the_contact_zone_carries_the_prepressures_friction_within_its_edges():
     k, crests = 9 / 30e-3, 9
     total = crests * np.sum(np.abs(traction), axis=0) * (u[1] - u[0]) / k
     assert np.median(total) == pytest.approx(0.25 * 180, rel=0.03)
-    _, speed, _ = plots.cycle.solve(None, None).rotor(len(time) - 1)
+    _, speed, _ = solve(None, None).rotor(len(time) - 1)
     net = [orbit_reference.surface(other.p, w[:, i], speed[i] * other.radius)[0] for i in range(len(time) - 1)]
     ours = crests * np.sum(traction, axis=0) * (u[1] - u[0]) / k / 45
     assert ours[:-1] == pytest.approx(np.array(net), abs=0.12)
