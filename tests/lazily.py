@@ -16,6 +16,6 @@ class lazily:
         self.name = name
 
     def __getattr__(self, attribute):
-        if attribute.startswith(("__", "_pytest")):  # pytest's questions
+        if attribute.startswith(("__", "_pytest", "_mock")):  # pytest's questions
             raise AttributeError(attribute)
         return getattr(import_module(self.name), attribute)
