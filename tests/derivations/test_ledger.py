@@ -29,6 +29,12 @@ KEYS = {"id", "section", "title", "verdict", "reason", "printed_latex", "derived
 
 @pytest.fixture(scope="module")
 def records():
+    """As shipped; ``python -m derivations verify --check``, which CI runs, holds them against what is proved now."""
+    return json.loads((ROOT / "generated" / "ledger.json").read_text("utf-8"))
+
+
+@pytest.fixture(scope="module")
+def proved_now():
     return command.prove(ledger.ENTRIES)
 
 
@@ -67,8 +73,9 @@ def test_records_have_the_fixed_keys(records):
     assert all(set(r) >= KEYS for r in records)
 
 
-def test_the_shipped_ledger_is_what_is_proved_now(records):
-    assert (ROOT / "generated" / "ledger.json").read_text("utf-8") == command.as_json(records)
+@pytest.mark.slow
+def test_the_shipped_ledger_is_what_is_proved_now(proved_now):
+    assert (ROOT / "generated" / "ledger.json").read_text("utf-8") == command.as_json(proved_now)
 
 
 # --- the machinery refuses what is not so -------------------------------------------------------------------
