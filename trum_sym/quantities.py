@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-__all__ = ["QUANTITIES", "Quantity"]
+__all__ = ["ERRORS", "QUANTITIES", "Quantity"]
 
 
 class Quantity(NamedTuple):
@@ -33,3 +33,11 @@ QUANTITIES = {
     "stall_torque": Quantity("stall torque", "N*m", "N*m"),
     "contact_fraction": Quantity("contact fraction", "1", "1"),
 }
+
+ERRORS = {
+    f"{name}_error": Quantity(
+        f"{QUANTITIES[name].label}, bound of its error", QUANTITIES[name].unit, QUANTITIES[name].shown
+    )
+    for name in ("mean_speed", "min_speed", "max_speed", "speed_volatility", "stall_torque")
+}
+"""Bounds of the errors of the rotor's figures, by the figure's name with ``_error`` after it."""

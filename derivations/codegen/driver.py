@@ -232,8 +232,14 @@ _OUT = (
     Field("held", "1", "mean friction fraction with the rotor held; NaN unless wanted"),
     Field("start", "m/s", "speed at the start of the cycle"),
     Field("level", "1", "error that a step of the last lap was allowed, per drive period"),
-    Field("error", "1", "bound of the speeds' error, over the largest speed"),
-    Field("flags", "1", "sum of trum_converged, trum_full_contact, trum_runaway"),
+    Field("error", "1", "the largest of the bounds below, over the largest speed"),
+    Field("mean_error", "m/s", "bound of the error of mean"),
+    Field("low_error", "m/s", "of low"),
+    Field("high_error", "m/s", "of high"),
+    Field("deviation_error", "m/s", "of the root of variance"),
+    Field("contact_error", "1", "of contact"),
+    Field("held_error", "1", "of held"),
+    Field("flags", "1", "sum of the bits of TRUM_ORBIT_FLAGS"),
 )
 _SLOPES_IN = _named(_along("a_A b_A a_B b_B"))
 _SLOPE_FIGURES = _OUT[:6]
@@ -259,7 +265,15 @@ _PHASES = (
     Field("Q", "m^2/s", "direction determinant (eq. 24)"),
 )
 _PANELS = Field("panels", "1", "panels of the quadrature in a period of the faster of drive and resonance")
-_FLAGS = ("converged", "full_contact", "runaway")  # bits of `flags`, lowest first
+_FLAGS = (  # bits of `flags`, lowest first
+    "converged",  # all bounds meet the tolerance
+    "full_contact",
+    "runaway",  # the load is at or beyond what friction can hold, whatever the speed
+    "autonomous",  # friction depends on the speed alone, whose balance is a root
+    "too_many_steps",  # not converged: a lap needs more steps than are allowed
+    "too_many_laps",  # not converged: the search needs more laps than are allowed
+    "failed_step",  # not converged: a step cannot be evaluated however short it is
+)
 _LISTS = {
     "TRUM_CYCLE_IN": ("a drive cycle", _CYCLE),
     "TRUM_SIZE_IN": ("amplitude and geometry of its waves", _SIZE),

@@ -231,6 +231,14 @@ def _collocation() -> str:
             f"#define TRUM_COLLOCATION_LEGENDRE {table(collocation.legendre())}",
             "/* the value at the first node, without its own */",
             f"#define TRUM_COLLOCATION_OUTWARD {row(collocation.outward())}",
+            "/* Kronrod's nodes between them, where a step's defect is seen, and the defect's weights in its integral */",
+            f"#define TRUM_CHECK_POINTS {row(collocation.check_nodes())}",
+            f"#define TRUM_CHECK_WEIGHTS {row(collocation.check_weights())}",
+            "/* the weights of Lobatto's nodes in the quadrature over all seven */",
+            f"#define TRUM_CHECK_FULL_WEIGHTS {row(collocation.check_full_weights())}",
+            "/* at the check nodes: the value of the polynomial through the nodes' values, its integral from 0 */",
+            f"#define TRUM_CHECK_VALUES {table(collocation.check_values())}",
+            f"#define TRUM_CHECK_INTEGRALS {table(collocation.check_integrals())}",
             "",
         ]
     )

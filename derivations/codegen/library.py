@@ -11,7 +11,7 @@ from trum_sym.inputs.drive import DRIVE_DOMAINS, LEAD, STARTS, Drive
 from trum_sym.inputs.motor import SPECS
 from trum_sym.inputs.motor_file import load_motor
 from trum_sym.model.levels import AMPLITUDES, CONTACTS, FOUNDATIONS, RESONANCES
-from trum_sym.quantities import QUANTITIES
+from trum_sym.quantities import ERRORS, QUANTITIES
 
 __all__ = ["headers"]
 
@@ -60,7 +60,7 @@ def _fields() -> list[str]:
     motor = [_field(name, spec.symbol, spec.unit, spec.domain, spec.required) for name, spec in SPECS.items()]
     domains = {**DRIVE_DOMAINS, "phase_lead": (LEAD, "1")}
     drive = [_field(name, _DRIVE_SYMBOLS[name], unit, domain, True) for name, (domain, unit) in domains.items()]
-    outputs = [f'  X({name}, "{output.unit}")' for name, output in QUANTITIES.items()]
+    outputs = [f'  X({name}, "{output.unit}")' for name, output in {**QUANTITIES, **ERRORS}.items()]
     lines = ["#ifndef TRUM_FIELDS_H", "#define TRUM_FIELDS_H", ""]
     lines += [
         "/* field, symbol, SI unit, lowest, highest, is the lowest excluded, the highest, must it be an integer,",

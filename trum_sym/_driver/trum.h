@@ -26,7 +26,7 @@ struct trum_motor {
   TRUM_MOTOR_FIELDS(TRUM_NUMBER_FIELD)
 };
 
-/* TRUM_DRIVE_FIELDS and TRUM_CHOICES; the tolerance is of mean and extreme speeds, relative to the largest. */
+/* TRUM_DRIVE_FIELDS and TRUM_CHOICES; the tolerance is of the bounds of errors, of speeds relative to the largest. */
 struct trum_drive {
   TRUM_DRIVE_FIELDS(TRUM_NUMBER_FIELD)
   TRUM_CHOICES(TRUM_CHOICE_FIELD)
@@ -36,7 +36,7 @@ struct trum_drive {
 /* TRUM_FIGURES; without meaning: NaN, and infinite ratios where the determinant never turns back. */
 struct trum_point {
   TRUM_FIGURES(TRUM_FIGURE_FIELD)
-  int converged;    /* do mean and extremes meet the tolerance? */
+  int converged;    /* do the bounds of the errors meet the tolerance? */
   int full_contact; /* is the whole wave in contact at times? */
   int outside_fit;  /* is the prepressure outside those at which the amplitude was measured? */
   int field;        /* bad input: which, for trum_field_name; else -1 */

@@ -8,7 +8,8 @@
  * point, f has a square root in time; where a point of equal speed crosses the edge of the contact, f has a kink.
  * Steps end at those events, and next to a square root the time in a step runs as the square of its parameter,
  * where everything is smooth again.  Between events a step is collocation at Lobatto's nodes.  The speed at which a lap
- * of the drive cycle ends where it began is found by shooting: Newton on the start speed.
+ * of the drive cycle ends where it began is found by shooting: Newton on the start speed.  A step's defect at nodes that
+ * the collocation does not use tells what the lap is off by; the figures' bounds rest on that (bounds.h).
  *
  * One concern a header, in the order in which they need each other; orbit/types.h has a glossary. */
 #ifndef TRUM_ORBIT_H
@@ -20,17 +21,20 @@
 #include "orbit/derivatives.h"
 #include "orbit/collocation.h"
 #include "orbit/events.h"
-#include "orbit/extremes.h"
 #include "orbit/lap_start.h"
 #include "orbit/history.h"
 #include "orbit/step.h"
 #include "orbit/event_steps.h"
 #include "orbit/sensitivities.h"
+#include "orbit/defect.h"
+#include "orbit/extremes.h"
 #include "orbit/error.h"
 #include "orbit/accept.h"
 #include "orbit/lap.h"
-#include "orbit/task.h"
+#include "orbit/bounds.h"
 #include "orbit/shooting.h"
+#include "orbit/balance.h"
+#include "orbit/task.h"
 #include "orbit/run.h"
 
 #undef REAL

@@ -134,7 +134,10 @@ static inline enum trum_status trum_stator(const struct trum_motor* motor, const
     if (!modelled || drive->amplitude == TRUM_AMPLITUDE_MEASURED) break;
     trum_call_amplitude_forced(v);
     change = v[trum_at_W] > before ? v[trum_at_W] - before : before - v[trum_at_W];
-    if ((double)change <= settled * (double)v[trum_at_W]) break;
+    if ((double)change <= settled * (double)v[trum_at_W]) {
+      v[trum_at_W] = before; /* that of the resonance */
+      break;
+    }
   }
   if (i == 200) return TRUM_NOT_SETTLED;
   if (!trum_is_size(v[trum_at_W]) || !trum_is_size(v[trum_at_D]) || !trum_is_size(v[trum_at_k_c])) return TRUM_NO_SIZE;
@@ -190,6 +193,7 @@ static inline enum trum_status trum_solve_point(const struct trum_motor* motor, 
                                                 struct trum_point* point, trum_orbit_in* in, trum_orbit_out* out) {
   const trum_real turn = (trum_real)6.283185307179586;
   trum_real v[TRUM_VALUES], W;
+  double least;
   enum trum_status status;
   int flags;
 #define TRUM_UNKNOWN(name, unit) point->name = (trum_real)NAN;
@@ -234,6 +238,16 @@ static inline enum trum_status trum_solve_point(const struct trum_motor* motor, 
   point->min_speed = (trum_real)out->low / motor->contact_radius;
   point->max_speed = (trum_real)out->high / motor->contact_radius;
   point->speed_volatility = (trum_real)(sqrt(out->variance) / fabs(out->mean));
+  v[trum_at_f] = (trum_real)out->held_error;
+  trum_call_stall_torque(v);
+  point->stall_torque_error = v[trum_at_torque];
+  point->mean_speed_error = (trum_real)out->mean_error / motor->contact_radius;
+  point->min_speed_error = (trum_real)out->low_error / motor->contact_radius;
+  point->max_speed_error = (trum_real)out->high_error / motor->contact_radius;
+  least = fabs(out->mean) - out->mean_error;
+  point->speed_volatility_error = (trum_real)(
+      least <= 0 ? HUGE_VAL
+                 : (out->deviation_error + sqrt(out->variance) / fabs(out->mean) * out->mean_error) / least);
   point->converged = (flags & trum_converged) > 0, point->full_contact = (flags & trum_full_contact) > 0;
   return flags & trum_runaway ? TRUM_RUNAWAY : point->converged ? TRUM_OK : TRUM_NOT_CONVERGED;
 }

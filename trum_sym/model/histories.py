@@ -17,8 +17,8 @@ from trum_sym.inputs.points import check_single, numbers_of
 from trum_sym.model.cycle import response, scaled
 from trum_sym.model.kernels import call
 from trum_sym.model.levels import LevelChoice, Levels
-from trum_sym.model.operating_point import Case, OperatingPoint, point_of, prepare
-from trum_sym.model.rotor import history, solve_orbit
+from trum_sym.model.operating_point import Case, OperatingPoint, settle
+from trum_sym.model.rotor import RUNAWAY, history, solve_orbit
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -52,7 +52,7 @@ def simulate(
     cycles: float = 1,
     samples_per_period: float = 64,
     sampling_period: float | None = None,
-    tolerance: float = 1e-3,
+    tolerance: float | None = None,
     **levels: Unpack[LevelChoice],
 ) -> xr.Dataset:
     """Time histories of one operating point on its periodic orbit.
@@ -99,8 +99,7 @@ def simulate(
         if repeats * per_period * int(drive.periods) > _MAX_SAMPLES:
             allowed = f"at most {_MAX_SAMPLES} samples, cycles * periods * samples_per_period"
             raise ParameterError("cycles", repeats, allowed)
-    case = prepare(motor, drive, Levels(**levels), tolerance, sampling_period)
-    point = point_of(case)
+    case, point = settle(motor, drive, Levels(**levels), tolerance, sampling_period)
     count = int(drive.periods) * per_period
     columns, region = _cycle(case, point, count)
     advance = columns.pop("advance")
@@ -108,7 +107,11 @@ def simulate(
     data = {name: np.tile(column, repeats) for name, column in columns.items()}
     data["rotor_angle"] += laps * advance
     time = point.cycle_time * (laps + np.tile(np.arange(count), repeats) / count)
-    settings = {"cycles": repeats, "samples_per_period": per_period, "tolerance": tolerance}
+    settings = {
+        "cycles": repeats,
+        "samples_per_period": per_period,
+        "tolerance": float(np.asarray(case.arguments["tolerance"])),
+    }
     return xr.Dataset(
         {
             name: ("time", data[name], {"units": unit, "long_name": meaning})
@@ -176,7 +179,7 @@ def _attributes(
 ) -> dict[str, str | float | int]:
     """Every setting, figure and flag, as text and numbers that any file format holds."""
     motor, drive, levels = case.motor, case.drive, case.levels
-    figures = {name: value for name, value in point.as_dict().items() if name not in ("motor", "converged")}
+    figures = {name: value for name, value in point.as_dict().items() if name not in ("motor", "converged", "reason")}
     attributes = {
         "title": f"{motor.name}: time histories on the periodic orbit",
         "source": f"trum-sym {version('trum-sym')}",
@@ -190,7 +193,7 @@ def _attributes(
         **{name: "none" if value is None else value for name, value in settings.items()},
         **figures,
         "converged": int(bool(point.converged)),
-        "runaway": int(bool(np.isnan(float(point.mean_speed)))),
+        "runaway": int(point.reason == RUNAWAY),
     }
     for name, parameter in motor.parameters():
         attributes[f"motor_{name}"] = f"{float(parameter.value):.12g} {parameter.unit} ({parameter.source})"

@@ -16,27 +16,34 @@ from trum_sym.inputs.points import check_point, numbers_of
 from trum_sym.model.cycle import check_steady_state, cycle_sums, modal_values, scaled
 from trum_sym.model.kernels import call
 from trum_sym.model.levels import LevelChoice, Levels
-from trum_sym.model.rotor import Orbit, encoder_deviation, history, orbit_values, solve_orbit
+from trum_sym.model.rotor import Orbit, encoder_deviation, history, orbit_values, reasons, solve_orbit
 from trum_sym.model.stator import Stator, solve_stator
 
-__all__ = ["OF_CYCLE", "OF_ORBIT", "RESULTS", "Case", "OperatingPoint", "evaluate", "point_of", "prepare", "results"]
+__all__ = [
+    "OF_CYCLE",
+    "OF_ORBIT",
+    "RESULTS",
+    "Case",
+    "OperatingPoint",
+    "evaluate",
+    "point_of",
+    "prepare",
+    "results",
+    "settle",
+]
 
 OF_CYCLE = frozenset(("q_ratio", "q_square_ratio", "q_average", "q_volatility"))
 """The figures that take the sums over a cycle."""
-OF_ORBIT = frozenset(
-    (
-        "mean_speed",
-        "min_speed",
-        "max_speed",
-        "speed_volatility",
-        "stall_torque",
-        "contact_fraction",
-        "converged",
-        "runaway",
-    )
-)
-"""The figures that take the rotor's orbit; ``runaway`` is where no speed balances the load."""
+OF_ORBIT = frozenset((
+    "mean_speed", "min_speed", "max_speed", "speed_volatility", "stall_torque", "contact_fraction",
+    "mean_speed_error", "min_speed_error", "max_speed_error", "speed_volatility_error", "stall_torque_error",
+    "converged", "runaway", "reason",
+))  # fmt: skip
+"""The figures that take the rotor's orbit; ``runaway`` is where no speed balances the load, ``reason`` why an orbit is
+not converged, in words."""
 
+_TOLERANCE, _FINEST = 1e-6, 1e-9  # where none is given: at first, and the finest that a single point goes to
+_DIGITS = 5e-5  # of the mean speed: four digits of it are right
 _ENCODER_SAMPLES = 64  # per drive period, of the path that the encoder differences
 
 
@@ -70,8 +77,16 @@ class OperatingPoint:
         Mean torque on the rotor held still: a larger load drives it back.
     contact_fraction : 1
         Mean share of the wave in contact, theta/pi.
+    mean_speed_error, min_speed_error, max_speed_error : rad/s
+        Bounds of the errors of these speeds: the true figure of the model lies within them (docs/rotor.md).
+    speed_volatility_error : 1
+        Likewise; infinite where the mean's sign is uncertain.
+    stall_torque_error : N m
+        Likewise.
     converged : bool
-        Whether mean and extremes met the tolerance.
+        Whether all these bounds meet the tolerance.
+    reason : str
+        Why not, in words; empty if they do.
     """
 
     motor: str
@@ -95,14 +110,22 @@ class OperatingPoint:
     speed_volatility: ArrayLike
     stall_torque: ArrayLike
     contact_fraction: ArrayLike
+    mean_speed_error: ArrayLike
+    min_speed_error: ArrayLike
+    max_speed_error: ArrayLike
+    speed_volatility_error: ArrayLike
+    stall_torque_error: ArrayLike
     converged: bool | np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
+    reason: str | np.ndarray[tuple[int, ...], np.dtype[np.str_]]
 
     def as_dict(self) -> dict[str, object]:
         """The figures by name, in the order of the fields."""
         return {field.name: getattr(self, field.name) for field in fields(self)}
 
 
-RESULTS = tuple(field.name for field in fields(OperatingPoint) if field.name not in ("motor", "start", "contact"))
+RESULTS = tuple(
+    field.name for field in fields(OperatingPoint) if field.name not in ("motor", "start", "contact", "reason")
+)
 """The figures of an operating point that depend on its numbers, in order."""
 
 
@@ -111,7 +134,7 @@ def evaluate(
     drive: Drive | None = None,
     *,
     sampling_period: ArrayLike | None = None,
-    tolerance: float = 1e-3,
+    tolerance: float | None = None,
     progress: bool = False,
     **levels: Unpack[LevelChoice],
 ) -> OperatingPoint:
@@ -125,8 +148,10 @@ def evaluate(
         The paper's Table 3 if not given.  Its fields and the motor's values broadcast.
     sampling_period : float or array, s, optional
         Averaging period of the encoder behind ``speed_volatility``; continuous if not given.
-    tolerance : float
-        Of the mean speed and its extremes, relative to the largest speed; from 1e-9 to 1e-2.
+    tolerance : float, optional
+        What the bounds of the errors of mean, extremes and deviation may be, relative to the largest speed, and those
+        of contact and stall torque, relative to 1 and to the largest friction; from 1e-9 to 1e-2.  If not given it is
+        1e-6, and a single point goes on until its mean speed has four digits or 1e-9 is reached.
     progress : bool
         Whether to show a bar on the standard error while many points are computed.
     contact, resonance, foundation, amplitude : str, optional
@@ -143,7 +168,27 @@ def evaluate(
     ConvergenceError
         If the forced amplitude and the resonance do not settle.
     """
-    return point_of(prepare(motor, drive, Levels(**levels), tolerance, sampling_period), progress)
+    return settle(motor, drive, Levels(**levels), tolerance, sampling_period, progress)[1]
+
+
+def settle(
+    motor: Motor,
+    drive: Drive | None,
+    levels: Levels,
+    tolerance: float | None,
+    sampling_period: ArrayLike | None = None,
+    progress: bool = False,
+) -> tuple[Case, OperatingPoint]:
+    """The case and the point of :func:`evaluate`, at the tolerance that it comes to if none is given."""
+    case = prepare(motor, drive, levels, _TOLERANCE if tolerance is None else tolerance, sampling_period)
+    point = point_of(case, progress)
+    if tolerance is None and not case.shape:
+        wanted, error = _DIGITS * abs(float(point.mean_speed)), float(point.mean_speed_error)
+        if error > wanted:
+            finer = max(_FINEST, 0.3 * _TOLERANCE * wanted / error)
+            case = prepare(motor, drive, levels, finer, sampling_period, warn=False)
+            point = point_of(case)
+    return case, point
 
 
 @dataclass(frozen=True)
@@ -194,7 +239,7 @@ def prepare(
 
 def point_of(case: Case, progress: bool = False) -> OperatingPoint:
     """All figures of a case from :func:`prepare`."""
-    found = results(case, RESULTS, progress)
+    found = results(case, (*RESULTS, "reason"), progress)
     return OperatingPoint(motor=case.motor.name, start=case.drive.start, contact=case.levels.contact, **found)
 
 
@@ -205,8 +250,8 @@ def results(case: Case, wanted: Collection[str], progress: bool = False) -> dict
     ----------
     case : Case
         From :func:`prepare`.
-    wanted : names of :data:`RESULTS`, or ``"runaway"``
-        The last says where no speed balances the load.
+    wanted : names of :data:`RESULTS`, ``"runaway"`` or ``"reason"``
+        The last two say where no speed balances the load, and why an orbit is not converged.
     progress : bool
         As for :func:`evaluate`.
     """
@@ -226,36 +271,46 @@ def results(case: Case, wanted: Collection[str], progress: bool = False) -> dict
     if not OF_CYCLE.isdisjoint(wanted):
         found |= cycle_sums(case.values)
     if not OF_ORBIT.isdisjoint(wanted):
-        found |= _of_orbit(case, timing["T"], "speed_volatility" in wanted, progress)
+        found |= _of_orbit(
+            case, timing["T"], not {"speed_volatility", "speed_volatility_error"}.isdisjoint(wanted), progress
+        )
     return {name: _shaped(found[name], case.shape) for name in wanted}
 
 
 def _of_orbit(case: Case, cycle_time: ArrayLike, volatility: bool, progress: bool) -> dict[str, ArrayLike]:
     orbit = solve_orbit(case.arguments, case.symbols, progress)
-    found = {name: getattr(orbit, name) for name in OF_ORBIT - {"speed_volatility"}}
+    found = {name: getattr(orbit, name) for name in OF_ORBIT - {"speed_volatility", "speed_volatility_error", "reason"}}
+    found["reason"] = reasons(orbit.raw)
     if volatility:
-        deviation = np.sqrt(orbit.variance)
+        deviation, deviation_error = np.sqrt(orbit.variance), orbit.deviation_error
         if case.sampling_period is not None:
             readings = _encoder(case.arguments, orbit, cycle_time, case.sampling_period)
-            deviation = readings / np.asarray(case.symbols["r_c"])
+            deviation = readings[..., 0] / np.asarray(case.symbols["r_c"])
+            # averaging makes no deviation larger, so that of the error holds for an encoder, too
+            deviation_error = deviation_error + readings[..., 1] / np.asarray(case.symbols["r_c"])
+        mean = np.abs(orbit.mean_speed)
         with np.errstate(all="ignore"):
-            found["speed_volatility"] = deviation / np.abs(orbit.mean_speed)
+            found["speed_volatility"] = deviation / mean
+            least = mean - orbit.mean_speed_error
+            error = (deviation_error + found["speed_volatility"] * orbit.mean_speed_error) / least
+            found["speed_volatility_error"] = np.where(least <= 0, np.inf, error)
     return found
 
 
 def _encoder(arguments: Mapping[str, ArrayLike], orbit: Orbit, cycle_time: ArrayLike, period: ArrayLike) -> Array:
-    """Standard deviation of an encoder's readings at every point, m/s at the rim."""
+    """Standard deviation of an encoder's readings at every point, and its change from half the samples; m/s at the rim."""
     names = list(arguments)
     raw = {name: orbit.raw[name] for name in ("low", "high", "start", "level")}
     columns = np.broadcast_arrays(*arguments.values(), *raw.values(), cycle_time, period)
-    result = np.full(columns[0].shape, np.nan)
-    for index in np.ndindex(result.shape):
+    result = np.full((*columns[0].shape, 2), np.nan)
+    for index in np.ndindex(columns[0].shape):
         at = [float(column[index]) for column in columns]
         point = dict(zip([*names, *raw], at[:-2], strict=True))
         if np.isfinite(point["start"]):
             count = int(_ENCODER_SAMPLES * point["m"])
             path = history(point, point, count)["distance"]
-            result[index] = encoder_deviation(path, at[-2], at[-1])
+            deviation = encoder_deviation(path, at[-2], at[-1])
+            result[index] = deviation, abs(deviation - encoder_deviation(path[1::2], at[-2], at[-1]))
     return result
 
 

@@ -12,12 +12,14 @@ from trum_sym.model.batch import call_in_blocks
 from trum_sym.model.kernels import ORBIT_FLAGS, call, expect, signature
 
 __all__ = [
+    "RUNAWAY",
     "Orbit",
     "as_orbit",
     "encoder_deviation",
     "encoder_readings",
     "history",
     "orbit_values",
+    "reasons",
     "solve_orbit",
 ]
 
@@ -46,11 +48,37 @@ _INPUTS = (
     "tolerance",
     "held",
 )
-_OUTPUTS = ("mean", "low", "high", "variance", "contact", "held", "start", "level", "error", "flags")
+_OUTPUTS = (
+    "mean",
+    "low",
+    "high",
+    "variance",
+    "contact",
+    "held",
+    "start",
+    "level",
+    "error",
+    "mean_error",
+    "low_error",
+    "high_error",
+    "deviation_error",
+    "contact_error",
+    "held_error",
+    "flags",
+)
+RUNAWAY = "no speed balances the load: it exceeds what friction can transmit"
+# Why an orbit is not converged, by the driver's flags
+_REASONS = {
+    "runaway": RUNAWAY,
+    "too_many_steps": "a lap of the drive cycle needs more time steps than are allowed",
+    "too_many_laps": "the search for the orbit needs more laps than are allowed",
+    "failed_step": "a time step cannot be evaluated however short it is",
+}
+_MISSED = "the bounds of the errors miss the tolerance"
 _OF_HISTORY = ("low", "high", "start", "level")
 expect("an orbit's inputs", _INPUTS, signature("rotor_orbit")[0])
 expect("an orbit's outputs", _OUTPUTS, signature("rotor_orbit")[1])
-expect("an orbit's flags", ("converged", "full_contact", "runaway"), ORBIT_FLAGS)
+expect("an orbit's flags", ("converged", "full_contact", "autonomous", *_REASONS), ORBIT_FLAGS)
 expect("a history's inputs", (*_INPUTS, *_OF_HISTORY, "times"), signature("rotor_history")[0])
 
 
@@ -59,7 +87,8 @@ class Orbit:
     """Figures of periodic orbits; arrays of one shape.
 
     Speeds of the rotor in rad/s; ``stall_torque`` in N m is what holds the rotor still on average;
-    ``contact_fraction`` is the mean of theta/pi.  Where no speed balances the load, speeds are NaN.
+    ``contact_fraction`` is the mean of theta/pi.  Where no speed balances the load, speeds are NaN.  The errors are
+    bounds (:mod:`derivations.error_bound`), ``deviation_error`` that of the root of ``variance``.
     """
 
     mean_speed: Array
@@ -68,6 +97,11 @@ class Orbit:
     variance: Array
     stall_torque: Array
     contact_fraction: Array
+    mean_speed_error: Array
+    min_speed_error: Array
+    max_speed_error: Array
+    deviation_error: Array
+    stall_torque_error: Array
     converged: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
     full_contact: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
     runaway: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
@@ -90,7 +124,8 @@ def orbit_values(
     contact : str
         ``"winkler"`` or ``"hertz"``.
     tolerance : float or array
-        Of mean and extremes, relative to the largest speed.
+        Of the bounds of the errors of mean, extremes and deviation, relative to the largest speed; of those of contact
+        and stall torque, relative to a whole wave in contact and to the largest friction.
     """
     shared = dict(call("trum_rotor_coefficients", stator))
     full = {law: shared.pop(f"W_full_{law}") for law in ("winkler", "hertz")}
@@ -118,7 +153,9 @@ def as_orbit(raw: Mapping[str, Array], stator: Mapping[str, ArrayLike]) -> Orbit
     """The rotor's figures from those of its rim, as the driver gives them."""
     radius = np.asarray(stator["r_c"])
     flags = raw["flags"].astype(int)
-    stall = np.asarray(call("trum_stall_torque", {**stator, "f": raw["held"]})["torque"])
+    stall, stall_error = (
+        np.asarray(call("trum_stall_torque", {**stator, "f": raw[name]})["torque"]) for name in ("held", "held_error")
+    )
     return Orbit(
         mean_speed=raw["mean"] / radius,
         min_speed=raw["low"] / radius,
@@ -126,11 +163,26 @@ def as_orbit(raw: Mapping[str, Array], stator: Mapping[str, ArrayLike]) -> Orbit
         variance=raw["variance"] / radius**2,
         stall_torque=stall,
         contact_fraction=raw["contact"],
+        mean_speed_error=raw["mean_error"] / radius,
+        min_speed_error=raw["low_error"] / radius,
+        max_speed_error=raw["high_error"] / radius,
+        deviation_error=raw["deviation_error"] / radius,
+        stall_torque_error=stall_error,
         converged=(flags & _FLAG["converged"]) > 0,
         full_contact=(flags & _FLAG["full_contact"]) > 0,
         runaway=(flags & _FLAG["runaway"]) > 0,
         raw=raw,
     )
+
+
+def reasons(raw: Mapping[str, Array]) -> np.ndarray[tuple[int, ...], np.dtype[np.str_]]:
+    """Why orbits are not converged, in words; empty where they are."""
+    flags = raw["flags"].astype(int)
+    found = np.full(flags.shape, _MISSED, dtype=object)
+    for name, reason in reversed(_REASONS.items()):
+        found[(flags & _FLAG[name]) > 0] = reason
+    found[(flags & _FLAG["converged"]) > 0] = ""
+    return found.astype(np.str_)
 
 
 def history(values: Mapping[str, ArrayLike], raw: Mapping[str, ArrayLike], count: int) -> dict[str, Array]:

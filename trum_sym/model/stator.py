@@ -113,8 +113,10 @@ def solve_stator(motor: Motor, drive: Drive, levels: Levels, *, warn: bool = Tru
         if fixed is not None or levels.amplitude == "measured":
             break
         previous = values["W"]
-        values["W"] = call("trum_amplitude_forced", values)["W"]
-        if np.all(np.abs(np.subtract(values["W"], previous)) <= 1e-13 * np.asarray(values["W"])):
+        found = np.asarray(call("trum_amplitude_forced", values)["W"])
+        settled = np.abs(found - previous) <= 1e-13 * found
+        values["W"] = np.where(settled, previous, found)  # a point in a batch stays where it would stop alone
+        if settled.all():
             break
     else:
         raise ConvergenceError(

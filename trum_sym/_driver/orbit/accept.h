@@ -1,6 +1,6 @@
 /* Accepting a step: it adds to its lap's integrals, carries the sensitivities along and sets the next step's length.
  *
- * Integrals are Lobatto's quadrature on the step's own nodes.  A new step length is the old one times the fourth root
+ * Integrals are Lobatto's quadrature on the step's own nodes, that of x^2 with Kronrod's.  A new step length is the old one times the fourth root
  * of tolerance over error (a bound on growth and shrinkage), as in any one-step method with an error estimate. */
 #ifndef TRUM_ORBIT_ACCEPT_H
 #define TRUM_ORBIT_ACCEPT_H
@@ -19,6 +19,7 @@ static void trum_accept_sensitivities(trum_lanes* lanes, const trum_trial_step* 
   for (parameter = 0; parameter < PARAMETERS; ++parameter) {
     real sum_x = REAL(0), sum_xx = REAL(0), sum_f = REAL(0), sum_theta = REAL(0);
     trum_sensitivity_source(lanes, trial, T_f_v, parameter, source);
+    source[0] = where(trial->damped, trum_extrapolate_first(source), source[0]);
     for (j = 0; j < NODES; ++j) {
       const real b = REAL(A[LAST_NODE][j]);
       sum_f = sum_f + b * source[j], sum_theta = sum_theta + b * (T_theta_E[j] * trial->derivatives[j].ln_E[parameter]);
@@ -54,31 +55,33 @@ static void trum_accept_sensitivities(trum_lanes* lanes, const trum_trial_step* 
 }
 
 /* Moves the accepted lanes to the end of their step and adds the step to their laps. */
-static void trum_accept_step(trum_lanes* lanes, const trum_trial_step* trial, mask accepted, real error) {
+static void trum_accept_step(trum_lanes* lanes, const trum_trial_step* trial, mask accepted,
+                             const trum_defect* defect) {
   static const double A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS;
   const mask held = at_most(lanes->equation.push, REAL(0));
   trum_lap* lap = &lanes->lap;
   trum_factors equations;
   real S[NODES], T_f_v[NODES], K[NODES], rate[NODES], right[NODES], d[PARAMETERS][NODES];
-  real sum_f = REAL(0), sum_theta = REAL(0), sum_x = REAL(0), sum_xx = REAL(0), sum_S = REAL(0), sum_xS = REAL(0);
+  real sum_f = REAL(0), sum_theta = REAL(0), sum_x = REAL(0), sum_S = REAL(0), sum_xS = REAL(0), sum_SS = REAL(0);
   int i, j, k;
   for (j = 0; j < NODES; ++j) rate[j] = trial->T[j] * (lanes->equation.push * trial->f[j] - lanes->equation.drag);
   trum_friction_jacobian(lanes, trial, T_f_v);
   for (j = 0; j < NODES; ++j) K[j] = lanes->equation.push * T_f_v[j];
+  K[0] = where(trial->damped, REAL(0), K[0]);
   S[0] = lanes->start.S;
   for (i = 1; i < NODES; ++i) right[i] = lanes->start.S * (REAL(1) + REAL(A[i][0]) * K[0]);
-  equations = trum_factorise(K);
+  equations = trum_factorise(K, trial->damped);
   trum_substitute(&equations, right, S);
   for (j = 1; j < NODES; ++j)
     S[j] = maximum(REAL(0), minimum(lanes->start.S, S[j])); /* exactly, S falls: friction draws two speeds together */
   for (j = 0; j < NODES; ++j) {
     const real b = REAL(A[LAST_NODE][j]) * trial->T[j];
     sum_f = sum_f + b * trial->f[j], sum_theta = sum_theta + b * (j == 0 ? lanes->start.theta : trial->at[j].theta);
-    sum_x = sum_x + b * trial->x[j], sum_xx = sum_xx + b * (trial->x[j] * trial->x[j]);
+    sum_x = sum_x + b * trial->x[j], sum_SS = sum_SS + b * (S[j] * S[j]);
     sum_S = sum_S + b * S[j], sum_xS = sum_xS + b * (trial->x[j] * S[j]);
   }
   if (lanes->slopes) trum_accept_sensitivities(lanes, trial, T_f_v, K, &equations, accepted, d);
-  trum_update_extremes(rate, trial->x, S, d, lanes->slopes, accepted & mask_not(held), lap);
+  trum_update_extremes(rate, trial->x, S, d, lanes->slopes, accepted & mask_not(held), defect, lap);
   for (j = 1; j < NODES; ++j) {
     lap->fastest = where(accepted, maximum(lap->fastest, trial->at[j].R_v), lap->fastest);
     lap->full_contact =
@@ -86,9 +89,10 @@ static void trum_accept_step(trum_lanes* lanes, const trum_trial_step* trial, ma
   }
   lap->friction = where(accepted, lap->friction + sum_f, lap->friction);
   lap->angle = where(accepted, lap->angle + sum_theta, lap->angle);
-  lap->x = where(accepted, lap->x + sum_x, lap->x), lap->xx = where(accepted, lap->xx + sum_xx, lap->xx);
+  lap->x = where(accepted, lap->x + sum_x, lap->x), lap->xx = where(accepted, lap->xx + defect->xx, lap->xx);
   lap->S = where(accepted, lap->S + sum_S, lap->S), lap->xS = where(accepted, lap->xS + sum_xS, lap->xS);
-  lap->error = where(accepted, lap->error + error, lap->error);
+  lap->SS = where(accepted, lap->SS + sum_SS, lap->SS);
+  trum_add_defect(lanes, defect, S, accepted);
   if (lanes->record && mask_in_lane(accepted, 0)) trum_record_step(lanes->record, lanes, rate);
   lanes->start.x = where(accepted, trial->x[LAST_NODE], lanes->start.x);
   lanes->start.S = where(accepted, S[LAST_NODE], lanes->start.S);
@@ -147,12 +151,14 @@ static mask trum_advance_step(trum_lanes* lanes) {
   const mask minimal = at_most(lanes->step.h, REAL(trum_min_step) * lanes->equation.period);
   trum_trial_step trial;
   trum_next_step next;
-  real ratio, error, factor;
+  trum_defect defect;
+  real ratio, factor;
   mask wrong, accepted, shrink;
   int k;
   trum_solve_collocation(lanes, &trial);
   next = trum_adjust_to_events(lanes, &trial, minimal);
-  ratio = trum_error_ratio(lanes, &trial, minimal, &error);
+  trum_step_defect(lanes, &trial, next.root_error, &defect);
+  ratio = trum_error_ratio(lanes, &trial, minimal, &defect);
   wrong = mask_not(at_most(ratio, REAL(1))) & mask_not(minimal);
   factor = REAL(trum_step_safety) * reciprocal(square_root(square_root(maximum(ratio, REAL(1e-5)))));
   factor = minimum(REAL(trum_step_growth), maximum(REAL(0.15), factor));
@@ -164,10 +170,11 @@ static mask trum_advance_step(trum_lanes* lanes) {
   if (lanes->slopes) accepted = accepted & mask_not(trum_extend_to_root(lanes, &trial, accepted, shrink, &next));
   lanes->step.retries = where(next.retry, lanes->step.retries + REAL(1), where(accepted, REAL(0), lanes->step.retries));
   if (any_lane(accepted)) {
-    const real longest = REAL(trum_max_step) * lanes->equation.period, grown = minimum(longest, lanes->step.h * factor);
+    const real longest = trum_longest_step(lanes, &trial);
+    const real grown = minimum(longest, lanes->step.h * factor);
     const mask finished = accepted & at_most(lanes->step.time_left, lanes->step.h * REAL(1.0000001));
     const mask cut_short = finished | at_most(REAL(0), lanes->step.target_event);
-    trum_accept_step(lanes, &trial, accepted, error);
+    trum_accept_step(lanes, &trial, accepted, &defect);
     /* a step cut short by an event or a region's end does not make the next one shorter */
     lanes->step.free_h = where(accepted, where(cut_short, minimum(longest, maximum(lanes->step.free_h, grown)), grown),
                                lanes->step.free_h);

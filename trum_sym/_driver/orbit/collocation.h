@@ -1,7 +1,7 @@
 /* Linear equations of a collocation step at Lobatto's four nodes.
  *
  * The first node is the step's start, so three unknowns are left: Gaussian elimination without pivoting, as K <= 0
- * (friction falls as the speed rises). */
+ * (friction falls as the speed rises).  In a damped step K_0 y_0 is what the other nodes extrapolate to. */
 #ifndef TRUM_ORBIT_COLLOCATION_H
 #define TRUM_ORBIT_COLLOCATION_H
 
@@ -11,13 +11,21 @@ typedef struct {
 } trum_factors;
 
 /* Eliminates the matrix for K = T df/dx at the nodes. */
-static trum_factors trum_factorise(const real* K) {
-  static const double A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS;
+/* Extrapolates the other nodes' values to the first node. */
+static real trum_extrapolate_first(const real* y) {
+  static const double outward[NODES] = TRUM_COLLOCATION_OUTWARD;
+  return REAL(outward[1]) * y[1] + REAL(outward[2]) * y[2] + REAL(outward[3]) * y[3];
+}
+
+static trum_factors trum_factorise(const real* K, mask damped) {
+  static const double A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS, outward[NODES] = TRUM_COLLOCATION_OUTWARD;
+  const real first = where(damped, REAL(1), REAL(0));
   trum_factors e;
   real M[3][3];
   int i, j;
   for (i = 0; i < 3; ++i)
-    for (j = 0; j < 3; ++j) M[i][j] = REAL(i == j ? 1.0 : 0.0) - REAL(A[i + 1][j + 1]) * K[j + 1];
+    for (j = 0; j < 3; ++j)
+      M[i][j] = REAL(i == j ? 1.0 : 0.0) - (REAL(A[i + 1][j + 1]) + first * REAL(A[i + 1][0] * outward[j + 1])) * K[j + 1];
   e.first = reciprocal(M[0][0]);
   e.t_1 = M[1][0] * e.first, e.t_2 = M[2][0] * e.first;
   M[1][1] = M[1][1] - e.t_1 * M[0][1], M[1][2] = M[1][2] - e.t_1 * M[0][2];

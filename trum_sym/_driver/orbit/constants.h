@@ -5,7 +5,9 @@
 #define TRUM_ORBIT_CONSTANTS_H
 
 /* Step lengths, in drive periods */
-static const double trum_max_step = 1.0 / 24.0;
+static const double trum_max_step = 1.0 / 12.0;
+static const double trum_max_saturated_step = 1.0 / 30.0; /* where friction is saturated: brief ends must be seen */
+static const double trum_max_nearly_saturated_step = 1.0 / 120.0;
 static const double trum_first_step = 1.0 / 24.0;   /* of a lap */
 static const double trum_min_step = 1e-9;           /* the shortest that may still be rejected */
 static const double trum_min_step_for_phase = 2e-4; /* longer ones have to resolve the surface's phase, */
@@ -20,15 +22,24 @@ static const double trum_slope_end_tolerance = 1e-15;   /* and at its end */
 static const double trum_slope_newton_factor = 1e-5;    /* on Newton's tolerance */
 
 /* Shares of the tolerance */
-static const double trum_step_share = 0.05;          /* the steps' errors, per drive period */
+static const double trum_step_share = 0.3;           /* the error of a step, of the tolerance over the drive periods */
 static const double trum_quadrature_share = 0.2;     /* factor on the estimate of a step's quadrature error */
-static const double trum_root_share = 4.0;           /* location of an event with a square root, */
+static const double trum_root_share = 0.4;           /* location of an event with a square root, */
 static const double trum_kink_share = 100.0;         /* and with a kink */
 static const double trum_newton_share = 0.05;        /* Newton's last change, squared */
 static const double trum_first_lap_tolerance = 1e-2; /* in place of the tolerance, far from the orbit */
 
+/* Factor of safety on all bounds */
+static const double trum_bound_safety = 1.5;
+
+/* Errors that are known to the first order in the defects are known but for this share */
+static const double trum_first_order_share = 0.25;
+
+/* A step over which speeds draw together by more than this exponent is damped (step.h) */
+static const double trum_stiff = 1.0, trum_stiff_factor = 30.0; /* and its error weighs more */
+
 /* Limits */
 static const int trum_max_laps = 60;
-static const double trum_max_steps_per_period = 3000.0; /* attempts, accepted or not */
+static const double trum_max_steps_per_period = 20000.0; /* attempts, accepted or not */
 
 #endif

@@ -1,26 +1,42 @@
-/* The error of a step: estimate over tolerance.
- *
- * The lap's result depends on the integral of f (and of theta while the rotor is held), so its quadrature error is what
- * is controlled; with slopes also that of the sensitivities' integrands. */
+/* The error of a step over its tolerance: what its defect makes the speed at its end be off by, of a held rotor the
+ * integrals of f and theta; with slopes also an estimate of the sensitivities' quadrature errors. */
 #ifndef TRUM_ORBIT_ERROR_H
 #define TRUM_ORBIT_ERROR_H
 
-/* Error over tolerance of a step, and in *error its error in the integral of f.  Marks lanes whose step cannot be
- * evaluated as failed. */
-static real trum_error_ratio(trum_lanes* lanes, const trum_trial_step* trial, mask minimal, real* error) {
+/* The longest step that is allowed: where friction is saturated at all nodes there is no defect, however long the step,
+ * and a brief end of saturation between them must be seen.  It is nearer the nearer the pressure at the points as fast
+ * as the rotor, or the surface's largest speed, comes to where it ends. */
+static real trum_longest_step(const trum_lanes* lanes, const trum_trial_step* trial) {
+  mask saturated = mask_all(1), inside = mask_all(0), outside = mask_all(0);
+  const real scale = reciprocal(trial->at[1].R_v * trial->at[1].R_v + REAL(1e-290));
+  real highest = REAL(-HUGE_VAL), lowest = REAL(HUGE_VAL);
+  mask near;
+  int j;
+  for (j = 0; j < NODES; ++j) {
+    const mask slower = less_than(REAL(0), trial->events[j][EVENT_SATURATION]);
+    const real margin = where(slower, trial->events[j][EVENT_LARGER_PRESSURE], trial->events[j][EVENT_SATURATION] * scale);
+    saturated = saturated & less_than(REAL(1 - 1e-9), absolute(trial->f[j]));
+    inside = inside | slower, outside = outside | mask_not(slower);
+    highest = maximum(highest, margin), lowest = minimum(lowest, margin);
+  }
+  near = (inside & outside) | less_than(REAL(0), highest + REAL(0.5) * (highest - lowest));
+  return lanes->equation.period * where(saturated, where(near, REAL(trum_max_nearly_saturated_step),
+                                                         REAL(trum_max_saturated_step)), REAL(trum_max_step));
+}
+
+/* Error over tolerance of a step.  Marks lanes whose step cannot be evaluated as failed. */
+static real trum_error_ratio(trum_lanes* lanes, const trum_trial_step* trial, mask minimal, const trum_defect* d) {
   const mask held = at_most(lanes->equation.push, REAL(0));
+  const real of_friction = absolute(d->friction) + d->friction_remainder;
+  const real of_angle = REAL(0.31830988618379067154) * (absolute(d->angle) + d->angle_remainder);
+  const real of_x = (absolute(d->x) + d->remainder) * reciprocal(lanes->equation.push + REAL(1e-290));
   real G[NODES], ratio, cosine = lanes->start.cos_phi, sine = lanes->start.sin_phi;
   mask finite, phase_unresolved = mask_all(0);
   int j;
-  for (j = 0; j < NODES; ++j) G[j] = trial->T[j] * trial->f[j];
-  *error = trum_quadrature_error(G);
-  if (any_lane(held & lanes->status.active)) { /* a lap of the held rotor also integrates theta */
-    G[0] = trial->T[0] * lanes->start.theta;
-    for (j = 1; j < NODES; ++j) G[j] = trial->T[j] * trial->at[j].theta;
-    *error = where(lanes->status.contact_only, REAL(0), *error);
-    *error = where(held, maximum(*error, REAL(0.31830988618379067154) * trum_quadrature_error(G)), *error);
-  }
-  ratio = *error * lanes->tolerances.inverse_step;
+  ratio = where(held, maximum(where(lanes->status.contact_only, REAL(0), of_friction), of_angle), of_x) *
+          lanes->tolerances.inverse_step;
+  /* stiff motion of the size of the tolerance would go on for ever at steps of that size: have it damped at once */
+  ratio = where(trial->damped, REAL(trum_stiff_factor) * ratio, ratio);
   if (lanes->slopes) {
     const mask resolved = less_than(REAL(trum_min_step_for_slopes) * lanes->equation.period, lanes->step.h);
     const int contact = any_lane(held & lanes->status.active); /* not wanted of a free rotor */
@@ -55,7 +71,8 @@ static real trum_error_ratio(trum_lanes* lanes, const trum_trial_step* trial, ma
   }
   phase_unresolved =
       phase_unresolved & less_than(REAL(trum_min_step_for_phase) * lanes->equation.period, lanes->step.h);
-  return where(phase_unresolved, maximum(ratio, REAL(40)), ratio);
+  ratio = where(phase_unresolved, maximum(ratio, REAL(40)), ratio);
+  return where(less_than(REAL(1.01) * trum_longest_step(lanes, trial), lanes->step.h), maximum(ratio, REAL(10)), ratio);
 }
 
 #endif

@@ -8,6 +8,7 @@
 /* The next attempt of every lane: length, curvature and the event that it is to end at (-1: none). */
 typedef struct {
   real h, curvature, target_event;
+  real root_error; /* of the integral of f, by ending beside a square root */
   mask retry, at_target; /* repeat the step; it has ended at its target */
 } trum_next_step;
 
@@ -32,9 +33,10 @@ static trum_next_step trum_adjust_to_events(trum_lanes* lanes, trum_trial_step* 
   mask meets_event, is_root, ahead, at_start, misses = mask_all(0);
   int j, k;
   next.h = lanes->step.h, next.curvature = lanes->step.curvature, next.target_event = lanes->step.target_event;
-  next.at_target = mask_all(0);
+  next.at_target = mask_all(0), next.root_error = REAL(0);
   trum_locate_first_event(lanes, trial->z, trial->events, cubic, &location, &event);
-  meets_event = may_retry & less_than(location, REAL(1.5));
+  /* stiff motion goes to and fro over events until it is damped */
+  meets_event = may_retry & less_than(location, REAL(1.5)) & mask_not(trial->damped);
   if (any_lane(aimed)) {
     real root = REAL(1), distance = REAL(0);
     trum_cubic q = cubic[0];
@@ -57,6 +59,12 @@ static trum_next_step trum_adjust_to_events(trum_lanes* lanes, trum_trial_step* 
     tolerance = trum_event_tolerance(lanes, lanes->step.target_event, lanes->tolerances.slope_end);
     next.at_target = aimed & less_than(root, REAL(1.24)); /* else there is no event after all */
     misses = next.at_target & may_retry & less_than(tolerance, distance);
+    { /* f goes as the root of the time to the event: what that sums up to over the distance, before it and after it */
+      const real time = absolute(root - REAL(1)) * lanes->step.h;
+      const real steepness = absolute(trial->f[LAST_NODE] - trial->f[2]) * REAL(1 / 0.27639320225002103);
+      next.root_error = where(is_root & next.at_target,
+                              REAL(2) * steepness * time * square_root(time * reciprocal(lanes->step.h)), REAL(0));
+    }
     next.at_target = next.at_target & mask_not(misses);
     /* another event before the target comes first */
     meets_event = meets_event & mask_not((next.at_target | misses) & trum_is_event(event, lanes->step.target_event));

@@ -2,11 +2,23 @@
 #ifndef TRUM_ORBIT_EXTREMES_H
 #define TRUM_ORBIT_EXTREMES_H
 
+/* The magnitude of the error, and the remainder, at the extremes so far. */
+static void trum_mark_extremes(trum_lap* lap, mask lower, mask higher, real error, real remainder) {
+  lap->low_error = where(lower, error, lap->low_error);
+  lap->low_remainder = where(lower, remainder, lap->low_remainder);
+  lap->high_error = where(higher, error, lap->high_error);
+  lap->high_remainder = where(higher, remainder, lap->high_remainder);
+}
+
 /* Takes an accepted step into the lap's extremes of x, with S and the sensitivities at them. */
 static void trum_update_extremes(const real* G, const real* x, const real* S, real (*d)[NODES], int slopes,
-                                 mask accepted, trum_lap* lap) {
+                                 mask accepted, const trum_defect* defect, trum_lap* lap) {
   static const double P[NODES][NODES] = TRUM_COLLOCATION_POWERS;
   real p[NODES], top = maximum(x[0], x[1]), bottom = minimum(x[0], x[1]), steepest = absolute(G[0]);
+  const real end_error = absolute(lap->error * defect->kept + defect->x);
+  const real end_remainder = lap->remainder * defect->kept + defect->remainder;
+  const real error = maximum(absolute(lap->error), end_error);
+  const real remainder = maximum(lap->remainder, end_remainder) + defect->inside;
   mask has_extremum = mask_all(0), relevant;
   int k, j, parameter;
   for (j = 1; j < NODES; ++j) {
@@ -40,6 +52,7 @@ static void trum_update_extremes(const real* G, const real* x, const real* S, re
       lower = relevant & less_than(value, lap->low), higher = relevant & less_than(lap->high, value);
       lap->low = where(lower, value, lap->low), lap->S_low = where(lower, S_there, lap->S_low);
       lap->high = where(higher, value, lap->high), lap->S_high = where(higher, S_there, lap->S_high);
+      trum_mark_extremes(lap, lower, higher, error, remainder);
       for (parameter = 0; slopes && parameter < PARAMETERS; ++parameter) {
         real slope_there = weight[0] * d[parameter][0];
         for (j = 1; j < NODES; ++j) slope_there = slope_there + weight[j] * d[parameter][j];
@@ -53,6 +66,7 @@ static void trum_update_extremes(const real* G, const real* x, const real* S, re
     const mask higher = accepted & less_than(lap->high, x[LAST_NODE]);
     lap->low = where(lower, x[LAST_NODE], lap->low), lap->S_low = where(lower, S[LAST_NODE], lap->S_low);
     lap->high = where(higher, x[LAST_NODE], lap->high), lap->S_high = where(higher, S[LAST_NODE], lap->S_high);
+    trum_mark_extremes(lap, lower, higher, end_error, end_remainder);
     for (k = 0; slopes && k < PARAMETERS; ++k) {
       lap->d_low[k] = where(lower, d[k][LAST_NODE], lap->d_low[k]);
       lap->d_high[k] = where(higher, d[k][LAST_NODE], lap->d_high[k]);

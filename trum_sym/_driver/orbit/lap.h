@@ -14,9 +14,11 @@ typedef struct {
   int bisect_next;
 } trum_bracket;
 
-/* The last change of the start speed, that lap's error, and the share of a change that the next one has left. */
+/* The lap before: its change of the start speed, start, decay, gain without its errors and what that is uncertain by;
+ * how far around it laps draw speeds together alike, and by what share their slope is off. */
 typedef struct {
-  double last_step, last_error, contraction;
+  double last_step, start, decay, exact_gain, uncertainty, trusted, slope_error;
+  int probes; /* laps beside a start whose gain has no certain sign */
 } trum_newton_record;
 
 /* What errors are measured by: a speed; with slopes the sums of the lap before. */
@@ -101,6 +103,18 @@ static void trum_set_tolerances(trum_lanes* lanes, int i, const trum_search* sea
   if (close) set_lane(&t->newton, i, trum_slope_newton_factor * lane_value(&t->newton, i));
 }
 
+/* Sets a lap's errors to none. */
+static void trum_clear_lap_errors(trum_lap* lap, int i) {
+  set_lane(&lap->error, i, 0.0), set_lane(&lap->remainder, i, 0.0);
+  set_lane(&lap->error_sum, i, 0.0), set_lane(&lap->remainder_sum, i, 0.0);
+  set_lane(&lap->error_square, i, 0.0), set_lane(&lap->error_S, i, 0.0), set_lane(&lap->SS, i, 0.0);
+  set_lane(&lap->largest_remainder, i, 0.0), set_lane(&lap->inside, i, 0.0);
+  set_lane(&lap->low_error, i, 0.0), set_lane(&lap->low_remainder, i, 0.0);
+  set_lane(&lap->high_error, i, 0.0), set_lane(&lap->high_remainder, i, 0.0);
+  set_lane(&lap->friction_error, i, 0.0), set_lane(&lap->friction_remainder, i, 0.0);
+  set_lane(&lap->angle_error, i, 0.0), set_lane(&lap->angle_remainder, i, 0.0);
+}
+
 /* Sets a lap's sums to those of no time. */
 static void trum_clear_lap(trum_lap* lap, int i, int slopes) {
   int k;
@@ -108,7 +122,8 @@ static void trum_clear_lap(trum_lap* lap, int i, int slopes) {
   set_lane(&lap->low, i, 0.0), set_lane(&lap->high, i, 0.0);
   set_lane(&lap->S_low, i, 1.0), set_lane(&lap->S_high, i, 1.0);
   set_lane(&lap->friction, i, 0.0), set_lane(&lap->angle, i, 0.0);
-  set_lane(&lap->full_contact, i, 0.0), set_lane(&lap->fastest, i, 0.0), set_lane(&lap->error, i, 0.0);
+  set_lane(&lap->full_contact, i, 0.0), set_lane(&lap->fastest, i, 0.0);
+  trum_clear_lap_errors(lap, i);
   for (k = 0; slopes && k < PARAMETERS; ++k) {
     set_lane(&lap->sum_abs_friction[k], i, 0.0), set_lane(&lap->sum_abs_angle[k], i, 0.0);
     set_lane(&lap->d_x[k], i, 0.0), set_lane(&lap->d_xx[k], i, 0.0);
@@ -136,6 +151,7 @@ static void trum_start_lap(trum_lanes* lanes, int i, trum_search* search) {
   set_lane(&lanes->equation.push, i, held ? 0.0 : in->push), set_lane(&lanes->equation.drag, i, held ? 0.0 : in->drag);
   set_lane(&lanes->equation.v0, i, search->start_speed);
   trum_set_tolerances(lanes, i, search);
+  set_lane(&lanes->step.stiffness, i, 0.0);
   set_lane(&lanes->step.steps_left, i, trum_max_steps_per_period * in->m);
   set_lane(&lanes->step.free_h, i, trum_first_step * lane_value(&lanes->equation.period, i));
   set_lane(&start->x, i, 0.0), set_lane(&start->S, i, 1.0);

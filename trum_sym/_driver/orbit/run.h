@@ -28,7 +28,8 @@ static void trum_advance_lanes(trum_lanes* lanes, trum_search* searches, int* bu
 static void trum_set_unknown(trum_orbit_out* out, trum_slopes_out* slopes) {
   int of, parameter;
   out->mean = out->low = out->high = out->variance = out->start = out->level = out->error = NAN;
-  out->contact = out->held = NAN, out->flags = 0;
+  out->mean_error = out->low_error = out->high_error = out->deviation_error = NAN;
+  out->contact = out->held = out->contact_error = out->held_error = NAN, out->flags = 0;
   for (of = 0; slopes && of < FIGURES; ++of)
     for (parameter = 0; parameter < PARAMETERS; ++parameter) slopes->of[of][parameter] = NAN;
 }
@@ -79,7 +80,8 @@ static void trum_orbits(const trum_orbit_in* in, trum_orbit_out* out, const trum
   trum_run_tasks(in, out, 0, 0, count);
   for (k = 0; k < count; ++k) {
     const int flags = (int)out[k].flags;
-    if (in[k].held > 0.5 && isnan(out[k].held) && flags & trum_converged) out[k].flags = flags - trum_converged;
+    const int known = out[k].held_error <= in[k].tolerance && out[k].contact_error <= in[k].tolerance;
+    if (in[k].held > 0.5 && !known && flags & trum_converged) out[k].flags = flags - trum_converged;
   }
   if (slopes_in) trum_run_tasks(in, out, slopes_in, slopes_out, count);
 }

@@ -1,9 +1,10 @@
 /* Shooting: the start speed that a lap reproduces, by Newton on the lap within a bracket.
  *
  * The gain of speed over a lap falls as the start speed rises, with slope growth - 1 between -1 and 0 (friction draws
- * speeds together), so the root is unique.  Newton's step is gain / (1 - growth); where it leaves the bracket or does
- * not shrink, false position and bisection take turns.  The errors of a lap's steps can only add up, to error in the
- * start speed of their sum over (1 - growth). */
+ * speeds together), so the root is unique.  A gain whose sign is certain in spite of the lap's errors bounds it.
+ * Newton's step is gain / (1 - growth); where it leaves the bracket or does not shrink, false position and bisection
+ * take turns.  Newton's step is believed where laps around it draw speeds together alike; near the largest load, where
+ * most laps are saturated, the bracket is. */
 #ifndef TRUM_ORBIT_SHOOTING_H
 #define TRUM_ORBIT_SHOOTING_H
 
@@ -49,102 +50,86 @@ static void trum_update_slope_scales(const trum_lanes* lanes, int i, trum_search
 
 /* What a finished lap says of the orbit. */
 typedef struct {
-  double gain, growth, decay; /* of speed over the lap; S at its end; 1 - growth */
-  double low, high;           /* extremes over the start speed */
-  double top, bound;          /* the largest speed of the lap; above all speeds that are possible */
-  double gain_error, error;   /* bounds of the steps' errors in the gain and in the start speed */
-  double fine_level;          /* of laps whose figures count */
-  int first, accurate, last;  /* coarse first lap; at the fine level; no more laps are allowed */
+  double gain, growth, decay;     /* of speed over the lap; S at its end; 1 - growth */
+  double exact_gain, uncertainty; /* the gain without the lap's errors; what it may still be off by */
+  double top, bound;              /* the largest speed of the lap; above all speeds that are possible */
+  double newton, saturated_gain;  /* Newton's step; the gain of a lap with saturated friction, where that is smaller */
+  double change, trusted;         /* of ln decay since the lap before; how far around decay is alike */
+  double slope_error;             /* of the lap's slope, beside that of the secant to the lap before */
+  int certain, known;             /* has the exact gain a certain sign?  is Newton's step to be believed? */
+  int accurate, last;             /* at the fine level; no more laps are allowed */
 } trum_lap_summary;
 
 /* Reads off a lap that has ended, and counts it. */
 static trum_lap_summary trum_summarise_lap(const trum_lanes* lanes, int i, trum_search* search) {
   const trum_lap* lap = &lanes->lap;
+  const trum_orbit_in* in = search->in;
+  const double error = lane_value(&lap->error, i);
   trum_lap_summary s;
-  double at_low, at_high;
   s.gain = lane_value(&lanes->start.x, i), s.growth = lane_value(&lanes->start.S, i);
   s.decay = 1.0 - s.growth > 1e-14 ? 1.0 - s.growth : 1e-14;
-  s.low = lane_value(&lap->low, i), s.high = lane_value(&lap->high, i), s.bound = 1.5 * lane_value(&lap->fastest, i);
-  at_low = fabs(search->start_speed + s.low), at_high = fabs(search->start_speed + s.high);
-  s.top = at_low > at_high ? at_low : at_high;
-  s.gain_error = lane_value(&lap->error, i) * search->in->push, s.error = s.gain_error / s.decay;
-  s.fine_level = trum_step_share * search->in->tolerance;
-  s.accurate = search->level <= s.fine_level * 1.0001, s.last = ++search->laps >= trum_max_laps;
-  s.first = search->laps == 1 && !s.accurate;
+  s.exact_gain = s.gain - error, s.uncertainty = 0.1 * fabs(error) + lane_value(&lap->remainder, i);
+  s.bound = 1.5 * lane_value(&lap->fastest, i);
+  s.top = trum_larger(fabs(search->start_speed + lane_value(&lap->low, i)),
+                      fabs(search->start_speed + lane_value(&lap->high, i)));
+  s.newton = s.gain / s.decay;
+  s.saturated_gain = (in->push - fabs(in->drag)) * lane_value(&lanes->equation.cycle_time, i);
+  s.certain = fabs(s.exact_gain) > s.uncertainty;
+  s.accurate = search->level <= trum_step_share * in->tolerance * 1.0001, s.last = ++search->laps >= trum_max_laps;
   return s;
 }
 
-/* Moves an end of the bracket to the lap's start speed, unless a coarse lap leaves the sign of its gain open. */
+/* Compares a lap with the one before: how far laps draw speeds together alike, and whether Newton's step stays within a
+ * part of that. */
+static void trum_compare_laps(const trum_search* search, trum_lap_summary* s) {
+  const trum_newton_record* before = &search->newton;
+  const double distance = fabs(search->start_speed - before->start), allowed = search->in->tolerance * s->top;
+  double secant_error = before->slope_error;
+  s->change = before->decay > 0.0 ? fabs(log(s->decay / before->decay)) : HUGE_VAL;
+  s->trusted = s->change < 0.7 ? trum_larger(distance, before->trusted - distance) : 0.0;
+  if (distance * s->decay > 30.0 * (s->uncertainty + before->uncertainty)) {
+    const double secant = (before->exact_gain - s->exact_gain) / (search->start_speed - before->start);
+    secant_error = 2.0 * fabs(secant / s->decay - 1.0);
+  }
+  s->slope_error = s->change + secant_error;
+  s->known = s->change < 0.7 && fabs(s->gain) <= 0.3 * s->saturated_gain &&
+             fabs(s->newton) + s->uncertainty / s->decay <= trum_larger(0.1 * s->trusted, 0.05 * allowed);
+}
+
+/* What the change of the start speed is uncertain by: Newton's step in the ratio in which its slope is off, or the
+ * bracket. */
+static trum_start_change trum_uncertain_change(const trum_search* search, const trum_lap_summary* s, double change) {
+  const double share = 0.02 + s->slope_error + fabs(s->gain) / s->saturated_gain;
+  const double width = search->bracket.high - search->bracket.low;
+  trum_start_change start;
+  start.change = s->known ? s->newton : change, start.rival = fabs(s->gain);
+  start.uncertainty = s->known ? fabs(s->newton) * (share < 1.0 ? share : 1.0) : HUGE_VAL;
+  if (width < 2.0 * s->bound && width < start.uncertainty) start.uncertainty = width;
+  return start;
+}
+
+/* Moves an end of the bracket to the lap's start speed, if the sign of its gain is certain. */
 static void trum_update_bracket(trum_search* search, const trum_lap_summary* s) {
   trum_bracket* b = &search->bracket;
-  if (s->first && !(fabs(s->gain) > 10.0 * s->gain_error)) return;
-  if (s->gain > 0.0) b->low = search->start_speed, b->gain_low = s->gain;
-  else b->high = search->start_speed, b->gain_high = s->gain;
+  if (!s->certain) return;
+  if (s->exact_gain > 0.0) b->low = search->start_speed, b->gain_low = s->exact_gain;
+  else b->high = search->start_speed, b->gain_high = s->exact_gain;
 }
 
 /* The next start speed: Newton's, or a division of the bracket where that leaves it or is not half the step before. */
 static double trum_next_start(trum_search* search, const trum_lap_summary* s) {
   trum_bracket* b = &search->bracket;
-  double next = search->start_speed + s->gain / s->decay;
+  double next = search->start_speed + s->exact_gain / s->decay;
   next = next > s->bound ? s->bound : next < -s->bound ? -s->bound : next;
   if (next > b->low && next < b->high && fabs(next - search->start_speed) <= 0.5 * search->newton.last_step)
     return next;
   if (b->low > -HUGE_VAL && b->high < HUGE_VAL) {
-    const double share = b->bisect_next ? 0.5 : b->gain_low / (b->gain_low - b->gain_high);
+    const double ratio = b->gain_low / -b->gain_high; /* one end is saturated if the other's gain is much larger */
+    const double share =
+        b->bisect_next || ratio > 10.0 || ratio < 0.1 ? 0.5 : b->gain_low / (b->gain_low - b->gain_high);
     next = b->low + share * (b->high - b->low), b->bisect_next = !b->bisect_next;
   }
   return next;
-}
-
-/* Whether a change of the start speed is small enough to end the search at this level.  The figures follow the last
- * change to first order, so its square counts; slopes do not follow it. */
-static int trum_change_is_small(const trum_lanes* lanes, trum_search* search, const trum_lap_summary* s,
-                                double change) {
-  const double tolerance = search->in->tolerance, size = fabs(change);
-  const double allowed = s->top * (lanes->slopes && search->stage == STAGE_FINE ? tolerance : sqrt(0.1 * tolerance));
-  const int at_resolution =
-      !s->first && (size <= s->error || search->bracket.high - search->bracket.low <= 1e-15 * s->bound);
-  /* a change leaves its square, or what a lap keeps of it, and a part of the steps' errors, most of which cancel */
-  const double remaining = size * (s->growth < size / s->top ? s->growth : size / s->top) + 0.3 * s->error;
-  trum_newton_record* newton = &search->newton;
-  int small;
-  if (newton->last_step > 10.0 * newton->last_error)
-    newton->contraction = size < newton->last_step ? size / newton->last_step : 1.0;
-  newton->last_step = size, newton->last_error = s->error;
-  small = s->accurate ? size <= allowed && size * newton->contraction <= tolerance * s->top : remaining <= allowed;
-  return small || at_resolution;
-}
-
-/* The figures of the orbit from its last lap, moved along by the last change of the start speed. */
-static void trum_store_orbit(const trum_lanes* lanes, int i, trum_search* search, const trum_lap_summary* s,
-                             double next) {
-  const trum_lap* lap = &lanes->lap;
-  const double cycle_time = lane_value(&lanes->equation.cycle_time, i);
-  const double mean = lane_value(&lap->x, i) / cycle_time, mean_S = lane_value(&lap->S, i) / cycle_time;
-  const double square = lane_value(&lap->xx, i) / cycle_time, mean_xS = lane_value(&lap->xS, i) / cycle_time;
-  const double change = next - search->start_speed;
-  const double variance = square - mean * mean + 2.0 * change * (mean_xS - mean * mean_S);
-  trum_orbit_out* out = search->out;
-  if (lanes->slopes) trum_store_slopes(lanes, i, search);
-  out->mean = search->start_speed + mean + change * mean_S;
-  out->low = search->start_speed + s->low + change * lane_value(&lap->S_low, i);
-  out->high = search->start_speed + s->high + change * lane_value(&lap->S_high, i);
-  /* the last change leaves the order of nearly equal speeds open */
-  out->low = out->low < out->mean ? out->low : out->mean, out->high = out->high > out->mean ? out->high : out->mean;
-  out->variance = variance > 0.0 ? variance : 0.0;
-  out->start = next, out->level = search->level, out->error = s->error / s->top;
-  if (s->error <= search->in->tolerance * s->top) out->flags += trum_converged;
-}
-
-/* The figures of the last lap that is allowed, not flagged as converged. */
-static void trum_store_last_lap(const trum_lanes* lanes, int i, trum_search* search, const trum_lap_summary* s,
-                                double change) {
-  const double cycle_time = lane_value(&lanes->equation.cycle_time, i);
-  const double mean = lane_value(&lanes->lap.x, i) / cycle_time;
-  trum_orbit_out* out = search->out;
-  out->mean = search->start_speed + mean, out->low = search->start_speed + s->low;
-  out->high = search->start_speed + s->high, out->variance = lane_value(&lanes->lap.xx, i) / cycle_time - mean * mean;
-  out->start = search->start_speed, out->level = search->level, out->error = fabs(change) / s->top;
 }
 
 /* The speed that errors of the next lap are measured by: the smaller the decay, the more an error of a step weighs. */
@@ -153,33 +138,21 @@ static double trum_scale_of(const trum_orbit_in* in, const trum_lap_summary* s, 
   return s->top * (s->decay > 1e-3 ? s->decay : 1e-3 * (reach < s->top ? s->decay + reach / s->top : 1.0));
 }
 
-/* The level of the first fine lap after one whose error is known: the steps' errors add up to what goes as the level to
- * the power 3/4. */
-static double trum_level_after(const trum_search* search, const trum_lap_summary* s, double previous_error) {
-  const double ratio = s->fine_level * search->scales.speed / previous_error;
-  const double expected = s->error * sqrt(ratio) * sqrt(sqrt(ratio)),
-               excess = search->in->tolerance * s->top / expected;
-  return excess < 1.0 ? s->fine_level * 0.5 * (excess > 0.01 ? excess : 0.01) : s->fine_level;
-}
-
-/* The next lap is a fine one: its level, and a bracket that starts anew as errors differ. */
-static void trum_start_fine_laps(trum_search* search, double level) {
-  search->stage = STAGE_FINE, search->level = level;
-  search->bracket.low = -HUGE_VAL, search->bracket.high = HUGE_VAL;
-}
-
-/* A lap of the held rotor has ended.  With slopes there are two more, one with errors measured by the friction's slopes
- * and one by the contact's. */
+/* A lap of the held rotor has ended.  Without slopes it is repeated until its bounds meet the tolerance; with slopes
+ * there are two more, one with errors measured by the friction's slopes and one by the contact's. */
 static int trum_finish_held_lap(trum_lanes* lanes, int i, trum_search* search) {
-  const int failed = mask_in_lane(lanes->status.failed, i);
-  const double cycle_time = lane_value(&lanes->equation.cycle_time, i);
+  const int met = trum_store_held(lanes, i, search);
   trum_orbit_out* out = search->out;
-  out->contact = failed ? NAN : lane_value(&lanes->lap.angle, i) / cycle_time / 3.14159265358979323846;
-  out->held = failed ? NAN : lane_value(&lanes->lap.friction, i) / cycle_time;
-  if (lanes->slopes && !failed) trum_store_slopes(lanes, i, search);
-  if (lanes->slopes && !failed && search->held_laps < 2) {
+  if (lanes->slopes) trum_store_slopes(lanes, i, search);
+  if (lanes->slopes && search->held_laps < 2) {
     if (!search->held_laps) trum_update_slope_scales(lanes, i, search, 1e300);
     ++search->held_laps;
+    trum_start_lap(lanes, i, search);
+    return 1;
+  }
+  if (!lanes->slopes && !met && ++search->refinements <= 6) {
+    const double error = trum_larger(out->contact_error, out->held_error);
+    search->level *= 0.3 * trum_larger(search->in->tolerance / error, 0.01);
     trum_start_lap(lanes, i, search);
     return 1;
   }
@@ -187,51 +160,111 @@ static int trum_finish_held_lap(trum_lanes* lanes, int i, trum_search* search) {
   return 0;
 }
 
-/* Repeats a lap that could not be followed with shorter steps, three times at most: steps that are too long alternate
+/* Repeats a lap that could not be followed with shorter steps, a few times at most: steps that are too long alternate
  * between the sides of a line contact that is as fast as the rotor. */
 static int trum_repeat_failed_lap(trum_lanes* lanes, int i, trum_search* search) {
   const double fine_level = trum_step_share * search->in->tolerance;
-  if (++search->refinements > 3) return 0;
+  if (++search->refinements > 3) {
+    search->out->flags += lane_value(&lanes->step.steps_left, i) < 0.0 ? trum_too_many_steps : trum_failed_step;
+    return 0;
+  }
   search->level = search->level > fine_level ? fine_level : 0.1 * search->level, ++search->laps;
   trum_start_lap(lanes, i, search);
   return 1;
 }
 
-/* What follows a lap that has ended: stores figures, or starts the next lap.  Returns 0 when the task is done. */
-static int trum_finish_lap(trum_lanes* lanes, int i, trum_search* search) {
-  const trum_orbit_in* in = search->in;
-  trum_lap_summary s;
-  double previous_error, next, change;
-  int small, done;
-  if (search->stage == STAGE_HELD) return trum_finish_held_lap(lanes, i, search);
-  if (mask_in_lane(lanes->status.failed, i)) return trum_repeat_failed_lap(lanes, i, search);
-  s = trum_summarise_lap(lanes, i, search);
-  previous_error = search->level * search->scales.speed;
-  trum_update_bracket(search, &s);
-  next = trum_next_start(search, &s), change = next - search->start_speed;
-  small = trum_change_is_small(lanes, search, &s, change);
-  if (lanes->slopes) trum_update_slope_scales(lanes, i, search, s.decay);
-  search->scales.speed = trum_scale_of(in, &s, lane_value(&lanes->equation.cycle_time, i));
-  if (lanes->slopes && search->stage == STAGE_ROUGH) { /* the first lap from a known orbit has measured its slopes */
-    trum_start_fine_laps(search, s.fine_level);
-    trum_start_lap(lanes, i, search);
+/* After a fine lap whose bounds do not meet the tolerance: shorter steps if its own errors are too large; else from a
+ * better start, or on both sides of a start whose gain has no certain sign.  Returns the next start. */
+static double trum_refine(const trum_lanes* lanes, int i, trum_search* search, const trum_lap_summary* s, double next) {
+  const double allowed = search->in->tolerance * s->top, error = fabs(lane_value(&lanes->lap.error, i));
+  const double width = search->bracket.high - search->bracket.low, middle = search->start_speed;
+  trum_newton_record* newton = &search->newton;
+  trum_start_change own = {s->known ? s->newton : next - middle, 0.1 * error / s->decay, error};
+  trum_store_orbit(lanes, i, search, own, s->top);
+  if (s->known) {
+    const double excess = search->out->error / search->in->tolerance;
+    if (excess > 1.0 && ++search->refinements <= 12) search->level *= 0.3 * trum_larger(1.0 / excess, 0.003);
+    return next;
+  }
+  if (s->certain) return next;
+  newton->last_step = HUGE_VAL;
+  if (width <= 0.5 * allowed || ++newton->probes > 8) {
+    search->level *= 0.1, ++search->refinements, newton->probes = 0;
+    return next;
+  }
+  next = 0.3 * allowed * pow(3.0, newton->probes / 2);
+  next = search->bracket.high - middle > middle - search->bracket.low ? middle + next : middle - next;
+  if (next < search->bracket.high && next > search->bracket.low) return next;
+  return 0.5 * (search->bracket.low + search->bracket.high);
+}
+
+/* A lap with slopes along an orbit that is known: the first one measures them, the next ones end when their start is
+ * good enough.  Returns 1 if there is another lap to do. */
+static int trum_finish_lap_with_slopes(trum_lanes* lanes, int i, trum_search* search, const trum_lap_summary* s,
+                                       double change) {
+  trum_update_slope_scales(lanes, i, search, s->decay);
+  if (search->stage == STAGE_ROUGH) {
+    search->stage = STAGE_FINE, search->level = trum_step_share * search->in->tolerance;
+    search->scales.speed = s->top * trum_larger(s->decay, 1e-3);
     return 1;
   }
-  done = small && (s.accurate || s.last);
-  if (done && !s.last && s.error > in->tolerance * s.top && ++search->refinements <= 3) done = 0;
-  if (done) {
-    trum_store_orbit(lanes, i, search, &s, next);
+  trum_store_slopes(lanes, i, search);
+  return fabs(change) > search->in->tolerance * s->top && s->certain && !s->last;
+}
+
+/* After a lap far from the orbit: its last figures if no more are allowed (returns 0), or a finer level. */
+static int trum_finish_rough_lap(trum_lanes* lanes, int i, trum_search* search, const trum_lap_summary* s,
+                                 double change) {
+  const double nearly = s->top * sqrt(0.1 * search->in->tolerance);
+  if (s->last) {
+    const trum_start_change start = {change, HUGE_VAL, 0.0};
+    trum_store_orbit(lanes, i, search, start, s->top);
+    search->out->flags += trum_too_many_laps;
     return 0;
   }
-  if (s.last) {
-    trum_store_last_lap(lanes, i, search, &s, change);
+  if ((fabs(change) <= nearly && s->change < 0.7) || !s->certain ||
+      search->bracket.high - search->bracket.low <= nearly) {
+    search->stage = STAGE_FINE, search->level = trum_step_share * search->in->tolerance;
+  } else if (search->laps == 1) {
+    search->level = trum_rough_level(search->in->tolerance);
+  }
+  return 1;
+}
+
+/* The bounds after a fine lap: 1 if they meet the tolerance, or if no more laps are allowed. */
+static int trum_finish_fine_lap(trum_lanes* lanes, int i, trum_search* search, const trum_lap_summary* s,
+                                double change) {
+  trum_store_orbit(lanes, i, search, trum_uncertain_change(search, s, change), s->top);
+  if (search->out->error <= search->in->tolerance) search->out->flags += trum_converged;
+  else if (s->last) search->out->flags += trum_too_many_laps;
+  else return 0;
+  return 1;
+}
+
+/* What follows a lap that has ended: stores figures, or starts the next lap.  Returns 0 when the task is done. */
+static int trum_finish_lap(trum_lanes* lanes, int i, trum_search* search) {
+  trum_lap_summary s;
+  double next;
+  trum_newton_record* newton = &search->newton;
+  if (mask_in_lane(lanes->status.failed, i)) return trum_repeat_failed_lap(lanes, i, search);
+  if (search->stage == STAGE_HELD) return trum_finish_held_lap(lanes, i, search);
+  s = trum_summarise_lap(lanes, i, search);
+  trum_compare_laps(search, &s);
+  trum_update_bracket(search, &s);
+  next = trum_next_start(search, &s), newton->last_step = fabs(next - search->start_speed);
+  if (lanes->slopes) {
+    const int known_start = search->stage == STAGE_ROUGH; /* is kept for the lap whose slopes count */
+    if (!trum_finish_lap_with_slopes(lanes, i, search, &s, next - search->start_speed)) return 0;
+    if (known_start) next = search->start_speed;
+  } else if (s.accurate) {
+    if (trum_finish_fine_lap(lanes, i, search, &s, next - search->start_speed)) return 0;
+    next = trum_refine(lanes, i, search, &s, next);
+  } else if (!trum_finish_rough_lap(lanes, i, search, &s, next - search->start_speed)) {
     return 0;
   }
-  if (small) {
-    trum_start_fine_laps(search, trum_level_after(search, &s, previous_error));
-  } else if (s.first) {
-    search->level = trum_rough_level(in->tolerance);
-  }
+  if (!lanes->slopes) search->scales.speed = trum_scale_of(search->in, &s, lane_value(&lanes->equation.cycle_time, i));
+  newton->start = search->start_speed, newton->decay = s.decay, newton->exact_gain = s.exact_gain;
+  newton->uncertainty = s.uncertainty, newton->trusted = s.trusted, newton->slope_error = s.slope_error;
   search->start_speed = next;
   trum_start_lap(lanes, i, search);
   return 1;

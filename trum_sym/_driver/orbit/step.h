@@ -1,4 +1,8 @@
-/* A step by collocation at Lobatto's four nodes (order 6), solved by Newton with the friction's own derivative. */
+/* A step by collocation at Lobatto's four nodes (order 6), solved by Newton with the friction's own derivative.
+ *
+ * Lobatto's rule reflects what is stiff (a light rotor's return to the balance of torques) instead of damping it.  Where
+ * that matters the rate at the first node is replaced by the extrapolation of the other three: order 3, and stiff motion
+ * is gone at the step's end. */
 #ifndef TRUM_ORBIT_STEP_H
 #define TRUM_ORBIT_STEP_H
 
@@ -22,7 +26,9 @@ typedef struct {
   trum_surface at[NODES]; /* from the second node on */
   real z[NODES], T[NODES], x[NODES], f[NODES], f_v[NODES], events[NODES][EVENT_COUNT];
   trum_derivatives derivatives[NODES]; /* if slopes are wanted */
+  mask damped;                         /* the first node's rate is extrapolated */
   mask not_converged;                  /* Newton has not converged */
+  real unsolved;                       /* bound of what Newton leaves of the speeds' changes */
 } trum_trial_step;
 
 /* Whether two event numbers are the same. */
@@ -32,17 +38,18 @@ static mask trum_is_event(real a, real b) { return at_most(absolute(a - b), REAL
 static void trum_solve_collocation(const trum_lanes* lanes, trum_trial_step* trial) {
   static const double A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS, c[NODES] = TRUM_COLLOCATION_POINTS;
   trum_factors equations;
-  real G[NODES], right[NODES], y[NODES];
+  real G[NODES], right[NODES], y[NODES], T_f[NODES], last_change = REAL(HUGE_VAL);
   int i, j, k, tries;
   for (j = 0; j < NODES; ++j) {
     const real sigma = REAL(c[j]);
     trial->z[j] = sigma * (REAL(1) + lanes->step.curvature * (REAL(1) - sigma));
     trial->T[j] = lanes->step.h * (REAL(1) + lanes->step.curvature * (REAL(1) - REAL(2) * sigma));
   }
-  trial->not_converged = lanes->status.active;
+  trial->damped = less_than(REAL(trum_stiff), lanes->step.stiffness * lanes->step.h) &
+                  at_most(REAL(0), lanes->step.curvature);
+  trial->not_converged = lanes->status.active, trial->unsolved = REAL(0);
   trial->x[0] = lanes->start.x, trial->f[0] = lanes->start.f, trial->f_v[0] = lanes->start.f_v;
   for (k = 0; k < EVENT_COUNT; ++k) trial->events[0][k] = lanes->start.events[k];
-  G[0] = trial->T[0] * (lanes->equation.push * trial->f[0] - lanes->equation.drag);
   for (j = 1; j < NODES; ++j) {
     trum_evaluate_surface(lanes, lanes->step.tau + lanes->step.h * trial->z[j], &trial->at[j]);
     trial->x[j] =
@@ -65,11 +72,13 @@ static void trum_solve_collocation(const trum_lanes* lanes, trum_trial_step* tri
       G[j] = trial->T[j] * (lanes->equation.push * trial->f[j] - lanes->equation.drag);
       slope[j] = trial->T[j] * (lanes->equation.push * trial->f_v[j]);
     }
+    G[0] = where(trial->damped, trum_extrapolate_first(G),
+                 trial->T[0] * (lanes->equation.push * lanes->start.f - lanes->equation.drag));
     for (i = 1; i < NODES; ++i) {
       right[i] = lanes->start.x - trial->x[i];
       for (j = 0; j < NODES; ++j) right[i] = right[i] + REAL(A[i][j]) * G[j];
     }
-    equations = trum_factorise(slope);
+    equations = trum_factorise(slope, trial->damped);
     trum_substitute(&equations, right, y);
     for (j = 1; j < NODES; ++j) { /* |f| <= 1 bounds the change of speed */
       const real drift = lanes->start.x - lanes->step.h * trial->z[j] * lanes->equation.drag;
@@ -79,8 +88,16 @@ static void trum_solve_collocation(const trum_lanes* lanes, trum_trial_step* tri
       trial->f[j] = where(trial->not_converged, trial->f[j] + trial->f_v[j] * (next - trial->x[j]), trial->f[j]);
       trial->x[j] = where(trial->not_converged, next, trial->x[j]);
     }
+    /* the next change is smaller in the same ratio at least, as f is convex or concave between its events */
+    trial->unsolved =
+        where(trial->not_converged,
+              where(less_than(change, last_change), change * (change * reciprocal(last_change)), change), trial->unsolved);
+    last_change = where(trial->not_converged, change, last_change);
     trial->not_converged = trial->not_converged & mask_not(at_most(change, lanes->tolerances.newton));
   }
+  for (j = 1; j < NODES; ++j) T_f[j] = trial->T[j] * trial->f[j];
+  trial->f[0] = where(trial->damped, trum_extrapolate_first(T_f) * reciprocal(where(trial->damped, trial->T[0], REAL(1))),
+                      trial->f[0]);
   for (j = 1; j < NODES; ++j) {
     const real v = lanes->equation.v0 + trial->x[j];
     trial->events[j][EVENT_SATURATION] = trial->at[j].R_v * trial->at[j].R_v - v * v;

@@ -46,6 +46,7 @@ static int trum_start_search(trum_lanes* lanes, int i, trum_search* search, doub
     search->out->flags += trum_runaway;
     return 0;
   }
+  if (isnan(known) && trum_balance(lanes, i, search)) return 0;
   search->stage = STAGE_ROUGH, search->level = trum_step_share * trum_first_lap_tolerance;
   search->scales.speed = 0.1 * in->D * in->k_c * in->W * (in->omega_n + in->Delta_omega);
   if (!isnan(known)) search->start_speed = known, search->laps = 1;
@@ -86,7 +87,9 @@ static int trum_load_task(trum_lanes* lanes, int i, trum_search* search, const t
   }
   search->in = in, search->out = out;
   search->laps = search->refinements = search->bracket.bisect_next = 0;
-  search->newton.last_step = search->newton.last_error = 0.0, search->newton.contraction = 1.0;
+  search->newton.last_step = HUGE_VAL, search->newton.start = search->newton.decay = search->newton.exact_gain = 0.0;
+  search->newton.uncertainty = search->newton.trusted = 0.0, search->newton.slope_error = 1.0;
+  search->newton.probes = 0;
   search->stage = STAGE_HELD, search->start_speed = 0.0, search->bracket.low = -HUGE_VAL;
   search->bracket.high = HUGE_VAL;
   search->scales.speed = 0.0, search->level = trum_step_share * in->tolerance;
@@ -104,7 +107,7 @@ static void trum_initialise_lanes(trum_lanes* lanes, int hertz, int slopes) {
   lanes->hertz = hertz, lanes->slopes = slopes, lanes->record = 0;
   for (k = 0; k < EVENT_COUNT; ++k) lanes->start.at_event[k] = mask_all(0), lanes->start.events[k] = TRUM_NUMBER(0);
   lanes->step.tau = lanes->step.time_left = lanes->step.h = lanes->step.free_h = lanes->step.curvature =
-      lanes->step.target_event = lanes->step.retries = lanes->step.steps_left = TRUM_NUMBER(0);
+      lanes->step.target_event = lanes->step.retries = lanes->step.steps_left = lanes->step.stiffness = TRUM_NUMBER(0);
 }
 
 #endif

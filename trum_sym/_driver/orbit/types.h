@@ -29,7 +29,12 @@ typedef struct {
   real low, high, S_low, S_high;                    /* lowest and highest x, and S there */
   real friction, angle;                             /* integrals of f and theta */
   real full_contact, fastest;                       /* 1 if ever in full contact; largest surface speed */
-  real error;                                       /* sum of the steps' errors in the integral of f */
+  /* First-order errors of the lap by the steps' defects, and bounds of what these leave out (defect.h): of x at its end
+   * so far; integrals over time of those, of the error's square and of its product with S; at the extremes; of the
+   * integrals of f and theta.  Integrals of S^2 and of the interpolants' error inside the steps. */
+  real error, remainder, error_sum, remainder_sum, error_square, error_S, largest_remainder, SS, inside;
+  real low_error, low_remainder, high_error, high_remainder;
+  real friction_error, friction_remainder, angle_error, angle_remainder;
   real d_x[PARAMETERS], d_xx[PARAMETERS];           /* sensitivities of all of these: integrals of dx and x dx, */
   real d_low[PARAMETERS], d_high[PARAMETERS];       /* of the extremes, */
   real d_friction[PARAMETERS], d_angle[PARAMETERS]; /* and of the integrals of f and theta at fixed speed; */
@@ -66,6 +71,7 @@ typedef struct {
   real target_event;   /* the event that the step is to end at, or -1 */
   real retries;        /* attempts at this step so far that were given up for an event */
   real steps_left;     /* attempts until the lap is given up */
+  real stiffness;      /* rate at which the steps before drew speeds together, 1/s */
 } trum_step_control;
 
 /* What a step takes over from the last node of the one before. */

@@ -1,0 +1,139 @@
+"""Why the rotor's orbit is known to within what its time steps' defects allow: theorems, each with a proof that raises.
+
+The rim's speed obeys v' = F(v, t) = push f(v, t) - drag, and f falls as v rises (entry ``rotor-orbit`` of the ledger).
+A continuous numerical solution u obeys u' = F(u, t) + r with the defect r.  Everything here rests on that monotony and
+on nothing else; a model whose friction rises with the speed somewhere (where orbits need not be unique) has no such
+bounds, and :func:`comparison` is where it would fail.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import sympy as sp
+
+from derivations import collocation
+
+__all__ = ["THEOREMS", "Theorem", "comparison", "deviation", "kronrod", "monotone_weight", "prove", "start_speed"]
+
+x, t, tau, T = sp.symbols("x t tau T", positive=True)
+
+
+class ProofError(ArithmeticError):
+    """A step of a proof does not hold."""
+
+
+def _zero(expression: sp.Expr, step: str) -> None:
+    if sp.simplify(expression) != 0:
+        raise ProofError(f"{step}: {sp.simplify(expression)} is not 0")
+
+
+def comparison() -> sp.Expr:
+    """The error e = u - v obeys e' = -a e + r, a = -(F(u, t) - F(v, t))/(u - v) >= 0; so |e(T)| <= |e(0)| + integral |r|.
+
+    Returns e(T) by variation of constants: e(0) exp(-A(0, T)) + integral of r(tau) exp(-A(tau, T)), A the integral of a.
+    """
+    a, r, start = sp.Function("a")(t), sp.Function("r"), sp.Symbol("e_0", real=True)
+    from_to = lambda low, high: sp.Integral(sp.Function("a")(x), (x, low, high))  # noqa: E731
+    kept = sp.exp(-from_to(0, t))
+    error = start * kept + kept * sp.Integral(r(tau) * sp.exp(from_to(0, tau)), (tau, 0, t))
+    _zero(sp.expand(error.diff(t).doit() + a * error - r(t)), "variation of constants")
+    _zero(error.subs(t, 0).doit() - start, "it begins at e(0)")
+    exponent = sp.Symbol("A", nonnegative=True)
+    _zero(sp.exp(-exponent).diff(exponent) + sp.exp(-exponent), "what is kept of an error falls as A grows")
+    return error
+
+
+def monotone_weight() -> sp.Expr:
+    """With a weight w that rises from w_0 >= 0 to 1, |integral r w| <= w_0 |R(0)| + (1 - w_0) max |R|, R(s) the integral
+    of r from s to the end.
+
+    By parts: integral r w = w_0 R(0) + integral R dw, and dw >= 0 adds up to 1 - w_0.  What friction keeps of a defect
+    until the step's end is such a weight, whatever the slope of friction in between.
+    """
+    s = sp.Symbol("s", real=True)
+    for degree in range(6):  # polynomials span what the step's interpolants are
+        for power in range(4):
+            r, w = s**degree, sp.Rational(1, 3) + sp.Rational(2, 3) * s**power
+            R = sp.integrate(r.subs(s, tau), (tau, s, 1))
+            by_parts = w.subs(s, 0) * R.subs(s, 0) + sp.integrate(R * w.diff(s), (s, 0, 1))
+            if power:
+                _zero(sp.integrate(r * w, (s, 0, 1)) - by_parts, f"by parts, degree {degree}, weight {power}")
+    return sp.Symbol("w_0") * sp.Abs(sp.Symbol("R_0")) + (1 - sp.Symbol("w_0")) * sp.Symbol("R_max")
+
+
+def kronrod() -> int:
+    """Degree to which Lobatto's nodes and the check nodes integrate exactly, and to which Lobatto's alone do: 9 and 5.
+
+    A defect vanishes at Lobatto's nodes, so three check nodes give its integral as exactly as seven nodes do.
+    """
+    points = [*collocation.nodes(), *collocation.check_nodes()]
+    weights = [*collocation.check_full_weights(), *collocation.check_weights()]
+    lobatto = collocation.integrals().row(collocation.COUNT - 1)
+    for degree in range(10):
+        exact = sp.Rational(1, degree + 1)
+        found = sum(weight * point**degree for weight, point in zip(weights, points, strict=True))
+        _zero(sp.radsimp(sp.expand(found - exact)), f"Kronrod, degree {degree}")
+        plain = sum(lobatto[i] * point**degree for i, point in enumerate(collocation.nodes()))
+        if degree <= 5:
+            _zero(sp.radsimp(sp.expand(plain - exact)), f"Lobatto, degree {degree}")
+    if sp.simplify(sum(lobatto[i] * p**6 for i, p in enumerate(collocation.nodes())) - sp.Rational(1, 7)) == 0:
+        raise ProofError("Lobatto's rule is exact beyond degree 5")
+    return 9
+
+
+def start_speed() -> sp.Expr:
+    """How far the start of the orbit is from that of a lap: (gain - e(T)) / (1 - S) to the first order.
+
+    The lap map P is increasing with slope S between 0 and 1.  The exact lap from v_0 ends at v_0 + gain - e(T), where
+    gain is the numerical one.  On the orbit P(v) = v, so v - v_0 = (P(v) - P(v_0)) + (gain - e(T)).  If the exact gain
+    is positive, the orbit lies above v_0, and below if it is negative: v - P(v) rises strictly.
+    """
+    S, gain, error, change = sp.symbols("S gain e_T change", real=True)
+    found = sp.solve(sp.Eq(change, S * change + gain - error), change)[0]
+    _zero(found - (gain - error) / (1 - S), "the fixed point")
+    slope = sp.Symbol("s", positive=True)  # of v - P(v), 1 - S > 0
+    _zero(sp.integrate(slope, (x, 0, change)) - slope * change, "v - P(v) rises")
+    return found
+
+
+def deviation() -> sp.Expr:
+    """Standard deviations of two speeds differ by no more than that of their difference (triangle inequality).
+
+    With the mean over a lap as inner product, (sd(u) - sd(v))^2 <= var(u - v): the difference of both sides is
+    2 (sd(u) sd(v) - cov(u, v)), which is not negative by Cauchy and Schwarz.
+    """
+    a, b, c = sp.symbols("sd_u sd_v cov", real=True)
+    slack = (a**2 + b**2 - 2 * c) - (a - b) ** 2
+    _zero(slack - 2 * (a * b - c), "the slack")
+    return slack
+
+
+@dataclass(frozen=True)
+class Theorem:
+    """A statement, what it rests on, and its proof."""
+
+    name: str
+    rests_on: str
+    proof: Callable[[], object]
+
+
+THEOREMS = (
+    Theorem("comparison", "friction does not rise with the rotor's speed", comparison),
+    Theorem("monotone weight", "comparison", monotone_weight),
+    Theorem("kronrod", "nothing", kronrod),
+    Theorem("start speed", "comparison", start_speed),
+    Theorem("deviation", "nothing", deviation),
+)
+
+
+def prove() -> dict[str, object]:
+    """Every theorem's result.
+
+    Raises
+    ------
+    ProofError
+        If a step does not hold.
+    """
+    return {theorem.name: theorem.proof() for theorem in THEOREMS}

@@ -1,0 +1,84 @@
+/* An orbit's figures with bounds of their errors, from a lap that almost is one (derivations/error_bound.py).
+ *
+ * To the first order in its defects a lap is off by error(t), which starts at 0.  Its start speed is off, too: the
+ * orbit's is start + gain / decay, up to the lap's error at its end over the decay, and a change of the start changes
+ * the speed by S times it.  So the speed that is reported is off by error(t) + S(t) error(end) / decay to the first
+ * order; what that leaves out is bounded by the remainders and by how well the change of the start speed is known. */
+#ifndef TRUM_ORBIT_BOUNDS_H
+#define TRUM_ORBIT_BOUNDS_H
+
+static double trum_larger(double a, double b) { return a > b ? a : b; }
+
+/* How the start speed of an orbit lies to that of a lap: to be changed by this, which is uncertain by that, beside the
+ * lap's own errors; and by how much more than the extremes that are seen others may move with it. */
+typedef struct {
+  double change, uncertainty, rival;
+} trum_start_change;
+
+/* Bounds of a lap's errors: at its start, of its mean, and of its deviation. */
+static void trum_store_bounds(const trum_lanes* lanes, int i, trum_search* search, trum_start_change start,
+                              double top) {
+  const trum_lap* lap = &lanes->lap;
+  const double cycle_time = lane_value(&lanes->equation.cycle_time, i), growth = lane_value(&lanes->start.S, i);
+  const double decay = 1.0 - growth > 1e-14 ? 1.0 - growth : 1e-14, share = trum_first_order_share;
+  const double S = lane_value(&lap->S, i) / cycle_time, SS = lane_value(&lap->SS, i) / cycle_time;
+  const double end_error = lane_value(&lap->error, i), start_error = end_error / decay;
+  const double start_remainder = (share * fabs(end_error) + lane_value(&lap->remainder, i)) / decay + start.uncertainty;
+  const double mean_error = lane_value(&lap->error_sum, i) / cycle_time, rounding = 4e-15 * top;
+  const double mean_remainder = share * fabs(mean_error) + lane_value(&lap->remainder_sum, i) / cycle_time;
+  const double of_start = fabs(start_error) + start_remainder, of_extremes = start.rival + rounding;
+  const double whole_error = mean_error + S * start_error;
+  const double square = lane_value(&lap->error_square, i) / cycle_time - whole_error * whole_error +
+                        start_error * (2.0 * lane_value(&lap->error_S, i) / cycle_time + start_error * SS);
+  trum_orbit_out* out = search->out;
+  out->mean_error = fabs(whole_error) + mean_remainder + S * start_remainder + rounding;
+  out->low_error = lane_value(&lap->S_low, i) * of_start + (1.0 + share) * lane_value(&lap->low_error, i) +
+                   lane_value(&lap->low_remainder, i) + of_extremes;
+  out->high_error = lane_value(&lap->S_high, i) * of_start + (1.0 + share) * lane_value(&lap->high_error, i) +
+                    lane_value(&lap->high_remainder, i) + of_extremes;
+  /* by the triangle inequality the deviation is off by no more than the deviation of the error */
+  out->deviation_error = sqrt(square > 0.0 ? square : 0.0) + share * (fabs(mean_error) + fabs(end_error)) +
+                         sqrt(SS > S * S ? SS - S * S : 0.0) * start_remainder +
+                         lane_value(&lap->largest_remainder, i) +
+                         0.05 * lane_value(&lap->inside, i) / cycle_time + rounding;
+  out->mean_error *= trum_bound_safety, out->deviation_error *= trum_bound_safety;
+  out->low_error *= trum_bound_safety, out->high_error *= trum_bound_safety;
+  out->error = trum_larger(trum_larger(out->low_error, out->high_error),
+                           trum_larger(out->mean_error, out->deviation_error)) / top;
+}
+
+/* The figures of the orbit whose start speed a lap's is to be changed to, to the first order in the change. */
+static void trum_store_orbit(const trum_lanes* lanes, int i, trum_search* search, trum_start_change start, double top) {
+  const trum_lap* lap = &lanes->lap;
+  const double cycle_time = lane_value(&lanes->equation.cycle_time, i), change = start.change;
+  const double x = lane_value(&lap->x, i) / cycle_time, xx = lane_value(&lap->xx, i) / cycle_time;
+  const double S = lane_value(&lap->S, i) / cycle_time, SS = lane_value(&lap->SS, i) / cycle_time;
+  const double xS = lane_value(&lap->xS, i) / cycle_time;
+  const double variance = xx - x * x + change * (2.0 * (xS - x * S) + change * (SS - S * S));
+  trum_orbit_out* out = search->out;
+  out->start = search->start_speed + change, out->level = search->level;
+  out->mean = search->start_speed + x + change * S;
+  out->low = search->start_speed + lane_value(&lap->low, i) + change * lane_value(&lap->S_low, i);
+  out->high = search->start_speed + lane_value(&lap->high, i) + change * lane_value(&lap->S_high, i);
+  /* the change leaves the order of nearly equal speeds open */
+  out->low = out->low < out->mean ? out->low : out->mean, out->high = out->high > out->mean ? out->high : out->mean;
+  out->variance = variance > 0.0 ? variance : 0.0;
+  trum_store_bounds(lanes, i, search, start, top);
+}
+
+/* Contact and friction of the held rotor; 1 if both bounds meet the tolerance. */
+static int trum_store_held(const trum_lanes* lanes, int i, trum_search* search) {
+  const trum_lap* lap = &lanes->lap;
+  const double cycle_time = lane_value(&lanes->equation.cycle_time, i), pi_time = cycle_time * 3.14159265358979323846;
+  const double contact = lane_value(&lap->angle, i) / pi_time, held = lane_value(&lap->friction, i) / cycle_time;
+  trum_orbit_out* out = search->out;
+  out->contact = contact < 1.0 ? contact : 1.0, out->held = held > 1.0 ? 1.0 : held < -1.0 ? -1.0 : held;
+  out->contact_error = ((1.0 + trum_first_order_share) * fabs(lane_value(&lap->angle_error, i)) +
+                        lane_value(&lap->angle_remainder, i)) / pi_time;
+  out->held_error = ((1.0 + trum_first_order_share) * fabs(lane_value(&lap->friction_error, i)) +
+                     lane_value(&lap->friction_remainder, i)) / cycle_time;
+  out->contact_error *= trum_bound_safety, out->held_error *= trum_bound_safety;
+  return out->contact_error <= search->in->tolerance && out->held_error <= search->in->tolerance;
+}
+
+#endif

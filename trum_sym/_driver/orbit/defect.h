@@ -1,0 +1,137 @@
+/* The defect of a step, and what it makes the speed be off by (derivations/error_bound.py).
+ *
+ * The collocation solution u is a polynomial that satisfies the equation of motion at Lobatto's nodes; between them
+ * u' = F(u, t) + r.  Its distance e from the exact solution obeys e' = -a e + r with a >= 0, as friction draws speeds
+ * together: an error at the step's start is kept by exp(-integral of a), and the defect adds the integral of r times
+ * what is kept of it until the step's end.  Lobatto's rule makes most of that integral cancel, so it is taken with sign,
+ * by Kronrod's three nodes between Lobatto's four. */
+#ifndef TRUM_ORBIT_DEFECT_H
+#define TRUM_ORBIT_DEFECT_H
+
+/* What a step is off by.  Errors are to the first order and have a sign, remainders bound what that leaves out. */
+typedef struct {
+  real friction, friction_remainder, angle, angle_remainder; /* in the integrals of f and of theta */
+  real x, remainder;    /* in x at its end, if it began exactly */
+  real x_integral;      /* in the integral of x */
+  real inside;          /* bound of the interpolant's error between the ends */
+  real xx;              /* the integral of x^2, exact for the interpolant */
+  real kept, mean_kept; /* share of an error at the start that is kept at the end, and on average */
+  real stiffness;       /* rate at which speeds draw together, 1/s */
+} trum_defect;
+
+/* exp(-z) and the mean of exp(-y) for y from 0 to z, for z >= 0, to a few per cent. */
+static real trum_decay(real z) {
+  return reciprocal(REAL(1) + z * (REAL(1) + z * (REAL(0.5) + z * REAL(1.0 / 6))));
+}
+static real trum_mean_decay(real z) { return reciprocal(REAL(1) + z * (REAL(0.5) + z * reciprocal(REAL(12) + z + z))); }
+
+/* A bound of what the quadrature of a defect leaves out: the size of the defect times a power of how much of it does not
+ * cancel, or of how lopsided it is.  *size is the integral of its magnitude. */
+static real trum_quadrature_remainder(const real* r, real* size) {
+  static const double b[] = TRUM_CHECK_WEIGHTS;
+  const real sum = REAL(b[0]) * r[0] + REAL(b[1]) * r[1] + REAL(b[2]) * r[2];
+  const real all =
+      REAL(b[0]) * absolute(r[0]) + REAL(b[1]) * absolute(r[1]) + REAL(b[2]) * absolute(r[2]) + REAL(1e-290);
+  const real inverse = reciprocal(all), even = absolute(sum) * inverse;
+  const real odd = REAL(b[0]) * absolute(r[0] - r[2]) * inverse, rough = maximum(even, odd * odd);
+  *size = all;
+  return all * rough * square_root(rough);
+}
+
+/* The defects of f and theta at the check nodes, over a step's parameter; what is kept of each until the step's end, and
+ * the time that it lasts.  The friction's decay exponents K at the nodes add up to `stiff`. */
+static void trum_evaluate_defect(const trum_lanes* lanes, const trum_trial_step* trial, const real* K, real stiff,
+                                 real* r, real* angle, real* kept, real* lasts, real* xx) {
+  static const double c[] = TRUM_CHECK_POINTS, b[] = TRUM_CHECK_WEIGHTS;
+  static const double V[][NODES] = TRUM_CHECK_VALUES, U[][NODES] = TRUM_CHECK_INTEGRALS;
+  const trum_equation* equation = &lanes->equation;
+  const trum_step_control* step = &lanes->step;
+  int i, j;
+  for (i = 0; i < 3; ++i) {
+    const real sigma = REAL(c[i]), z = sigma * (REAL(1) + step->curvature * (REAL(1) - sigma));
+    const real T = step->h * (REAL(1) + step->curvature * (REAL(1) - REAL(2) * sigma));
+    real x = lanes->start.x, value = REAL(0), theta = REAL(0), ahead = stiff, f, f_v, larger, smaller;
+    trum_surface at;
+    for (j = 0; j < NODES; ++j) {
+      const real G = trial->T[j] * trial->f[j];
+      x = x + REAL(U[i][j]) * (equation->push * G - trial->T[j] * equation->drag);
+      value = value + REAL(V[i][j]) * G;
+      theta = theta + REAL(V[i][j]) * (trial->T[j] * (j == 0 ? lanes->start.theta : trial->at[j].theta));
+      ahead = ahead - REAL(U[i][j]) * K[j];
+    }
+    trum_evaluate_surface(lanes, step->tau + step->h * z, &at);
+    trum_evaluate_friction(&at, equation->v0 + x, &f, &f_v, &larger, &smaller);
+    r[i] = value - T * f, angle[i] = theta - T * at.theta;
+    ahead = maximum(REAL(0), ahead), kept[i] = trum_decay(ahead);
+    lasts[i] = step->h * (REAL(1) - z) * trum_mean_decay(ahead);
+    *xx = *xx + REAL(b[i]) * T * (x * x);
+  }
+}
+
+/* What a trial step is off by. */
+static void trum_step_defect(const trum_lanes* lanes, const trum_trial_step* trial, real root_error, trum_defect* d) {
+  static const double b[] = TRUM_CHECK_WEIGHTS, full[] = TRUM_CHECK_FULL_WEIGHTS;
+  static const double A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS;
+  const real push = lanes->equation.push, h = lanes->step.h, theta = lanes->start.theta;
+  real K[NODES], r[3], angle[3], kept[3], lasts[3], stiff = REAL(0), size, rounding, first, damped;
+  int i, j;
+  for (j = 0; j < NODES; ++j) K[j] = trial->T[j] * trial->f_v[j];
+  trum_extrapolate_ends(lanes->step.curvature, K);
+  d->xx = REAL(0);
+  for (j = 0; j < NODES; ++j) {
+    K[j] = absolute(push * minimum(K[j], REAL(0)));
+    stiff = stiff + REAL(A[LAST_NODE][j]) * K[j];
+    d->xx = d->xx + REAL(full[j]) * trial->T[j] * (trial->x[j] * trial->x[j]);
+  }
+  trum_evaluate_defect(lanes, trial, K, stiff, r, angle, kept, lasts, &d->xx);
+  d->kept = trum_decay(stiff), d->mean_kept = trum_mean_decay(stiff);
+  d->stiffness = stiff * reciprocal(h + REAL(1e-290));
+  first = REAL(full[0]) * trial->T[0] * (trial->f[0] - lanes->start.f); /* of a damped step, at its first node */
+  d->friction = first, d->x = first * d->kept, d->x_integral = REAL(0);
+  damped = absolute(first) * d->kept;
+  for (i = 0; i < 3; ++i) {
+    const real share = REAL(b[i]) * r[i];
+    d->friction = d->friction + share, d->x = d->x + share * kept[i];
+    d->x_integral = d->x_integral + push * (share * lasts[i]), damped = damped + absolute(share) * kept[i];
+  }
+  d->x = push * d->x;
+  /* friction is a difference of two shares of the pressure, each rounded: the more so the narrower the contact; and a
+   * wave that begins from rest is a difference of two motions, of unknown phase while it is lost in their rounding */
+  rounding = REAL(4e-16) * h * (REAL(1) + REAL(3) * reciprocal(theta * theta + REAL(1e-200)));
+  rounding = rounding + h * minimum(REAL(2), REAL(4e-15) * lanes->constants.W *
+                                                 reciprocal(trial->at[1].W_c + REAL(1e-200)));
+  d->friction_remainder = trum_quadrature_remainder(r, &size);
+  d->friction_remainder = where(trial->damped, damped, d->friction_remainder) + rounding + root_error;
+  d->inside = REAL(0.5) * push * size;
+  /* the decay of errors is known to the first order only */
+  d->remainder = push * d->friction_remainder + trial->unsolved +
+                 push * size * stiff * stiff * reciprocal(REAL(20) + stiff * stiff * (REAL(4) + stiff));
+  d->angle_remainder = trum_quadrature_remainder(angle, &size) + REAL(1e-15) * h;
+  d->angle = REAL(b[0]) * angle[0] + REAL(b[1]) * angle[1] + REAL(b[2]) * angle[2];
+}
+
+/* Adds an accepted step's errors to its lap's; to be called before S and x move on. */
+static void trum_add_defect(trum_lanes* lanes, const trum_defect* d, const real* S, mask accepted) {
+  trum_lap* lap = &lanes->lap;
+  const real h = lanes->step.h, half = REAL(0.5) * h;
+  const real error = lap->error * d->kept + d->x, remainder = lap->remainder * d->kept + d->remainder;
+  lap->error_sum = where(accepted, lap->error_sum + h * lap->error * d->mean_kept + d->x_integral, lap->error_sum);
+  lap->error_square =
+      where(accepted, lap->error_square + half * (lap->error * lap->error + error * error), lap->error_square);
+  lap->error_S = where(accepted, lap->error_S + half * (lap->error * S[0] + error * S[LAST_NODE]), lap->error_S);
+  lap->remainder_sum = where(accepted, lap->remainder_sum + h * (lap->remainder * d->mean_kept + d->remainder),
+                             lap->remainder_sum);
+  lap->largest_remainder =
+      where(accepted, maximum(lap->largest_remainder, remainder), lap->largest_remainder);
+  lap->inside = where(accepted, lap->inside + h * d->inside, lap->inside);
+  lap->error = where(accepted, error, lap->error), lap->remainder = where(accepted, remainder, lap->remainder);
+  lap->friction_error = where(accepted, lap->friction_error + d->friction, lap->friction_error);
+  lap->friction_remainder =
+      where(accepted, lap->friction_remainder + d->friction_remainder, lap->friction_remainder);
+  lap->angle_error = where(accepted, lap->angle_error + d->angle, lap->angle_error);
+  lap->angle_remainder = where(accepted, lap->angle_remainder + d->angle_remainder, lap->angle_remainder);
+  lanes->step.stiffness =
+      where(accepted, maximum(d->stiffness, REAL(0.8) * lanes->step.stiffness), lanes->step.stiffness);
+}
+
+#endif
