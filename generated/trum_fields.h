@@ -72,7 +72,12 @@
   X(max_speed, "rad/s") \
   X(speed_volatility, "1") \
   X(stall_torque, "N*m") \
-  X(contact_fraction, "1")
+  X(contact_fraction, "1") \
+  X(mean_speed_error, "rad/s") \
+  X(min_speed_error, "rad/s") \
+  X(max_speed_error, "rad/s") \
+  X(speed_volatility_error, "1") \
+  X(stall_torque_error, "N*m")
 /* choice, number of words, the words in the order of their numbers */
 #define TRUM_CHOICES(X) \
   X(start, 3, "periodic steady rest") \

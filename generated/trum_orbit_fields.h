@@ -115,6 +115,12 @@
   X(start, "m/s") \
   X(level, "1") \
   X(error, "1") \
+  X(mean_error, "m/s") \
+  X(low_error, "m/s") \
+  X(high_error, "m/s") \
+  X(deviation_error, "m/s") \
+  X(contact_error, "1") \
+  X(held_error, "1") \
   X(flags, "1")
 
 /* derivatives of the free motion before t1 by resonance and difference */
@@ -240,8 +246,14 @@ typedef struct {
   double held; /* 1: mean friction fraction with the rotor held; NaN unless wanted */
   double start; /* m/s: speed at the start of the cycle */
   double level; /* 1: error that a step of the last lap was allowed, per drive period */
-  double error; /* 1: bound of the speeds' error, over the largest speed */
-  double flags; /* 1: sum of trum_converged, trum_full_contact, trum_runaway */
+  double error; /* 1: the largest of the bounds below, over the largest speed */
+  double mean_error; /* m/s: bound of the error of mean */
+  double low_error; /* m/s: of low */
+  double high_error; /* m/s: of high */
+  double deviation_error; /* m/s: of the root of variance */
+  double contact_error; /* 1: of contact */
+  double held_error; /* 1: of held */
+  double flags; /* 1: sum of the bits of TRUM_ORBIT_FLAGS */
 } trum_orbit_out;
 
 /* derivatives of the free motion before t1 by resonance and difference */
@@ -283,7 +295,7 @@ typedef struct {
 } trum_slopes_out;
 
 /* bits of an orbit's flags, and their names */
-enum { trum_converged = 1, trum_full_contact = 2, trum_runaway = 4 };
-#define TRUM_ORBIT_FLAGS "converged full_contact runaway"
+enum { trum_converged = 1, trum_full_contact = 2, trum_runaway = 4, trum_autonomous = 8, trum_too_many_steps = 16, trum_too_many_laps = 32, trum_failed_step = 64 };
+#define TRUM_ORBIT_FLAGS "converged full_contact runaway autonomous too_many_steps too_many_laps failed_step"
 
 #endif

@@ -19,6 +19,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import mpmath as mp
 import numpy as np
 
 import trum_sym as ts
@@ -96,8 +97,8 @@ def draw(box: str, count: int, seed: int, most_periods: int | None = None) -> di
     }  # fmt: skip
 
 
-def _evaluated(columns: dict[str, np.ndarray], chosen: np.ndarray) -> tuple[Any, np.ndarray]:
-    """The product's answer and the witness's constants for points of one start and contact."""
+def _evaluated(columns: dict[str, np.ndarray], chosen: np.ndarray) -> tuple[Any, np.ndarray, np.ndarray, float]:
+    """The product's answer, the witness's constants, the loads and the contact's radius for points of one start and contact."""
     c = {name: values[chosen] for name, values in columns.items()}
     motor = ts.load_motor("trum60").with_values({name: c[name] for name in ("rotor_inertia", "friction_coefficient")})
     radius = float(motor.contact_radius.value)
@@ -107,7 +108,6 @@ def _evaluated(columns: dict[str, np.ndarray], chosen: np.ndarray) -> tuple[Any,
         start=STARTS[int(c["start"][0])],
     )  # fmt: skip
     contact = "hertz" if c["hertz"][0] else "winkler"
-    parts = []
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ts.ValidityWarning)
         from trum_sym.model.levels import Levels
@@ -122,35 +122,38 @@ def _evaluated(columns: dict[str, np.ndarray], chosen: np.ndarray) -> tuple[Any,
     }  # fmt: skip
     values = {name: np.asarray(p.value) for name, p in motor.parameters()}
     given = {**c, "load_torque": drive.load_torque}
-    del parts
-    return orbit, witness.constants(values, given, stator, contact)
+    return orbit, witness.constants(values, given, stator, contact), np.asarray(drive.load_torque), radius
 
 
-def _closed(p: np.ndarray) -> tuple[np.ndarray, float]:
-    """Figures of a plain wave's orbit, and what rounding leaves of them in double precision."""
-    height, share, sense = p[5], p[11] / p[10], np.sign(p[4])
-    theta = min(np.pi, p[8] / np.sqrt(height)) if p[9] else witness._half_angle(p[7] / height, 1.0)
-    load = np.sin(theta) - theta * np.cos(theta)
-    within = 0.5 * (1 + sense * share) * load
-    low, high = 0.0, theta
-    for _ in range(200):
-        a = 0.5 * (low + high)
-        # sin a - a cos theta without cancellation
-        if 2 * np.cos(a / 2) * np.sin(a / 2) - a * np.cos(theta) > within:
-            high = a
+def _closed(p: np.ndarray, share: mp.mpf) -> mp.mpf:
+    """The rim speed of a plain wave's orbit to 30 digits: where friction within the angle a balances the load."""
+    with mp.workdps(30):
+        height, sense = mp.mpf(p[5]), int(np.sign(p[4]))
+        even, weight = mp.mpf(0), mp.mpf(1)
+        if p[9]:
+            theta = min(mp.pi, mp.mpf(p[8]) / mp.sqrt(height))
+            even = -mp.cos(theta)
+        elif p[7] < np.pi * p[5]:
+            theta = mp.findroot(lambda x: mp.sin(x) - x * mp.cos(x) - mp.mpf(p[7]) / height, witness.half_angle(p[7] / p[5]))
+            even = -mp.cos(theta)
         else:
-            low = a
-    speed = sense * p[6] * height * p[2] * np.cos(a)
-    pressure = np.cos(a) - np.cos(theta)
-    doubt = abs(p[6] * height * p[2]) * (np.sin(a) * min(4e-16 / max(pressure, 1e-300), 3e-8) + 2e-15)
-    return np.array([speed, speed, speed, 0.0]), float(doubt)
+            theta, weight, even = mp.pi, height / mp.mpf(p[7]), 1 / mp.pi
+
+        def within(a: mp.mpf) -> mp.mpf:
+            return weight * mp.sin(a) + even * a
+
+        wanted, low, high = (1 + sense * share) / 2 * within(theta), mp.mpf(0), theta
+        for _ in range(100):
+            middle = (low + high) / 2
+            low, high = (low, middle) if within(middle) > wanted else (middle, high)
+        return sense * mp.mpf(p[6]) * height * mp.mpf(p[2]) * mp.cos(low)
 
 
 def rows(box: str, columns: dict[str, np.ndarray], wanted: np.ndarray, accuracy: float) -> Iterator[dict[str, Any]]:
     """A row for every point that is wanted."""
     for key in sorted({(int(columns["start"][i]), int(columns["hertz"][i])) for i in wanted}):
         chosen = np.array([i for i in wanted if (columns["start"][i], columns["hertz"][i]) == key])
-        orbit, constants = _evaluated(columns, chosen)
+        orbit, constants, loads, radius = _evaluated(columns, chosen)
         raw = orbit.raw
         for k, i in enumerate(chosen):
             p = constants[k]
@@ -159,17 +162,20 @@ def rows(box: str, columns: dict[str, np.ndarray], wanted: np.ndarray, accuracy:
             )
             stated = [raw[f"{name}_error"][k] for name in FIGURES]
             m, n, start = (int(columns[name][i]) for name in ("periods", "on_periods", "start"))
-            held, doubts = witness.held(p, m, n, start, accuracy)[0], None
+            needed = float(np.clip(1e-5 * columns["tolerance"][i], accuracy, 1e-9))
+            held, _, reached = witness.held(p, m, n, start, accuracy)
+            of_held, doubts = _WITNESS * reached, None
             if box == "wave":
-                speeds, doubt = _closed(p)
-                doubts = [doubt] * 3 + [0.0, 1e-11]
+                limit = mp.mpf(columns["friction_coefficient"][i]) * mp.mpf(columns["prepressure"][i]) * mp.mpf(radius)
+                speed = float(_closed(p, mp.mpf(loads[k]) / limit))
+                speeds, doubts = np.array([speed, speed, speed, 0.0]), [2e-15 * abs(speed)] * 3 + [0.0, of_held]
             else:
                 guess = raw["start"][k] if np.isfinite(raw["start"][k]) else 0.0
-                other = witness.orbit(p, m, n, start, float(guess), accuracy)
+                other = witness.orbit(p, m, n, start, float(guess), needed)
                 if other is not None:
                     speeds = np.array([other.mean, other.low, other.high, other.deviation])
                     top = max(abs(other.low), abs(other.high))
-                    doubts = [_WITNESS * (other.doubt + accuracy * top)] * 4 + [1e-11]
+                    doubts = [_WITNESS * (other.doubt + needed * top)] * 4 + [of_held]
             row = {
                 "index": int(i),
                 "converged": bool(orbit.converged[k]),

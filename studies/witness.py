@@ -416,7 +416,7 @@ def _search(c, a, e, to_powers, p, m, n, start, guess, accuracy, out):
     period = _TURN / p[2]
     durations = np.array([(m - n) * period, (m - n) * period, (2 * n - m) * period])
     whole = m * period
-    bound = 2.0 * p[6] * p[5] * max(p[0], p[2]) + 2 * (p[10] + abs(p[11])) * whole
+    bound = 10.0 * p[6] * p[5] * max(p[0], p[2]) + 2 * (p[10] + abs(p[11])) * whole
     low, high, v = -bound, bound, guess
     r = np.empty(10)
     level, scale = 1e-4, min(p[6] * p[5] * p[2], p[10] * whole)
@@ -477,6 +477,11 @@ def _held(c, a, e, to_powers, p, m, n, start, accuracy, out):
     return ok
 
 
+def half_angle(y: float) -> float:
+    """Theta of sin theta - theta cos theta = y."""
+    return float(_half_angle(y, min((3 * y) ** (1 / 3), 3.0)))
+
+
 def orbit(p: np.ndarray, m: int, n: int, start: int, guess: float = 0.0, accuracy: float = 1e-12) -> Orbit | None:
     """The orbit of constants p; None if it was not found."""
     out = np.empty(7)
@@ -484,11 +489,12 @@ def orbit(p: np.ndarray, m: int, n: int, start: int, guess: float = 0.0, accurac
     return Orbit(*out[:6], int(out[6])) if found else None
 
 
-def held(p: np.ndarray, m: int, n: int, start: int, accuracy: float = 1e-12) -> tuple[float, float]:
-    """Mean friction fraction on a rotor at rest, and mean of theta/pi."""
+def held(p: np.ndarray, m: int, n: int, start: int, accuracy: float = 1e-12) -> tuple[float, float, float]:
+    """Mean friction fraction on a rotor at rest, mean of theta/pi, and the accuracy that was reached."""
     out = np.empty(2)
-    _held(_C, _A, _E, _TO_POWERS, p, m, n, start, accuracy, out)
-    return float(out[0]), float(out[1])
+    while not _held(_C, _A, _E, _TO_POWERS, p, m, n, start, accuracy, out):
+        accuracy *= 10.0  # too many steps, at a wave that begins from rest
+    return float(out[0]), float(out[1]), accuracy
 
 
 def constants(

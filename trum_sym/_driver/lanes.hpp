@@ -43,7 +43,7 @@ static_assert(LANES == 8, "one register of lanes");
 inline Lane sqrt(Lane a) { return (Vector)_mm512_sqrt_pd((__m512d)a.v); }
 inline Lane fmin(Lane a, Lane b) { return (Vector)_mm512_min_pd((__m512d)a.v, (__m512d)b.v); }
 inline Lane fmax(Lane a, Lane b) { return (Vector)_mm512_max_pd((__m512d)a.v, (__m512d)b.v); }
-// 1/a to the last digits, without the divider's wait.
+// 1/a to the last digits, without the divider's wait; a must be finite and not 0.
 inline Lane reciprocal(Lane a) {
   const Lane r = (Vector)_mm512_rcp14_pd((__m512d)a.v), s = r + r * (Lane(1.0) - a * r);
   return s + s * (Lane(1.0) - a * s);

@@ -27,7 +27,7 @@ static double trum_angle_within(double engagement, double share, double theta, d
 }
 
 /* Stores the speed of balance, if the drive is of that kind; else 0. */
-static int trum_balance(trum_lanes* lanes, int i, trum_search* search) {
+static int trum_solve_balance(trum_lanes* lanes, int i, trum_search* search) {
   const trum_orbit_in* in = search->in;
   trum_orbit_out* out = search->out;
   double a, R_v, theta, sense, pressure, error;

@@ -30,7 +30,7 @@ static const double trum_newton_share = 0.05;        /* Newton's last change, sq
 static const double trum_first_lap_tolerance = 1e-2; /* in place of the tolerance, far from the orbit */
 
 /* Factor of safety on all bounds */
-static const double trum_bound_safety = 1.5;
+static const double trum_bound_safety = 2.0;
 
 /* Errors that are known to the first order in the defects are known but for this share */
 static const double trum_first_order_share = 0.25;

@@ -68,11 +68,28 @@ static void trum_evaluate_defect(const trum_lanes* lanes, const trum_trial_step*
   }
 }
 
+/* What rounding makes of a step's integral of f: friction is a difference of two shares of the pressure, each rounded,
+ * the more so the narrower the contact.  A wave that begins from rest is a difference of two motions, of unknown phase
+ * while it is lost in their rounding: what of friction depends on the phase is then unknown, which is all of it for a
+ * held rotor and none where the rotor is faster than all of the surface. */
+static real trum_rounding(const trum_lanes* lanes, const trum_trial_step* trial) {
+  const real theta = lanes->start.theta, h = lanes->step.h;
+  const mask held = at_most(lanes->equation.push, REAL(0));
+  const real phase = minimum(REAL(2), REAL(4e-15) * lanes->constants.W * reciprocal(trial->at[1].W_c + REAL(1e-200)));
+  real at_stake = REAL(0);
+  int j;
+  for (j = 0; j < NODES; ++j) {
+    const real f = absolute(trial->f[j]);
+    at_stake = maximum(at_stake, where(held, f, REAL(1) - f));
+  }
+  return h * (REAL(1.2e-15) * (REAL(1) + REAL(3) * reciprocal(theta * theta + REAL(1e-200))) + phase * at_stake);
+}
+
 /* What a trial step is off by. */
 static void trum_step_defect(const trum_lanes* lanes, const trum_trial_step* trial, real root_error, trum_defect* d) {
   static const double b[] = TRUM_CHECK_WEIGHTS, full[] = TRUM_CHECK_FULL_WEIGHTS;
   static const double A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS;
-  const real push = lanes->equation.push, h = lanes->step.h, theta = lanes->start.theta;
+  const real push = lanes->equation.push, h = lanes->step.h;
   real K[NODES], r[3], angle[3], kept[3], lasts[3], stiff = REAL(0), size, rounding, first, damped;
   int i, j;
   for (j = 0; j < NODES; ++j) K[j] = trial->T[j] * trial->f_v[j];
@@ -95,11 +112,7 @@ static void trum_step_defect(const trum_lanes* lanes, const trum_trial_step* tri
     d->x_integral = d->x_integral + push * (share * lasts[i]), damped = damped + absolute(share) * kept[i];
   }
   d->x = push * d->x;
-  /* friction is a difference of two shares of the pressure, each rounded: the more so the narrower the contact; and a
-   * wave that begins from rest is a difference of two motions, of unknown phase while it is lost in their rounding */
-  rounding = REAL(4e-16) * h * (REAL(1) + REAL(3) * reciprocal(theta * theta + REAL(1e-200)));
-  rounding = rounding + h * minimum(REAL(2), REAL(4e-15) * lanes->constants.W *
-                                                 reciprocal(trial->at[1].W_c + REAL(1e-200)));
+  rounding = trum_rounding(lanes, trial);
   d->friction_remainder = trum_quadrature_remainder(r, &size);
   d->friction_remainder = where(trial->damped, damped, d->friction_remainder) + rounding + root_error;
   d->inside = REAL(0.5) * push * size;

@@ -4,7 +4,7 @@
 #define TRUM_ORBIT_ERROR_H
 
 /* The longest step that is allowed: where friction is saturated at all nodes there is no defect, however long the step,
- * and a brief end of saturation between them must be seen.  It is nearer the nearer the pressure at the points as fast
+ * and a brief end of saturation between them must be seen, but for rough laps.  It is nearer the nearer the pressure at the points as fast
  * as the rotor, or the surface's largest speed, comes to where it ends. */
 static real trum_longest_step(const trum_lanes* lanes, const trum_trial_step* trial) {
   mask saturated = mask_all(1), inside = mask_all(0), outside = mask_all(0);
@@ -20,8 +20,9 @@ static real trum_longest_step(const trum_lanes* lanes, const trum_trial_step* tr
     highest = maximum(highest, margin), lowest = minimum(lowest, margin);
   }
   near = (inside & outside) | less_than(REAL(0), highest + REAL(0.5) * (highest - lowest));
-  return lanes->equation.period * where(saturated, where(near, REAL(trum_max_nearly_saturated_step),
-                                                         REAL(trum_max_saturated_step)), REAL(trum_max_step));
+  return lanes->equation.period *
+         where(saturated & mask_not(lanes->status.rough),
+               where(near, REAL(trum_max_nearly_saturated_step), REAL(trum_max_saturated_step)), REAL(trum_max_step));
 }
 
 /* Error over tolerance of a step.  Marks lanes whose step cannot be evaluated as failed. */
@@ -36,7 +37,9 @@ static real trum_error_ratio(trum_lanes* lanes, const trum_trial_step* trial, ma
   ratio = where(held, maximum(where(lanes->status.contact_only, REAL(0), of_friction), of_angle), of_x) *
           lanes->tolerances.inverse_step;
   /* stiff motion of the size of the tolerance would go on for ever at steps of that size: have it damped at once */
-  ratio = where(trial->damped, REAL(trum_stiff_factor) * ratio, ratio);
+  ratio = where(trial->damped | less_than(REAL(trum_stiff), lanes->step.stiffness * lanes->equation.period *
+                                                                REAL(trum_max_step)),
+                REAL(trum_stiff_factor) * ratio, ratio);
   if (lanes->slopes) {
     const mask resolved = less_than(REAL(trum_min_step_for_slopes) * lanes->equation.period, lanes->step.h);
     const int contact = any_lane(held & lanes->status.active); /* not wanted of a free rotor */

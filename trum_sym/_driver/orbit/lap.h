@@ -8,9 +8,9 @@ typedef struct {
   double start[TRUM_REGIONS][4], pulses[TRUM_REGIONS], slopes[2][TRUM_REGIONS][4];
 } trum_cycle_phasors;
 
-/* Start speeds that are too low and too high, and the gain of speed of the laps from there. */
+/* Start speeds that are too low and too high, and the gain of speed of the laps from there; those of fine laps. */
 typedef struct {
-  double low, high, gain_low, gain_high;
+  double low, high, gain_low, gain_high, sure_low, sure_high;
   int bisect_next;
 } trum_bracket;
 
@@ -160,6 +160,7 @@ static void trum_start_lap(trum_lanes* lanes, int i, trum_search* search) {
   trum_clear_sensitivity(&lanes->sensitivity, i, lanes->slopes);
   set_lane_mask(&lanes->status.at_lap_start, i, 1), set_lane_mask(&lanes->status.failed, i, 0);
   set_lane_mask(&lanes->status.active, i, 1);
+  set_lane_mask(&lanes->status.rough, i, search->stage == STAGE_ROUGH);
   set_lane_mask(&lanes->status.contact_only, i, held && search->held_laps == 2);
   search->region = -1;
   trum_enter_next_region(lanes, i, search);

@@ -9,7 +9,7 @@
 #define TRUM_ORBIT_SHOOTING_H
 
 /* The level of laps far from the orbit: Newton's step from there leaves its square, so that one fine lap is enough. */
-static double trum_rough_level(double tolerance) { return trum_step_share * 0.1 * sqrt(tolerance); }
+static double trum_rough_level(double tolerance) { return 0.02 * sqrt(tolerance); }
 
 /* Slopes of the figures once the orbit is found.  The start speed follows a parameter by the implicit function theorem:
  * d0 = dx(end) / (1 - growth). */
@@ -92,15 +92,16 @@ static void trum_compare_laps(const trum_search* search, trum_lap_summary* s) {
     secant_error = 2.0 * fabs(secant / s->decay - 1.0);
   }
   s->slope_error = s->change + secant_error;
-  s->known = s->change < 0.7 && fabs(s->gain) <= 0.3 * s->saturated_gain &&
+  s->known = s->change < 0.7 && fabs(s->gain) <= 0.1 * s->saturated_gain &&
              fabs(s->newton) + s->uncertainty / s->decay <= trum_larger(0.1 * s->trusted, 0.05 * allowed);
 }
 
 /* What the change of the start speed is uncertain by: Newton's step in the ratio in which its slope is off, or the
  * bracket. */
 static trum_start_change trum_uncertain_change(const trum_search* search, const trum_lap_summary* s, double change) {
-  const double share = 0.02 + s->slope_error + fabs(s->gain) / s->saturated_gain;
-  const double width = search->bracket.high - search->bracket.low;
+  /* from the orbit to where laps are saturated the decay falls to 0, so it changes as the gain does */
+  const double share = 0.02 + s->slope_error + 10.0 * fabs(s->gain) / s->saturated_gain;
+  const double width = search->bracket.sure_high - search->bracket.sure_low;
   trum_start_change start;
   start.change = s->known ? s->newton : change, start.rival = fabs(s->gain);
   start.uncertainty = s->known ? fabs(s->newton) * (share < 1.0 ? share : 1.0) : HUGE_VAL;
@@ -108,19 +109,30 @@ static trum_start_change trum_uncertain_change(const trum_search* search, const 
   return start;
 }
 
-/* Moves an end of the bracket to the lap's start speed, if the sign of its gain is certain. */
+/* Moves an end of the bracket to the lap's start speed, if the sign of its gain is certain.  A fine lap overrules rough
+ * ones. */
 static void trum_update_bracket(trum_search* search, const trum_lap_summary* s) {
   trum_bracket* b = &search->bracket;
+  const double start = search->start_speed;
   if (!s->certain) return;
-  if (s->exact_gain > 0.0) b->low = search->start_speed, b->gain_low = s->exact_gain;
-  else b->high = search->start_speed, b->gain_high = s->exact_gain;
+  if (s->exact_gain > 0.0) {
+    b->low = start, b->gain_low = s->exact_gain;
+    if (s->accurate) b->sure_low = start;
+    if (!(b->high > start)) b->high = b->sure_high;
+  } else {
+    b->high = start, b->gain_high = s->exact_gain;
+    if (s->accurate) b->sure_high = start;
+    if (!(b->low < start)) b->low = b->sure_low;
+  }
 }
 
-/* The next start speed: Newton's, or a division of the bracket where that leaves it or is not half the step before. */
+/* The next start speed: Newton's, or a division of the bracket where that is not to be believed, and leaves the bracket
+ * or is not half the step before. */
 static double trum_next_start(trum_search* search, const trum_lap_summary* s) {
   trum_bracket* b = &search->bracket;
   double next = search->start_speed + s->exact_gain / s->decay;
   next = next > s->bound ? s->bound : next < -s->bound ? -s->bound : next;
+  if (s->known && next > b->sure_low && next < b->sure_high) return next;
   if (next > b->low && next < b->high && fabs(next - search->start_speed) <= 0.5 * search->newton.last_step)
     return next;
   if (b->low > -HUGE_VAL && b->high < HUGE_VAL) {

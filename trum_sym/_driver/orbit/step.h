@@ -38,7 +38,7 @@ static mask trum_is_event(real a, real b) { return at_most(absolute(a - b), REAL
 static void trum_solve_collocation(const trum_lanes* lanes, trum_trial_step* trial) {
   static const double A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS, c[NODES] = TRUM_COLLOCATION_POINTS;
   trum_factors equations;
-  real G[NODES], right[NODES], y[NODES], T_f[NODES], last_change = REAL(HUGE_VAL);
+  real G[NODES], right[NODES], y[NODES], T_f[NODES], last_change = REAL(1e100);
   int i, j, k, tries;
   for (j = 0; j < NODES; ++j) {
     const real sigma = REAL(c[j]);

@@ -46,7 +46,7 @@ static int trum_start_search(trum_lanes* lanes, int i, trum_search* search, doub
     search->out->flags += trum_runaway;
     return 0;
   }
-  if (isnan(known) && trum_balance(lanes, i, search)) return 0;
+  if (isnan(known) && trum_solve_balance(lanes, i, search)) return 0;
   search->stage = STAGE_ROUGH, search->level = trum_step_share * trum_first_lap_tolerance;
   search->scales.speed = 0.1 * in->D * in->k_c * in->W * (in->omega_n + in->Delta_omega);
   if (!isnan(known)) search->start_speed = known, search->laps = 1;
@@ -90,8 +90,9 @@ static int trum_load_task(trum_lanes* lanes, int i, trum_search* search, const t
   search->newton.last_step = HUGE_VAL, search->newton.start = search->newton.decay = search->newton.exact_gain = 0.0;
   search->newton.uncertainty = search->newton.trusted = 0.0, search->newton.slope_error = 1.0;
   search->newton.probes = 0;
-  search->stage = STAGE_HELD, search->start_speed = 0.0, search->bracket.low = -HUGE_VAL;
-  search->bracket.high = HUGE_VAL;
+  search->stage = STAGE_HELD, search->start_speed = 0.0;
+  search->bracket.low = search->bracket.sure_low = -HUGE_VAL;
+  search->bracket.high = search->bracket.sure_high = HUGE_VAL;
   search->scales.speed = 0.0, search->level = trum_step_share * in->tolerance;
   search->held_laps = 0, trum_reset_slope_scales(search);
   if (lanes->slopes) trum_load_region_slopes(search);
@@ -103,7 +104,8 @@ static int trum_load_task(trum_lanes* lanes, int i, trum_search* search, const t
 /* Lanes without a task. */
 static void trum_initialise_lanes(trum_lanes* lanes, int hertz, int slopes) {
   int k;
-  lanes->status.active = lanes->status.at_lap_start = lanes->status.failed = lanes->status.contact_only = mask_all(0);
+  lanes->status.active = lanes->status.at_lap_start = lanes->status.failed = lanes->status.rough =
+      lanes->status.contact_only = mask_all(0);
   lanes->hertz = hertz, lanes->slopes = slopes, lanes->record = 0;
   for (k = 0; k < EVENT_COUNT; ++k) lanes->start.at_event[k] = mask_all(0), lanes->start.events[k] = TRUM_NUMBER(0);
   lanes->step.tau = lanes->step.time_left = lanes->step.h = lanes->step.free_h = lanes->step.curvature =

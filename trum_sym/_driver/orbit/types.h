@@ -91,6 +91,7 @@ typedef struct {
   mask active;       /* it has a lap to do */
   mask at_lap_start; /* the right-hand side at the lap's start is not evaluated yet */
   mask failed;       /* the lap cannot be followed */
+  mask rough;        /* the lap only looks for where the orbit is */
   mask contact_only; /* the lap measures theta and not f, so that f's kinks do not matter */
 } trum_status_masks;
 
