@@ -56,6 +56,7 @@ typedef struct {
   double newton, saturated_gain;  /* Newton's step; the gain of a lap with saturated friction, where that is smaller */
   double change, trusted;         /* of ln decay since the lap before; how far around decay is alike */
   double slope_error;             /* of the lap's slope, beside that of the secant to the lap before */
+  double share;                   /* of Newton's step that is uncertain, as the slope is off */
   int certain, known;             /* has the exact gain a certain sign?  is Newton's step to be believed? */
   int accurate, last;             /* at the fine level; no more laps are allowed */
 } trum_lap_summary;
@@ -91,7 +92,10 @@ static void trum_compare_laps(const trum_search* search, trum_lap_summary* s) {
     const double secant = (before->exact_gain - s->exact_gain) / (search->start_speed - before->start);
     secant_error = 2.0 * fabs(secant / s->decay - 1.0);
   }
-  s->slope_error = s->change + secant_error;
+  s->slope_error = s->change + secant_error < 1.0 ? s->change + secant_error : 1.0;
+  /* from the orbit to where laps are saturated the decay falls to 0, so it changes as the gain does */
+  s->share = 0.02 + s->slope_error + 10.0 * fabs(s->gain) / s->saturated_gain;
+  if (s->share > 1.0) s->share = 1.0;
   s->known = s->change < 0.7 && fabs(s->gain) <= 0.1 * s->saturated_gain &&
              fabs(s->newton) + s->uncertainty / s->decay <= trum_larger(0.1 * s->trusted, 0.05 * allowed);
 }
@@ -99,12 +103,10 @@ static void trum_compare_laps(const trum_search* search, trum_lap_summary* s) {
 /* What the change of the start speed is uncertain by: Newton's step in the ratio in which its slope is off, or the
  * bracket. */
 static trum_start_change trum_uncertain_change(const trum_search* search, const trum_lap_summary* s, double change) {
-  /* from the orbit to where laps are saturated the decay falls to 0, so it changes as the gain does */
-  const double share = 0.02 + s->slope_error + 10.0 * fabs(s->gain) / s->saturated_gain;
   const double width = search->bracket.sure_high - search->bracket.sure_low;
   trum_start_change start;
   start.change = s->known ? s->newton : change, start.rival = fabs(s->gain);
-  start.uncertainty = s->known ? fabs(s->newton) * (share < 1.0 ? share : 1.0) : HUGE_VAL;
+  start.uncertainty = s->known ? fabs(s->newton) * s->share : HUGE_VAL;
   if (width < 2.0 * s->bound && width < start.uncertainty) start.uncertainty = width;
   return start;
 }
@@ -191,7 +193,7 @@ static double trum_refine(const trum_lanes* lanes, int i, trum_search* search, c
   const double allowed = search->in->tolerance * s->top, error = fabs(lane_value(&lanes->lap.error, i));
   const double width = search->bracket.high - search->bracket.low, middle = search->start_speed;
   trum_newton_record* newton = &search->newton;
-  trum_start_change own = {s->known ? s->newton : next - middle, 0.1 * error / s->decay, error};
+  trum_start_change own = {s->known ? s->newton : next - middle, s->share * error / s->decay, error};
   trum_store_orbit(lanes, i, search, own, s->top);
   if (s->known) {
     const double excess = search->out->error / search->in->tolerance;
