@@ -35,15 +35,17 @@ pytestmark = pytest.mark.filterwarnings("ignore::trum_sym.ValidityWarning")
 
 
 ROTOR_NUMBERS = ("mean_speed", "min_speed", "max_speed", "speed_volatility", "stall_torque", "contact_fraction")
+ROTOR_NUMBERS += tuple(f"{name}_error" for name in ROTOR_NUMBERS[:-1])
 
 
 def assert_no_nan(point):
     for name in POINT_NUMBERS:
         value = getattr(point, name)
         infinite = name in ("q_ratio", "q_square_ratio") and value == math.inf
-        unsettled = name in ROTOR_NUMBERS and not point.converged  # said so by the flag
-        volatile = name == "speed_volatility" and point.mean_speed == 0
+        unsettled = name in ROTOR_NUMBERS and not point.converged and point.reason  # said so by the flag
+        volatile = name.startswith("speed_volatility") and abs(point.mean_speed) <= point.mean_speed_error
         assert math.isfinite(value) or infinite or unsettled or volatile, name
+    assert 0 <= point.contact_fraction <= 1 or math.isnan(point.contact_fraction)
 
 
 def evaluate_or_refuse(make):

@@ -17,7 +17,8 @@ JSON_KEYS = [
     *("motor", "start", "contact", "prepressure", "frequency_difference", "resonance_frequency", "drive_frequency"),
     *("cycle_time", "amplitude", "neutral_axis", "wavenumber", "q_ratio", "q_square_ratio", "q_average"),
     *("q_volatility", "mean_speed", "min_speed", "max_speed", "speed_volatility", "stall_torque"),
-    *("contact_fraction", "converged"),
+    *("contact_fraction", "mean_speed_error", "min_speed_error", "max_speed_error", "speed_volatility_error"),
+    *("stall_torque_error", "converged", "reason"),
 ]
 OPTIONS = [
     *("motor", "set", "prepressure", "frequency-difference", "periods", "on-periods", "load-torque", "start"),

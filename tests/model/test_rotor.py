@@ -149,17 +149,18 @@ def test_fluctuation_falls_with_inertia_and_the_mean_settles(trum60):
 
 
 def test_every_instruction_set_gives_the_same_figures(trum60):
-    """Fused multiply-add rounds once where the baseline rounds twice; nothing else differs."""
+    """Fused multiply-add rounds once where the baseline rounds twice, and may make a step of another length."""
     drive = ts.Drive(prepressure=np.linspace(120, 220, 9), load_torque=0.1)
     best = list(_kernels.instruction_sets())[-1]
+    figures = ("mean_speed", "min_speed", "speed_volatility", "stall_torque")
     found = {}
     for name in _kernels.instruction_sets():
         _kernels.use(name)
-        point = ts.evaluate(trum60, drive, tolerance=1e-6)
-        found[name] = np.array([point.mean_speed, point.min_speed, point.speed_volatility, point.stall_torque])
+        found[name] = ts.evaluate(trum60, drive, tolerance=1e-6).as_dict()
     _kernels.use(best)
-    for figures in found.values():
-        assert np.abs(figures / found[best] - 1).max() < 1e-9
+    for point in found.values():
+        for name in figures:
+            assert np.all(np.abs(point[name] - found[best][name]) <= point[f"{name}_error"] + found[best][f"{name}_error"])
 
 
 def test_a_batch_gives_the_same_bits_as_its_points_one_by_one(trum60):

@@ -71,7 +71,8 @@ static void trum_evaluate_defect(const trum_lanes* lanes, const trum_trial_step*
 /* What rounding makes of a step's integral of f: friction is a difference of two shares of the pressure, each rounded,
  * the more so the narrower the contact.  A wave that begins from rest is a difference of two motions, of unknown phase
  * while it is lost in their rounding: what of friction depends on the phase is then unknown, which is all of it for a
- * held rotor and none where the rotor is faster than all of the surface. */
+ * held rotor (where the layer is elastic, no more than there is) and none where the rotor is faster than all of the
+ * surface. */
 static real trum_rounding(const trum_lanes* lanes, const trum_trial_step* trial) {
   const real theta = lanes->start.theta, h = lanes->step.h;
   const mask held = at_most(lanes->equation.push, REAL(0));
@@ -80,7 +81,7 @@ static real trum_rounding(const trum_lanes* lanes, const trum_trial_step* trial)
   int j;
   for (j = 0; j < NODES; ++j) {
     const real f = absolute(trial->f[j]);
-    at_stake = maximum(at_stake, where(held, f, REAL(1) - f));
+    at_stake = maximum(at_stake, where(held, lanes->hertz ? REAL(1) : f, REAL(1) - f));
   }
   return h * (REAL(1.2e-15) * (REAL(1) + REAL(3) * reciprocal(theta * theta + REAL(1e-200))) + phase * at_stake);
 }
