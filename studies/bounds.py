@@ -135,7 +135,9 @@ def _closed(p: np.ndarray, share: mp.mpf) -> mp.mpf:
             theta = min(mp.pi, mp.mpf(p[8]) / mp.sqrt(height))
             even = -mp.cos(theta)
         elif p[7] < np.pi * p[5]:
-            theta = mp.findroot(lambda x: mp.sin(x) - x * mp.cos(x) - mp.mpf(p[7]) / height, witness.half_angle(p[7] / p[5]))
+            theta = mp.findroot(
+                lambda x: mp.sin(x) - x * mp.cos(x) - mp.mpf(p[7]) / height, witness.half_angle(p[7] / p[5])
+            )
             even = -mp.cos(theta)
         else:
             theta, weight, even = mp.pi, height / mp.mpf(p[7]), 1 / mp.pi

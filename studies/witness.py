@@ -226,150 +226,174 @@ def _step(c, a, p, z, tau, v0, x, force, h, at, xs, fs, slopes, work):
 
 
 @njit(cache=True)
+def _turned(at, tilt):
+    """The largest turn of the surface's motion from node to node."""
+    turned = 0.0
+    for i in range(_S):
+        off = at[i, 1] - tilt
+        turned = max(turned, abs(off - _TURN * round(off / _TURN)))
+        tilt = at[i, 1]
+    return turned
+
+
+@njit(cache=True)
+def _hides_an_end(c, at, begin_short, coarse):
+    """Whether saturated friction may end for a moment between nodes at which it is saturated."""
+    best = 0
+    for i in range(_S):
+        if at[i, 7] > 0.0:
+            return False
+        if at[i, 7] > at[best, 7]:
+            best = i
+    if best == _S - 1:
+        return False
+    t0, g0 = (0.0, begin_short) if best == 0 else (c[best - 1], at[best - 1, 7])
+    t1, g1 = c[best], at[best, 7]
+    t2, g2 = c[best + 1], at[best + 1, 7]
+    d01, d12 = (g1 - g0) / (t1 - t0), (g2 - g1) / (t2 - t1)
+    bend = (d12 - d01) / (t2 - t0)
+    if bend >= 0:
+        return False
+    rise = max(abs(d01), abs(d12)) * (t2 - t0)
+    if g1 + rise > 0 and coarse:
+        return True
+    vertex = 0.5 * (t0 + t1) - 0.5 * d01 / bend
+    top = g0 + (vertex - t0) * (d01 + bend * (vertex - t1))
+    return t0 < vertex < t2 and top > -1e-3 * rise
+
+
+@njit(cache=True)
+def _embedded(e, values, first, mean):
+    """The embedded formula's estimate of a step's error in the mean of some values, over the step."""
+    total, reference = 0.0, abs(mean)
+    for i in range(_S):
+        total += e[i + 1] * (values[i] - first)
+        reference = max(reference, abs(values[i] - first - mean))
+    return abs(total) * min(1.0, abs(total) / (reference + 1e-300)) ** 0.6
+
+
+@njit(cache=True)
+def _step_error(a, e, p, at, fs, slopes, force, begin_theta, step, push_only):
+    """Estimate of a step's error of the speed; if the contact is asked for, too, of theta as if it pushed."""
+    mean, damped = 0.0, 0.0
+    for i in range(_S):
+        mean += a[_S - 1, i] * (fs[i] - force)
+        damped -= step * a[_S - 1, i] * slopes[i]
+    error = step * _embedded(e, fs, force, mean) / (1.0 + damped)
+    if push_only:
+        error = max(error, step * _embedded(e, at[:, 2], begin_theta, 0.0) * p[10] / math.pi)
+    return error
+
+
+@njit(cache=True)
+def _balanced(c, a, p, z, tau, v0, x, force, ends, at, work):
+    """The speed where the acceleration changes its sign within a step, between (time, acceleration) and another."""
+    left, fl, right, fr = ends
+    xt, ft, st = np.empty(_S), np.empty(_S), np.empty(_S)
+    inner, best, end = at.copy(), x, right
+    for _ in range(40):
+        place = (left * fr - right * fl) / (fr - fl)
+        if not left < place < right:
+            place = 0.5 * (left + right)
+        _step(c, a, p, z, tau, v0, x, force, place, inner, xt, ft, st, work)
+        best, fm = xt[_S - 1], ft[_S - 1]
+        if abs(fm) <= 1e-9 * p[10] or right - left <= 1e-12 * end:
+            break
+        if (fm > 0) == (fl > 0):
+            left, fl, fr = place, fm, 0.5 * fr
+        else:
+            right, fr, fl = place, fm, 0.5 * fl
+    return best
+
+
+@njit(cache=True)
+def _extremes(c, a, p, z, tau, v0, x, force, step, at, xs, fs, work, low, high):
+    """Lowest and highest speed so far: at steps' ends, and where the torques balance."""
+    before, at_before = force, 0.0
+    for i in range(_S):
+        if (before > 0) != (fs[i] > 0):
+            ends = (at_before * step, before, c[i] * step, fs[i])
+            best = _balanced(c, a, p, z, tau, v0, x, force, ends, at, work)
+            low, high = min(low, best), max(high, best)
+        before, at_before = fs[i], c[i]
+    return min(low, xs[_S - 1]), max(high, xs[_S - 1])
+
+
+@njit(cache=True)
+def _integrate(to_powers, x, xs, step, record):
+    """Adds the integrals of a step's interpolant and of its square."""
+    q = np.empty(_S + 1)
+    for k in range(_S + 1):
+        q[k] = to_powers[k, 0] * x
+        for i in range(_S):
+            q[k] += to_powers[k, i + 1] * xs[i]
+    for k in range(_S + 1):
+        record[2] += step * q[k] / (k + 1)
+        for j in range(_S + 1):
+            record[3] += step * q[k] * q[j] / (k + j + 1)
+
+
+@njit(cache=True)
+def _region(c, a, e, to_powers, p, z, end, v0, allowed, push_only, h, most, record):
+    """A region of a lap, from the state in the record; the next step's length, or 0 if it needs too many steps."""
+    period = _TURN / p[2]
+    longest, shortest = period / 40, 1e-15 * period
+    at, one = np.zeros((_S, 8)), np.zeros(8)
+    xs, fs, slopes = np.empty(_S), np.empty(_S), np.empty(_S)
+    work = (np.empty((_S, _S)), np.empty(_S))
+    x = record[0]
+    _surface(p, z, 0.0, one)
+    f, slope, short = _friction(one, v0 + x)
+    force, tau = p[10] * f - p[11], 0.0
+    begin_short, begin_tilt, begin_theta = short if slope == 0.0 else 1.0, one[1], one[2]
+    while tau < end:
+        record[9] += 1
+        if record[9] > most:
+            return 0.0
+        last = tau + h * 1.0000001 >= end
+        step = end - tau if last else h
+        at[0, 2] = begin_theta
+        if not _step(c, a, p, z, tau, v0, x, force, step, at, xs, fs, slopes, work) and step > shortest:
+            h = 0.3 * step
+            continue
+        if step > 1e-6 * period and _turned(at, begin_tilt) > 0.3:
+            h = 0.5 * step
+            continue
+        if step > 1e-7 * period and begin_short <= 0.0 and _hides_an_end(c, at, begin_short, step > period / 2000):
+            h = 0.4 * step
+            continue
+        error = _step_error(a, e, p, at, fs, slopes, force, begin_theta, step, push_only)
+        ratio = error / max(allowed, 1e-15 * p[10] * step)
+        if ratio > 1.0 and step > shortest:
+            h = step * max(0.15, 0.8 * ratio ** (-1 / 8))
+            continue
+        record[4], record[5] = _extremes(c, a, p, z, tau, v0, x, force, step, at, xs, fs, work, record[4], record[5])
+        _integrate(to_powers, x, xs, step, record)
+        for i in range(_S):
+            record[1] += step * a[_S - 1, i] * slopes[i]
+            record[6] += step * a[_S - 1, i] * (fs[i] + p[11]) / p[10]
+            record[7] += step * a[_S - 1, i] * at[i, 2]
+        record[8] += error
+        x, force = xs[_S - 1], fs[_S - 1]
+        begin_short, begin_tilt, begin_theta = at[_S - 1, 7], at[_S - 1, 1], at[_S - 1, 2]
+        tau = end if last else tau + step
+        h = min(longest, step * min(4.0, max(0.3, 0.8 * (ratio + 1e-12) ** (-1 / 8))))
+    record[0] = x
+    return h
+
+
+@njit(cache=True)
 def _lap(c, a, e, to_powers, p, phasors, durations, v0, allowed, push_only, record):
     """A lap from rim speed v0.  record: gain, ln of the slope of the lap map, integrals of x and x^2, lowest, highest,
     integrals of friction and theta, steps' errors, steps; x counts from v0."""
     period = _TURN / p[2]
-    at, one = np.zeros((_S, 8)), np.zeros(8)
-    xs, fs, slopes = np.empty(_S), np.empty(_S), np.empty(_S)
-    xt, ft, st = np.empty(_S), np.empty(_S), np.empty(_S)
-    work = (np.empty((_S, _S)), np.empty(_S))
-    x, x1, x2, growth, low, high, fsum, tsum, errors = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    steps = 0
-    longest = period / 40
-    h = longest / 8
-    shortest = 1e-15 * period
-    q = np.empty(_S + 1)
+    record[:] = 0.0
+    h, most = period / 320, 100_000 * durations.sum() / period
     for r in range(3):
-        if durations[r] <= 0:
-            continue
-        z = phasors[r]
-        tau, end = 0.0, durations[r]
-        one[2] = 0.0
-        _surface(p, z, 0.0, one)
-        f, slope, short = _friction(one, v0 + x)
-        force = p[10] * f - p[11]
-        begin_short = short if slope == 0.0 else 1.0
-        begin_tilt, begin_theta = one[1], one[2]
-        while tau < end:
-            steps += 1
-            if steps > 100_000 * durations.sum() / period:
+        if durations[r] > 0:
+            h = _region(c, a, e, to_powers, p, phasors[r], durations[r], v0, allowed, push_only, h, most, record)
+            if h == 0.0:
                 return False
-            last = tau + h * 1.0000001 >= end
-            step = end - tau if last else h
-            at[0, 2] = begin_theta
-            closed = _step(c, a, p, z, tau, v0, x, force, step, at, xs, fs, slopes, work)
-            small = step <= 1e-7 * period
-            if not closed and step > shortest:
-                h = 0.3 * step
-                continue
-            # the surface must be seen to turn
-            turned = 0.0
-            tilt = begin_tilt
-            for i in range(_S):
-                off = at[i, 1] - tilt
-                turned = max(turned, abs(off - _TURN * round(off / _TURN)))
-                tilt = at[i, 1]
-            if turned > 0.3 and step > 1e-6 * period:
-                h = 0.5 * step
-                continue
-            # a brief end of saturation between the nodes
-            if not small and begin_short <= 0.0:
-                saturated = True
-                for i in range(_S):
-                    saturated = saturated and at[i, 7] <= 0.0
-                if saturated:
-                    best = 0
-                    for i in range(_S):
-                        if at[i, 7] > at[best, 7]:
-                            best = i
-                    if best < _S - 1 or at[best, 7] > begin_short:
-                        i0 = best - 1
-                        t0, g0 = (0.0, begin_short) if i0 < 0 else (c[i0], at[i0, 7])
-                        t1, g1 = c[best], at[best, 7]
-                        if best < _S - 1:
-                            t2, g2 = c[best + 1], at[best + 1, 7]
-                            d01, d12 = (g1 - g0) / (t1 - t0), (g2 - g1) / (t2 - t1)
-                            bend = (d12 - d01) / (t2 - t0)
-                            rise = max(abs(d01), abs(d12)) * (t2 - t0)
-                            if bend < 0 and g1 + rise > 0 and step > period / 2000:
-                                h = 0.4 * step
-                                continue
-                            if bend < 0:
-                                vertex = 0.5 * (t0 + t1) - 0.5 * d01 / bend
-                                top = g0 + (vertex - t0) * (d01 + bend * (vertex - t1))
-                                if t0 < vertex < t2 and top > -1e-3 * rise:
-                                    h = 0.4 * step
-                                    continue
-            total, reference, mean = 0.0, 0.0, 0.0  # of what the acceleration differs from the step's first by
-            for i in range(_S):
-                mean += a[_S - 1, i] * (fs[i] - force)
-            reference = abs(mean)
-            for i in range(_S):
-                total += e[i + 1] * (fs[i] - force)
-                reference = max(reference, abs(fs[i] - force - mean))
-            estimate = abs(total)
-            share = estimate / (reference + 1e-300)
-            damped = 0.0
-            for i in range(_S):
-                damped -= step * a[_S - 1, i] * slopes[i]
-            error = step * estimate * min(1.0, share) ** 0.6 / (1.0 + damped)
-            if push_only:  # the contact is asked for, too
-                estimate, reference = 0.0, 0.0
-                for i in range(_S):
-                    estimate += e[i + 1] * (at[i, 2] - begin_theta)
-                    reference = max(reference, abs(at[i, 2] - begin_theta))
-                estimate = abs(estimate)
-                share = estimate / (reference + 1e-300)
-                error = max(error, step * estimate * min(1.0, share) ** 0.6 * p[10] / math.pi)
-            ratio = error / max(allowed, 1e-15 * p[10] * step)
-            if ratio > 1.0 and step > shortest:
-                h = step * max(0.15, 0.8 * ratio ** (-1 / 8))
-                continue
-            # extremes of the speed: the step that ends where the torques balance
-            before = force
-            at_before = 0.0
-            for i in range(_S):
-                if (before > 0) != (fs[i] > 0):
-                    left, right, fl, fr = at_before * step, c[i] * step, before, fs[i]
-                    best = x
-                    inner = at.copy()
-                    for _ in range(40):
-                        place = (left * fr - right * fl) / (fr - fl)
-                        if not left < place < right:
-                            place = 0.5 * (left + right)
-                        _step(c, a, p, z, tau, v0, x, force, place, inner, xt, ft, st, work)
-                        best = xt[_S - 1]
-                        fm = ft[_S - 1]
-                        if abs(fm) <= 1e-9 * p[10] or right - left <= 1e-14 * period:
-                            break
-                        if (fm > 0) == (fl > 0):
-                            left, fl, fr = place, fm, 0.5 * fr
-                        else:
-                            right, fr, fl = place, fm, 0.5 * fl
-                    low, high = min(low, best), max(high, best)
-                before, at_before = fs[i], c[i]
-            low, high = min(low, xs[_S - 1]), max(high, xs[_S - 1])
-            # integrals of the interpolant and of its square
-            for k in range(_S + 1):
-                q[k] = to_powers[k, 0] * x
-                for i in range(_S):
-                    q[k] += to_powers[k, i + 1] * xs[i]
-            for k in range(_S + 1):
-                x1 += step * q[k] / (k + 1)
-                for j in range(_S + 1):
-                    x2 += step * q[k] * q[j] / (k + j + 1)
-            for i in range(_S):
-                growth += step * a[_S - 1, i] * slopes[i]
-                fsum += step * a[_S - 1, i] * (fs[i] + p[11]) / p[10]
-                tsum += step * a[_S - 1, i] * at[i, 2]
-            errors += error
-            x, force = xs[_S - 1], fs[_S - 1]
-            begin_short, begin_tilt, begin_theta = at[_S - 1, 7], at[_S - 1, 1], at[_S - 1, 2]
-            tau = end if last else tau + step
-            h = min(longest, step * min(4.0, max(0.3, 0.8 * (ratio + 1e-12) ** (-1 / 8))))
-    record[0], record[1], record[2], record[3], record[4] = x, growth, x1, x2, low
-    record[5], record[6], record[7], record[8], record[9] = high, fsum, tsum, errors, steps
     return True
 
 

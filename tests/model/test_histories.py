@@ -49,7 +49,7 @@ def test_attributes_hold_every_setting_and_figure(found, trum60, drive):
     point = ts.evaluate(trum60, drive, tolerance=1e-7)
     known = found.attrs
     for name, value in {**drive.numbers(), **point.as_dict()}.items():
-        assert name == "reason" or known[name] == value
+        assert known[name] == value
     assert known["runaway"] == 0
     assert known["source"].startswith("trum-sym ")
     assert known["motor_rotor_inertia"] == "4.5e-06 kg*m^2 (Table 1)"

@@ -28,6 +28,7 @@ __all__ = [
     "option_name",
     "point_options",
     "refuse_sampling_period",
+    "tolerance_option",
 ]
 
 
@@ -92,6 +93,15 @@ _POINT_OPTIONS = (
         "--sampling-period", "s", None, "Averaging period of the speed's encoder  [default: continuous]", "S"
     ),
 )
+
+
+def tolerance_option(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Give a command the option ``--tolerance``, which is None where it is not given."""
+    text = (
+        "Largest bound of the errors of speeds over the largest speed, 1e-9 to 1e-2  "
+        "[default: 1e-6, or what four digits of the mean speed need]"
+    )
+    return number_option("--tolerance", "1", None, text, "T")(command)
 
 
 def point_options(command: Callable[..., Any]) -> Callable[..., Any]:

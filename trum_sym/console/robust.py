@@ -15,7 +15,7 @@ __all__ = ["robust"]
 
 @click.command()
 @click.option(
-    "--tolerance",
+    "--spread",
     "tolerances",
     multiple=True,
     metavar="NAME=SHARE|LOW:HIGH",
@@ -66,10 +66,10 @@ def robust(
         name, equals, value = (part.strip() for part in text.partition("="))
         if not equals or not name or not value:
             raise ParameterError(
-                "--tolerance", text, "NAME=SHARE, such as friction_coefficient='10 %', or NAME=LOW:HIGH"
+                "--spread", text, "NAME=SHARE, such as friction_coefficient='10 %', or NAME=LOW:HIGH"
             )
         if name in given:
-            raise ParameterError("--tolerance", text, "each name once")
+            raise ParameterError("--spread", text, "each name once")
         low, colon, high = value.partition(":")
         given[name] = (low, high) if colon else value
     machine, drive = chosen_motor(motor, overrides), chosen_drive(options)

@@ -7,13 +7,21 @@ from typing import Any
 
 import click
 
-from trum_sym.console.options import chosen_drive, chosen_levels, chosen_motor, number_option, point_options
+from trum_sym.console.options import (
+    chosen_drive,
+    chosen_levels,
+    chosen_motor,
+    number_option,
+    point_options,
+    tolerance_option,
+)
 
 __all__ = ["simulate"]
 
 
 @click.command()
 @point_options
+@tolerance_option
 @number_option("--cycles", "1", 1, "Drive cycles.", "K")
 @number_option("--samples-per-period", "1", 64, "Samples in a drive period.", "K")
 @click.option(
@@ -28,11 +36,13 @@ def simulate(
     cycles: float,
     samples_per_period: float,
     out: Path | None,
+    tolerance: float | None,
     **options: Any,  # noqa: ANN401
-) -> None:
+) -> int:
     """Time histories of one operating point on its periodic orbit.
 
-    Phases, surface, determinant, contact, friction, and the rotor's speed and angle.
+    Phases, surface, determinant, contact, friction, and the rotor's speed and angle.  Exit code 1 where no speed
+    balances the load, or the errors' bounds miss the tolerance.
     """
     from trum_sym.model.histories import simulate as simulate_point
     from trum_sym.output.files import check_target, write
@@ -45,6 +55,7 @@ def simulate(
         cycles=cycles,
         samples_per_period=samples_per_period,
         sampling_period=options["sampling_period"],
+        tolerance=tolerance,
         **chosen_levels(options),
     )
     if out is not None:
@@ -54,3 +65,4 @@ def simulate(
         from trum_sym.console.tables import histories_table
 
         click.echo(histories_table(histories))
+    return 0 if histories.attrs["converged"] else 1

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -11,13 +11,14 @@ from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor, Published
 from trum_sym.inputs.units import parse_unit
 from trum_sym.model.operating_point import OperatingPoint
+from trum_sym.output.digits import with_error
 from trum_sym.output.json_text import json_text
 from trum_sym.quantities import QUANTITIES
 
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["as_json_text", "as_table", "histories_table"]
+__all__ = ["as_json_text", "as_table", "histories_table", "shown_with_error"]
 
 
 def as_json_text(point: OperatingPoint) -> str:
@@ -44,10 +45,20 @@ def histories_table(histories: xr.Dataset) -> str:
         f"{known['title']}, start {known['start']}\n{known['cycles']} cycles of {1e3 * known['cycle_time']:.6g} ms, "
         f"{count} times; --out FILE.nc or FILE.csv writes them"
     )
-    notes = ["", "no speed balances the load: it exceeds what friction can transmit"] if known["runaway"] else []
-    if not (known["runaway"] or known["converged"]):
-        notes = ["", "the rotor's speed did not settle to its tolerance"]
+    notes = ["", known["reason"]] if known["reason"] else []
     return "\n".join([title, "", table, *notes])
+
+
+def shown_with_error(figures: Mapping[str, Any], name: str) -> tuple[str, str]:
+    """A figure in its unit for people to the last digit that its error leaves, and the error; six digits without one."""
+    _, unit, shown = QUANTITIES[name]
+    value, error = float(figures[name]), figures.get(f"{name}_error")
+    if not np.isfinite(value):
+        return "-", ""
+    value = _convert(value, unit, shown)
+    if error is None:
+        return f"{value:.6g}", ""
+    return with_error(value, _convert(float(error), unit, shown))
 
 
 def _published(motor: Motor, drive: Drive) -> dict[str, Published]:
@@ -72,19 +83,19 @@ def as_table(motor: Motor, drive: Drive, point: OperatingPoint, levels: Mapping[
     rows = []
     for name, (label, unit, shown) in QUANTITIES.items():
         value, entry = getattr(point, name), published.get(name)
-        ours = f"{_convert(value, unit, shown):.6g}" if np.isfinite(value) else "-"
+        ours, error = shown_with_error(point.as_dict(), name)
         paper = difference = source = ""
         if entry is not None:
             theirs = _convert(entry.value, entry.unit, shown)
             paper, source = f"{theirs:.6g}", entry.source
             if np.isfinite(value) and theirs:
                 difference = f"{100 * (_convert(value, unit, shown) / theirs - 1):+.2f} %"
-        rows.append((label, ours, "" if shown == "1" else shown, paper, difference, source))
+        rows.append((label, ours, error, "" if shown == "1" else shown, paper, difference, source))
     table = tabulate(
         rows,
-        headers=("", "ours", "unit", "paper", "difference", "printed in"),
+        headers=("", "ours", "+-", "unit", "paper", "difference", "printed in"),
         disable_numparse=True,
-        colalign=("left", "right", "left", "right", "right", "left"),
+        colalign=("left", "right", "left", "left", "right", "right", "left"),
     )
     title = (
         f"{motor.name} at {drive.prepressure:g} N, {drive.frequency_difference:+g} Hz, {drive.on_periods:g} of "
@@ -97,9 +108,7 @@ def as_table(motor: Motor, drive: Drive, point: OperatingPoint, levels: Mapping[
 
 def _notes(drive: Drive, point: OperatingPoint) -> list[str]:
     """What the figures alone do not say about the rotor."""
-    if np.isnan(float(point.mean_speed)):
-        return ["", "no speed balances the load: it exceeds what friction can transmit"]
-    notes = [] if point.converged else ["", "the rotor's speed did not settle to its tolerance"]
+    notes = ["", str(point.reason)] if point.reason else []
     load, speed, stall = (float(x) for x in (drive.load_torque, point.mean_speed, point.stall_torque))
     if speed * load < 0 and abs(load) > abs(stall):
         notes += ["", "the load exceeds the stall torque and drives the rotor back"]

@@ -179,7 +179,7 @@ def _attributes(
 ) -> dict[str, str | float | int]:
     """Every setting, figure and flag, as text and numbers that any file format holds."""
     motor, drive, levels = case.motor, case.drive, case.levels
-    figures = {name: value for name, value in point.as_dict().items() if name not in ("motor", "converged", "reason")}
+    figures = {name: value for name, value in point.as_dict().items() if name not in ("motor", "converged")}
     attributes = {
         "title": f"{motor.name}: time histories on the periodic orbit",
         "source": f"trum-sym {version('trum-sym')}",
