@@ -64,7 +64,7 @@ static const struct trum_drive trum_table3 = {
   TRUM_RESONANCE_QUARTIC,
   TRUM_FOUNDATION_HARMONIC,
   TRUM_AMPLITUDE_MEASURED,
-  (trum_real)1e-3, /* tolerance */
+  (trum_real)(TRUM_FINEST_TOLERANCE > 1e-6 ? TRUM_FINEST_TOLERANCE : 1e-6), /* tolerance */
 };
 
 #endif

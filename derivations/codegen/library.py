@@ -114,4 +114,10 @@ def _trum60() -> list[str]:
     for name in _DRIVE_SYMBOLS:
         lines.append(f"  (trum_real){float(getattr(drive, name))!r}, /* {name} */")
     lines += [f"  TRUM_{name}_{words[0]},".upper() for name, words in _CHOICES.items()]
-    return [*lines, "  (trum_real)1e-3, /* tolerance */", "};", "", "#endif"]
+    return [
+        *lines,
+        "  (trum_real)(TRUM_FINEST_TOLERANCE > 1e-6 ? TRUM_FINEST_TOLERANCE : 1e-6), /* tolerance */",
+        "};",
+        "",
+        "#endif",
+    ]

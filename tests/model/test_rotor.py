@@ -160,7 +160,9 @@ def test_every_instruction_set_gives_the_same_figures(trum60):
     _kernels.use(best)
     for point in found.values():
         for name in figures:
-            assert np.all(np.abs(point[name] - found[best][name]) <= point[f"{name}_error"] + found[best][f"{name}_error"])
+            assert np.all(
+                np.abs(point[name] - found[best][name]) <= point[f"{name}_error"] + found[best][f"{name}_error"]
+            )
 
 
 def test_a_batch_gives_the_same_bits_as_its_points_one_by_one(trum60):

@@ -65,9 +65,7 @@ def robust(
     for text in tolerances:
         name, equals, value = (part.strip() for part in text.partition("="))
         if not equals or not name or not value:
-            raise ParameterError(
-                "--spread", text, "NAME=SHARE, such as friction_coefficient='10 %', or NAME=LOW:HIGH"
-            )
+            raise ParameterError("--spread", text, "NAME=SHARE, such as friction_coefficient='10 %', or NAME=LOW:HIGH")
         if name in given:
             raise ParameterError("--spread", text, "each name once")
         low, colon, high = value.partition(":")

@@ -42,6 +42,9 @@ class Range(click.ParamType):  # type: ignore[type-arg, unused-ignore]
     help="A Dask scheduler, such as tcp://host:8786.  [default: this process, all cores]",
 )
 @number_option("--chunk", "1", None, "Points a chunk, at most.  [default: by grid and memory]", "POINTS")
+@number_option(
+    "--tolerance", "1", 1e-6, "Largest bound of the errors of speeds over the largest speed, 1e-9 to 1e-2.", "T"
+)
 @click.option("--dry-run", is_flag=True, help="Say points, chunks, size and time, from a sample that is measured.")
 def sweep(
     motor: str,
@@ -50,6 +53,7 @@ def sweep(
     outputs: str | None,
     scheduler: str | None,
     chunk: float | None,
+    tolerance: float,
     dry_run: bool,
     **options: Any,  # noqa: ANN401
 ) -> None:
@@ -81,7 +85,7 @@ def sweep(
     levels = Levels(**chosen_levels(options))
     names = None if outputs is None else tuple(name.strip() for name in outputs.split(","))
     plan = make_plan(
-        chosen_motor(motor, fixed), Drive(start=options["start"]), levels, None, 1e-3, names, chunk, ranges
+        chosen_motor(motor, fixed), Drive(start=options["start"]), levels, None, tolerance, names, chunk, ranges
     )
     if dry_run:
         click.echo(_estimate(estimate("--out", plan, out, scheduler, chunk is not None), out))
@@ -130,7 +134,7 @@ def _estimate(found: Workload, out: Path | None) -> str:
 
 _RANGED = []
 for _option in sweep.params:  # the options of a point, but with ranges
-    if _option.name in ("chunk", "motor"):
+    if _option.name in ("chunk", "motor", "tolerance"):
         continue
     if isinstance(_option.type, QuantityType) or _option.name == "phase_lead":
         _option.type = Range()

@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING
 
 from trum_sym.inputs.units import parse_unit
+from trum_sym.output.digits import with_error
 from trum_sym.output.json_text import finite, json_text
 from trum_sym.quantities import QUANTITIES
 
@@ -114,9 +115,12 @@ def as_json_text(optimum: Optimum) -> str:
     return json_text(optimum.as_dict())
 
 
-def _shown(name: str, value: float) -> tuple[str, str, str]:
+def _shown(name: str, figures: Mapping[str, float]) -> tuple[str, str, str, str]:
     label, unit, shown = QUANTITIES[name]
-    return label, f"{parse_unit(unit).to_si(value) / parse_unit(shown).to_si(1.0):.8g}", "" if shown == "1" else shown
+    scale = parse_unit(unit).to_si(1.0) / parse_unit(shown).to_si(1.0)
+    value, error = scale * figures[name], figures.get(f"{name}_error")
+    text = (f"{value:.8g}", "") if error is None else with_error(value, scale * error)
+    return label, *text, "" if shown == "1" else shown
 
 
 def as_table(optimum: Optimum, title: str) -> str:
@@ -126,11 +130,11 @@ def as_table(optimum: Optimum, title: str) -> str:
     heading = f"{title}\n\n{optimum.status}: {optimum.message}"
     if optimum.prepressure is None:
         return heading
-    rows: list[tuple[str, str, str]] = [
-        ("prepressure", f"{optimum.prepressure:.8g}", "N"),
-        ("frequency difference", f"{optimum.frequency_difference:.8g}", "Hz"),
-        ("on periods of periods", f"{optimum.on_periods} of {optimum.periods}", ""),
-        ("switching phase", f"{optimum.switching_phase:.8g}", "rad"),
+    rows: list[tuple[str, str, str, str]] = [  # the place so that others compute the same figures from it
+        ("prepressure", f"{optimum.prepressure:.12g}", "", "N"),
+        ("frequency difference", f"{optimum.frequency_difference:.12g}", "", "Hz"),
+        ("on periods of periods", f"{optimum.on_periods} of {optimum.periods}", "", ""),
+        ("switching phase", f"{optimum.switching_phase:.12g}", "", "rad"),
     ]
     names = (
         "mean_speed",
@@ -142,8 +146,8 @@ def as_table(optimum: Optimum, title: str) -> str:
         "stall_torque",
         "contact_fraction",
     )
-    rows += [_shown(name, optimum.figures[name]) for name in names]
-    rows.append(("constraint violation", f"{optimum.constraint_violation:.1e}", ""))
+    rows += [_shown(name, optimum.figures) for name in names]
+    rows.append(("constraint violation", f"{optimum.constraint_violation:.1e}", "", ""))
     evidence = optimum.evidence
     grid = " x ".join(map(str, evidence.map_shape))
     notes = [
@@ -152,5 +156,5 @@ def as_table(optimum: Optimum, title: str) -> str:
     ]
     if evidence.pulses > 1:
         notes.append(f"pulse counts: {evidence.pulses} pairs, {evidence.pruned} ruled out by a coarse map")
-    table = tabulate(rows, disable_numparse=True, colalign=("left", "right", "left"), tablefmt="plain")
+    table = tabulate(rows, disable_numparse=True, colalign=("left", "right", "left", "left"), tablefmt="plain")
     return "\n".join([heading, "", table, "", *notes])

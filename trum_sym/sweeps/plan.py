@@ -21,7 +21,7 @@ from trum_sym.inputs.points import check_point
 from trum_sym.model.levels import Levels
 from trum_sym.model.operating_point import OF_ORBIT
 from trum_sym.model.stator import warn_outside_fit
-from trum_sym.quantities import QUANTITIES
+from trum_sym.quantities import ERRORS, QUANTITIES
 from trum_sym.sweeps.grid import PARAMETERS, Grid, chunk_shape, read_ranges
 from trum_sym.sweeps.task import STATUS, Settings, Task, identity, sort_out
 
@@ -90,10 +90,11 @@ class Plan:
                 "flag_meanings": " ".join((*STATUS, "not_computed")),
             }
         if name == "converged":
-            return {"long_name": "whether mean and extremes met the tolerance"}
+            return {"long_name": "whether the bounds of the errors meet the tolerance"}
         if any(name in axis.values for axis in self.grid.axes):
             return {"units": PARAMETERS[name][1], "long_name": name.replace("_", " ")}
-        return {"units": QUANTITIES[name].unit, "long_name": QUANTITIES[name].label}
+        quantity = QUANTITIES[name] if name in QUANTITIES else ERRORS[name]
+        return {"units": quantity.unit, "long_name": quantity.label}
 
     def attributes(self) -> dict[str, str | float]:
         """Everything that decides about the result but the swept values: as text and numbers that any file holds."""
@@ -164,7 +165,7 @@ def make_plan(
 
 
 def _outputs(given: Sequence[str] | None, swept: set[str]) -> tuple[str, ...]:
-    known = [name for name in (*QUANTITIES, "converged") if name not in swept]
+    known = [name for name in (*QUANTITIES, *ERRORS, "converged") if name not in swept]
     if given is None:
         return tuple(known)
     if isinstance(given, str) or not given:

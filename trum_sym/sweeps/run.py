@@ -83,7 +83,7 @@ def sweep(
     chunk: int | None = None,
     progress: bool = False,
     sampling_period: ArrayLike | None = None,
-    tolerance: float = 1e-3,
+    tolerance: float = 1e-6,
     **ranges: object,
 ) -> xr.Dataset:
     """Operating points on a grid of parameters.

@@ -1,0 +1,188 @@
+"""Stated errors hold: against closed forms, an independent integration, and the program's own answers elsewhere."""
+
+from __future__ import annotations
+
+import datetime
+import math
+import re
+
+import numpy as np
+import pytest
+from lazily import lazily
+
+import trum_sym as ts
+from trum_sym.console import main
+
+bounds = lazily("studies.bounds")
+FIGURES = ("mean_speed", "min_speed", "max_speed", "speed_volatility", "stall_torque")
+
+
+def plain_wave(motor, drive, point):
+    """The rotor's speed under a plain wave, where friction within the angle a balances the load (eqs. 35, 36)."""
+    radius, friction = float(motor.contact_radius.value), float(motor.friction_coefficient.value)
+    theta = math.pi * float(point.contact_fraction)
+    share = -drive.load_torque / (friction * drive.prepressure * radius)
+    within = 0.5 * (1 - share) * (math.sin(theta) - theta * math.cos(theta))
+    low, high = 0.0, theta
+    for _ in range(200):
+        a = 0.5 * (low + high)
+        low, high = (low, a) if math.sin(a) - a * math.cos(theta) > within else (a, high)
+    omega = 2 * math.pi * float(point.drive_frequency)
+    return omega * float(point.wavenumber) * float(point.neutral_axis) * float(point.amplitude) * math.cos(low) / radius
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-6, None])
+def test_a_plain_wave_near_the_limit_is_its_closed_form(trum60, tolerance):
+    drive = ts.Drive(prepressure=100.0, periods=1, on_periods=1, load_torque=-0.6592)
+    point = ts.evaluate(trum60, drive, tolerance=tolerance)
+    exact = plain_wave(trum60, drive, ts.evaluate(trum60, drive, tolerance=1e-9))
+    assert exact == pytest.approx(70.43, abs=0.01)
+    assert point.converged
+    assert abs(point.mean_speed - exact) <= point.mean_speed_error + 1e-9
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-4])
+def test_a_hertz_contact_near_the_limit_is_the_same_at_every_tolerance(trum60, tolerance):
+    force = 128.93640652170959
+    drive = ts.Drive(
+        prepressure=force,
+        frequency_difference=-310.79918776885097,
+        periods=1,
+        on_periods=1,
+        load_torque=-0.9714271290346224 * 0.25 * force * 0.0265,
+    )
+    point = ts.evaluate(trum60, drive, contact="hertz", tolerance=tolerance)
+    assert abs(point.mean_speed - 56.848) <= point.mean_speed_error + 5e-4
+
+
+def random_drives(seed, count, nearest):
+    rng = np.random.default_rng(seed)
+    periods, force = rng.integers(1, 31, count), rng.uniform(100, 220, count)
+    share = (1 - 10 ** rng.uniform(np.log10(nearest), -0.3, count)) * rng.choice([-1, 1], count)
+    return ts.Drive(
+        prepressure=force,
+        frequency_difference=rng.uniform(-5000, 5000, count),
+        periods=periods,
+        on_periods=rng.integers((periods + 1) // 2, periods + 1),
+        load_torque=share * 0.25 * force * 0.0265,
+        start="steady",
+    )
+
+
+@pytest.mark.filterwarnings("ignore::trum_sym.ValidityWarning")
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-6])
+def test_coarse_answers_hold_what_they_state_beside_fine_ones(trum60, tolerance):
+    """Extremes that a coarse search overlooks, deviations of zero beside a swing: 300 points, loads to 1e-4 of the limit."""
+    drive = random_drives(7, 300, 1e-4)
+    coarse, fine = (ts.evaluate(trum60, drive, tolerance=t) for t in (tolerance, 1e-9))
+    assert coarse.converged.all()
+    assert fine.converged.all()
+    for name in FIGURES:
+        off = np.abs(getattr(coarse, name) - getattr(fine, name))
+        allowed = getattr(coarse, f"{name}_error") + getattr(fine, f"{name}_error")
+        assert np.all((off <= allowed) | (off < 1e-12)), name
+    swings = fine.max_speed - fine.min_speed > 1e-6 * np.abs(fine.mean_speed)
+    flat = (coarse.speed_volatility == 0) & swings & (coarse.min_speed < coarse.max_speed)
+    assert np.all(coarse.speed_volatility_error[flat] >= fine.speed_volatility[flat])
+
+
+def test_a_light_rotor_below_the_limit_has_a_speed(trum60, capsys):
+    """Beside an implicit integration of its own (studies/witness.py): 23.8400 rad/s, from 20.3442 to 27.1769."""
+    light = trum60.with_values({"rotor_inertia": 4.5e-9})
+    point = ts.evaluate(light, ts.Drive(load_torque=-1.1, periods=2, on_periods=1))
+    assert point.converged
+    for found, error, expected in (
+        (point.mean_speed, point.mean_speed_error, 23.83999629),
+        (point.min_speed, point.min_speed_error, 20.34423863),
+        (point.max_speed, point.max_speed_error, 27.17687954),
+    ):
+        assert abs(found - expected) <= error + 5e-8
+    given = ["--set", "rotor_inertia=4.5e-9", "--load-torque", "-1.1", "--periods", "2", "--on-periods", "1"]
+    assert main(["evaluate", *given]) == 0
+    assert "no speed balances" not in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("load", [1.1926, -1.1926, 100.0])
+def test_a_load_beyond_friction_is_said_from_the_load_and_ends_with_1(trum60, capsys, load):
+    point = ts.evaluate(trum60, ts.Drive(load_torque=load))
+    assert np.isnan(point.mean_speed)
+    assert not point.converged
+    assert point.reason == "no speed balances the load: it exceeds what friction can transmit"
+    assert math.isfinite(point.stall_torque)
+    for command in ("evaluate", "simulate"):
+        assert main([command, "--load-torque", str(load)]) == 1
+        assert point.reason in capsys.readouterr().out
+
+
+def printed(text, label):
+    """A value and its error in a table."""
+    value, error = re.search(rf"^{re.escape(label)} +(\S+)(?:  (\S+))?", text, re.MULTILINE).groups()
+    return float(value), float(error)
+
+
+def test_an_optimum_pasted_as_printed_gives_the_speed_that_was_asked_for(capsys, tmp_path):
+    assert main(["optimize", "--target-speed", "633 arcsec/s"]) == 0
+    text = capsys.readouterr().out
+    place = [
+        *("--prepressure", re.search(r"^prepressure +(\S+)", text, re.M)[1]),
+        *("--frequency-difference", re.search(r"^frequency difference +(\S+)", text, re.M)[1]),
+    ]
+    speed, error = printed(text, "mean speed v_s")
+    assert abs(speed - 633) <= error
+    assert main(["evaluate", *place]) == 0
+    other, other_error = printed(capsys.readouterr().out, "mean speed v_s")
+    assert abs(other - speed) <= error + other_error
+    assert other_error <= 633 * 1e-4
+    path = tmp_path / "history.csv"
+    assert main(["simulate", *place, "--out", str(path)]) == 0
+    columns = np.loadtxt(path, delimiter=",", skiprows=1)
+    header = path.read_text().splitlines()[0].split(",")
+    time, angle = (columns[:, header.index(name)] for name in ("time [s]", "rotor_angle [rad]"))
+    speeds = columns[:, header.index("rotor_speed [rad/s]")]
+    whole = time[-1] + (time[1] - time[0])
+    advance = angle[-1] - angle[0] + 0.5 * (speeds[-1] + speeds[0]) * (time[1] - time[0])
+    assert advance / whole / (math.pi / 648000) == pytest.approx(633, abs=2)  # the last sample's trapezium
+
+
+def test_a_speed_tables_entries_have_the_speeds_that_they_state(trum60):
+    table = ts.speed_table(
+        trum60, slowest="500 arcsec/s", fastest="1000 arcsec/s", points=3, bounds={"prepressure": 177.3}, error=0.5
+    )
+    assert table.segments
+    for segment in table.segments:
+        for speed, *drive in zip(segment.speed, *table.values(segment), strict=True):
+            given = dict(zip(table.columns(), drive, strict=True))
+            names = {
+                name: float(value) for name, value in given.items() if name in ("prepressure", "frequency_difference")
+            }
+            point = ts.evaluate(trum60, ts.Drive(**{"prepressure": 177.3, **names}))
+            assert abs(point.mean_speed - speed) <= point.mean_speed_error + 1e-5 * abs(speed)
+
+
+def test_a_forced_batch_has_the_bits_of_its_points(trum60):
+    force = np.linspace(110, 210, 7)
+    batch = ts.evaluate(trum60, ts.Drive(prepressure=force), amplitude="forced", tolerance=1e-3)
+    for i, each in enumerate(force):
+        one = ts.evaluate(trum60, ts.Drive(prepressure=float(each)), amplitude="forced", tolerance=1e-3).as_dict()
+        for name in ("amplitude", "resonance_frequency", *FIGURES, *(f"{figure}_error" for figure in FIGURES)):
+            assert getattr(batch, name)[i] == one[name], name
+
+
+@pytest.mark.parametrize("height", [1e-9, 1e-8, 1e-7, 5e-6])
+def test_contact_and_stall_torque_stay_within_what_is_possible(trum60, height):
+    small = trum60.with_values({"amplitude": height})
+    for contact in ("winkler", "hertz"):
+        point = ts.evaluate(small, ts.Drive(periods=10, on_periods=np.arange(5, 11)), contact=contact)
+        assert np.all(point.contact_fraction <= 1)
+        assert np.all(np.abs(point.stall_torque) <= 0.25 * 180 * 0.0265)
+
+
+@pytest.mark.parametrize(("box", "count"), [("stock", 12), ("wave", 60), ("limit", 8)])
+def test_a_daily_sample_of_the_studies_holds(box, count):
+    """Other points every day: stated beside true errors, as ``python -m studies.bounds`` does it in full."""
+    seed = datetime.datetime.now(datetime.UTC).date().toordinal()
+    print(f"seed {seed}")
+    found = bounds.study(count, seed, box, periods=8)
+    assert found.points == count
+    assert found.converged == count, f"seed {seed}: {found.text()}"
+    assert found.beyond == 0, f"seed {seed}: {found.text()}"
