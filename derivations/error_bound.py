@@ -30,14 +30,15 @@ def _zero(expression: sp.Expr, step: str) -> None:
 
 
 def comparison() -> sp.Expr:
-    """The error e = u - v obeys e' = -a e + r, a = -(F(u, t) - F(v, t))/(u - v) >= 0; so |e(T)| <= |e(0)| + integral |r|.
+    """The error e = u - v obeys e' = -a e + r with a >= 0, so that |e(T)| <= |e(0)| + integral |r|.
 
-    Returns e(T) by variation of constants: e(0) exp(-A(0, T)) + integral of r(tau) exp(-A(tau, T)), A the integral of a.
+    Here a = -(F(u, t) - F(v, t))/(u - v).  Returns e(T) by variation of constants: e(0) exp(-A(0, T)) + integral of
+    r(tau) exp(-A(tau, T)), A the integral of a.
     """
     a, r, start = sp.Function("a")(t), sp.Function("r"), sp.Symbol("e_0", real=True)
-    from_to = lambda low, high: sp.Integral(sp.Function("a")(x), (x, low, high))  # noqa: E731
-    kept = sp.exp(-from_to(0, t))
-    error = start * kept + kept * sp.Integral(r(tau) * sp.exp(from_to(0, tau)), (tau, 0, t))
+    until_t, until_tau = (sp.Integral(sp.Function("a")(x), (x, 0, end)) for end in (t, tau))
+    kept = sp.exp(-until_t)
+    error = start * kept + kept * sp.Integral(r(tau) * sp.exp(until_tau), (tau, 0, t))
     _zero(sp.expand(error.diff(t).doit() + a * error - r(t)), "variation of constants")
     _zero(error.subs(t, 0).doit() - start, "it begins at e(0)")
     exponent = sp.Symbol("A", nonnegative=True)
@@ -46,8 +47,9 @@ def comparison() -> sp.Expr:
 
 
 def monotone_weight() -> sp.Expr:
-    """With a weight w that rises from w_0 >= 0 to 1, |integral r w| <= w_0 |R(0)| + (1 - w_0) max |R|, R(s) the integral
-    of r from s to the end.
+    """With a weight w that rises from w_0 >= 0 to 1, |integral r w| <= w_0 |R(0)| + (1 - w_0) max |R|.
+
+    R(s) is the integral of r from s to the end.
 
     By parts: integral r w = w_0 R(0) + integral R dw, and dw >= 0 adds up to 1 - w_0.  What friction keeps of a defect
     until the step's end is such a weight, whatever the slope of friction in between.

@@ -2,10 +2,10 @@
 
 python -m studies.bounds BOX COUNT [--seed N] [--file FILE.jsonl]
 
-BOX is one of ``stock`` (the stock motor, 100 to 220 N, +-5 kHz, 1 to 30 periods, loads to 0.99999 of the limit), ``limit``
-(the same with loads from 0.9 to 0.999999), ``wide`` (inertia 1e-9 to 1e-2 kg m^2, 1 to 200 periods, loads to 0.9999) and
-``wave`` (plain travelling waves, both contacts, loads to 0.999999, against the closed form).  Tolerances from 1e-2 to
-1e-9 are drawn with the points.  With a file, points that stand in it are not computed again.
+BOX is one of ``stock`` (the stock motor, 100 to 220 N, +-5 kHz, 1 to 30 periods, loads to 0.99999 of the limit),
+``limit`` (the same with loads from 0.9 to 0.999999), ``wide`` (inertia 1e-9 to 1e-2 kg m^2, 1 to 200 periods, loads to
+0.9999) and ``wave`` (plain travelling waves, both contacts, loads to 0.999999, against the closed form).  Tolerances
+from 1e-2 to 1e-9 are drawn with the points.  With a file, points that stand in it are not computed again.
 """
 
 from __future__ import annotations
@@ -27,6 +27,7 @@ from studies import witness
 
 STARTS = ("steady", "rest", "periodic")
 FIGURES = ("mean", "low", "high", "deviation", "held")
+_OF_DRIVE = ("prepressure", "frequency_difference", "periods", "on_periods", "switching_phase", "phase_lead")
 _BLOCK = 250
 _FINEST = 1e-13  # accuracy of the witness
 _WITNESS = 10  # what the witness says of its own error is taken so many times
@@ -68,7 +69,8 @@ class Found:
         for name, ratios in self.ratios.items():
             if ratios:
                 lines.append(
-                    f"{name}: stated over true, of {len(ratios)}: least {min(ratios):.3g}, median {np.median(ratios):.3g}"
+                    f"{name}: stated over true, of {len(ratios)}: least {min(ratios):.3g}, "
+                    f"median {np.median(ratios):.3g}"
                 )
         lines += [json.dumps(row) for row in self.worst[:20]]
         return "\n".join(lines)
@@ -99,12 +101,12 @@ def draw(box: str, count: int, seed: int, most_periods: int | None = None) -> di
 
 
 def _evaluated(columns: dict[str, np.ndarray], chosen: np.ndarray) -> tuple[Any, np.ndarray, np.ndarray, float]:
-    """The product's answer, the witness's constants, the loads and the contact's radius for points of one start and contact."""
+    """The product's answer, the witness's constants, loads and contact radius for points of one start and contact."""
     c = {name: values[chosen] for name, values in columns.items()}
     motor = ts.load_motor("trum60").with_values({name: c[name] for name in ("rotor_inertia", "friction_coefficient")})
     radius = float(motor.contact_radius.value)
     drive = ts.Drive(
-        **{name: c[name] for name in ("prepressure", "frequency_difference", "periods", "on_periods", "switching_phase", "phase_lead")},
+        **{name: c[name] for name in _OF_DRIVE},
         load_torque=c["share"] * c["friction_coefficient"] * c["prepressure"] * radius,
         start=STARTS[int(c["start"][0])],
     )  # fmt: skip

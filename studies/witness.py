@@ -1,4 +1,4 @@
-"""The rotor's orbit a third way, fast enough for tens of thousands of points; nothing here imports the package's models.
+"""The rotor's orbit a third way, fast enough for tens of thousands of points, without the package's models.
 
 Phases are complex amplitudes of a decaying and a steady rotation.  Friction is the pressure's mass on the arc of the
 wave that is faster than the rotor.  The speed is integrated by Radau's collocation with five nodes (order 9), which

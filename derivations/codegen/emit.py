@@ -231,7 +231,7 @@ def _collocation() -> str:
             f"#define TRUM_COLLOCATION_LEGENDRE {table(collocation.legendre())}",
             "/* the value at the first node, without its own */",
             f"#define TRUM_COLLOCATION_OUTWARD {row(collocation.outward())}",
-            "/* Kronrod's nodes between them, where a step's defect is seen, and the defect's weights in its integral */",
+            "/* Kronrod's nodes between them, where a step's defect is seen, and its weights in the integral */",
             f"#define TRUM_CHECK_POINTS {row(collocation.check_nodes())}",
             f"#define TRUM_CHECK_WEIGHTS {row(collocation.check_weights())}",
             "/* the weights of Lobatto's nodes in the quadrature over all seven */",

@@ -101,7 +101,8 @@ def tolerance_option(command: Callable[..., Any]) -> Callable[..., Any]:
         "Largest bound of the errors of speeds over the largest speed, 1e-9 to 1e-2  "
         "[default: 1e-6, or what four digits of the mean speed need]"
     )
-    return number_option("--tolerance", "1", None, text, "T")(command)
+    option: Callable[..., Any] = number_option("--tolerance", "1", None, text, "T")(command)
+    return option
 
 
 def point_options(command: Callable[..., Any]) -> Callable[..., Any]:

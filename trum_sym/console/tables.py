@@ -50,7 +50,7 @@ def histories_table(histories: xr.Dataset) -> str:
 
 
 def shown_with_error(figures: Mapping[str, Any], name: str) -> tuple[str, str]:
-    """A figure in its unit for people to the last digit that its error leaves, and the error; six digits without one."""
+    """A figure in its unit for people to the last digit that its error leaves, and the error; else to six digits."""
     _, unit, shown = QUANTITIES[name]
     value, error = float(figures[name]), figures.get(f"{name}_error")
     if not np.isfinite(value):

@@ -298,7 +298,7 @@ def _of_orbit(case: Case, cycle_time: ArrayLike, volatility: bool, progress: boo
 
 
 def _encoder(arguments: Mapping[str, ArrayLike], orbit: Orbit, cycle_time: ArrayLike, period: ArrayLike) -> Array:
-    """Standard deviation of an encoder's readings at every point, and its change from half the samples; m/s at the rim."""
+    """Standard deviation of an encoder's readings at every point, and its change from half the samples; m/s."""
     names = list(arguments)
     raw = {name: orbit.raw[name] for name in ("low", "high", "start", "level")}
     columns = np.broadcast_arrays(*arguments.values(), *raw.values(), cycle_time, period)
