@@ -45,6 +45,8 @@ def main(arguments: list[str] | None = None) -> int:
     proving.add_argument("--json", action="store_true", help="records instead of a table")
     proving.add_argument("--mutants", action="store_true", help="see whether the evidence notices every small slip")
     proving.add_argument("--effects", action="store_true", help="recompute the effects' figures by a second route")
+    proving.add_argument("--second-opinion", action="store_true", help="ask Maxima; with --mutants, whether it sees slips")
+    proving.add_argument("--every", type=int, default=1, metavar="N", help="of those mutants every N-th only")
     proving.add_argument("--circular", action="store_true", help="look for checks of a thing against itself")
     proving.add_argument("--write", action="store_true", help="write generated/ledger.json and ledger.html")
     proving.add_argument("--check", action="store_true", help="change nothing; exit 1 if those two are stale")
@@ -71,6 +73,8 @@ def main(arguments: list[str] | None = None) -> int:
         check=options.check,
         effects=options.effects,
         circular=options.circular,
+        second_opinion=options.second_opinion,
+        every=options.every,
     )
 
 

@@ -159,6 +159,8 @@ def verify(
     check: bool,
     effects: bool = False,
     circular: bool = False,
+    second_opinion: bool = False,
+    every: int = 1,
 ) -> int:
     """Run the command; 0 when all is confirmed, 1 when something is not, 2 for an unknown equation."""
     try:
@@ -166,6 +168,10 @@ def verify(
     except LookupError as error:
         print(f"derivations: {error.args[0]}", file=sys.stderr)
         return 2
+    if second_opinion:
+        from derivations.ledger.second_opinion import run, run_mutants
+
+        return run_mutants(entries, every) if mutants else run(entries, write=write)
     if mutants:
         return check_mutants(entries)
     if effects:

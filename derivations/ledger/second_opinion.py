@@ -3,7 +3,7 @@
 What is printed comes from the second transcription, what stands from the derivation, both as text by
 :mod:`derivations.maxima.printer`.  The premises stand in ``derivations/maxima/judges/``, written for Maxima; a judge
 does not know whether it is given a print, a correction or a mutant.  What it found is kept in
-``generated/second_opinion.json`` with a checksum of what it was asked, so that ``verify`` sees when that has changed
+``generated/ledger.second_opinion.json`` with a checksum of what it was asked, so that ``verify`` sees when that has changed
 without needing Maxima.
 """
 
@@ -16,7 +16,7 @@ import sys
 import time
 import zlib
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cache
@@ -38,7 +38,7 @@ __all__ = ["ASKED", "FILE", "Opinion", "as_record", "ask", "checksum", "new_sess
 
 ASKED = ("verified", "approximation", "erratum", "reconstructed")
 """Verdicts that are put to Maxima; a definition follows from nothing, and data are no algebra."""
-FILE = GENERATED / "second_opinion.json"
+FILE = GENERATED / "ledger.second_opinion.json"
 _SECONDS = 30.0
 T, R = TypeVar("T"), TypeVar("R")
 _PARTS = {"verified": ("printed",), "approximation": ("printed",), "reconstructed": ("standing",)}
@@ -48,6 +48,7 @@ _PARTS = {"verified": ("printed",), "approximation": ("printed",), "reconstructe
 class Opinion:
     """What Maxima found on the forms of an entry, or in words why it could not decide ('' if it could)."""
 
+    asked: str  # checksum
     findings: dict[str, list[Finding]]
     undecided: str = ""
 
@@ -63,11 +64,15 @@ class Opinion:
         return faults
 
 
-def _parts(entry: Entry) -> dict[str, Forms]:
-    """The forms that are put to Maxima: the print by the second transcription, and what stands of errata."""
-    printed = second(entry.id) if entry.id in load() else entry.printed
-    forms = {"printed": printed, "standing": {} if entry.verdict in ("verified", "approximation") else entry.subject()}
-    return {part: forms[part] for part in _PARTS.get(entry.verdict, ("printed", "standing"))}
+def _asked(entry: Entry, derived: Forms | None = None) -> dict[str, str]:
+    """What is put to Maxima, as text: the print by the second transcription, and what stands of errata."""
+    parts = _PARTS.get(entry.verdict, ("printed", "standing"))
+    forms: dict[str, Forms] = {}
+    if "printed" in parts:
+        forms["printed"] = second(entry.id) if entry.id in load() else entry.printed
+    if "standing" in parts:
+        forms["standing"] = entry.derive().forms if derived is None else derived
+    return {part: forms_text(found) for part, found in forms.items()}
 
 
 def judge_of(entry: Entry) -> str:
@@ -80,6 +85,7 @@ def _scripts() -> str:
     return "".join((JUDGES / name).read_text("utf-8") for name in SCRIPTS)
 
 
+@cache
 def _data() -> str:
     """The preamble: which symbols are positive, and the motor's values as fractions."""
     plain = {n: e.symbol for n, e in NOMENCLATURE.items() if isinstance(e.symbol, sp.Symbol)}
@@ -88,10 +94,9 @@ def _data() -> str:
     return preamble(positive, signed, {name_of(n): str(sp.Rational(repr(v))) for n, v in usual().items()})
 
 
-def checksum(entry: Entry) -> str:
-    """Of all that Maxima is told of an entry: data, judges, forms."""
-    asked = _data() + _scripts() + "".join(map(forms_text, _parts(entry).values()))
-    return f"{zlib.crc32(asked.encode()):08x}"
+def checksum(asked: Mapping[str, str]) -> str:
+    """Of all that Maxima is told: data, judges, forms."""
+    return f"{zlib.crc32((_data() + _scripts() + ''.join(asked.values())).encode()):08x}"
 
 
 def new_session() -> Session:
@@ -102,12 +107,13 @@ def new_session() -> Session:
 def ask(entry: Entry, session: Session) -> Opinion:
     """Put an entry to Maxima."""
     findings: dict[str, list[Finding]] = {}
-    for part, forms in _parts(entry).items():
-        found = session.ask(judge_of(entry), forms_text(forms))
+    asked = _asked(entry)
+    for part, forms in asked.items():
+        found = session.ask(judge_of(entry), forms)
         if isinstance(found, str):
-            return Opinion(findings, f"{part}: {found}")
+            return Opinion(checksum(asked), findings, f"{part}: {found}")
         findings[part] = found
-    return Opinion(findings)
+    return Opinion(checksum(asked), findings)
 
 
 def _each(work: Callable[[T, Session], R], items: Iterable[T]) -> Iterator[R]:
@@ -140,7 +146,7 @@ def _progress(text: str) -> None:
 def _kept(entry: Entry, opinion: Opinion) -> dict[str, Any]:
     """What is kept of an opinion; methods sorted, so that the file does not hang on their order."""
     return {
-        "asked": checksum(entry),
+        "asked": opinion.asked,
         "confirmed": not opinion.undecided and not opinion.problems(entry),
         "undecided": opinion.undecided or None,
         "methods": sorted({f.method for found in opinion.findings.values() for f in found}),
@@ -190,12 +196,12 @@ def _kept_file() -> dict[str, dict[str, Any]]:
     return dict(json.loads(FILE.read_text("utf-8"))) if FILE.is_file() else {}
 
 
-def stale(entry: Entry) -> str | None:
-    """Why the kept opinion on an entry does not count; None if it does or none is asked for."""
+def stale(entry: Entry, derived: Forms) -> str | None:
+    """Why the kept opinion on an entry does not count, its derived forms given; None if it does or none is asked for."""
     if entry.verdict not in ASKED:
         return None
     kept = _kept_file().get(entry.id)
-    if kept is None or kept["asked"] != checksum(entry):
+    if kept is None or kept["asked"] != checksum(_asked(entry, derived)):
         return "the second opinion was asked of other forms: run `python -m derivations verify --second-opinion --write`"
     if not kept["confirmed"] and not kept["undecided"]:
         return "Maxima does not confirm it"
@@ -231,7 +237,7 @@ def try_entry(entry: Entry, session: Session, every: int = 1) -> Tried:
     surviving = []
     for mutant in list(mutants(forms))[::every]:
         try:
-            found = session.ask(judge_of(entry), forms_text(mutant.forms))
+            found = session.ask(judge_of(entry), forms_text(mutant.forms), hasty=True)
         except PrintError:
             without += 1
             continue

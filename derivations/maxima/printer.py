@@ -25,6 +25,8 @@ _FUNCTIONS: dict[type, str] = {
     sp.atan: "atan",
     sp.atan2: "angle2",
     sp.exp: "exp",
+    sp.sinh: "sinh",
+    sp.cosh: "cosh",
     sp.log: "log",
     sp.Abs: "abs",
     sp.sign: "signum",

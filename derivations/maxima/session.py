@@ -72,9 +72,12 @@ class Session:
             self._process.communicate()
             self._process = None
 
-    def ask(self, judge: str, forms: str) -> list[Finding] | str:
-        """The findings of a judge on forms (text of a list of pairs), or in words why there is none."""
-        answer = self._said(f"opinion({judge}, {forms})$")
+    def ask(self, judge: str, forms: str, *, hasty: bool = False) -> list[Finding] | str:
+        """The findings of a judge on forms (text of a list of pairs), or in words why there is none.
+
+        ``hasty`` ends with the first finding against the forms.
+        """
+        answer = self._said(f"opinion({judge}, {forms}, {str(hasty).lower()})$")
         if isinstance(answer, str) and answer.startswith("no answer"):
             return answer
         found = [Finding(ok == "yes", method, detail) for ok, method, detail in _FINDING.findall(answer)]
