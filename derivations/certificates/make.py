@@ -91,7 +91,9 @@ SOURCES: tuple[Source, ...] = (
                 "(42): at the crest, whose sine and cosine are S and C, height times tangential velocity is that Q",
                 "w*d*(g*C - h*S) - d*(g*b - h*a)",
             ),
-            Claim("height", "(21): the wave's displacement there is its height", "(a*S + b*C) - w", (("1", (0,), "1"),)),
+            Claim(
+                "height", "(21): the wave's displacement there is its height", "(a*S + b*C) - w", (("1", (0,), "1"),)
+            ),
         ),
         given=(_TURN, "w*S - a", "w*C - b", "w^2 - a^2 - b^2"),
         positive=("w",),
@@ -125,10 +127,14 @@ SOURCES: tuple[Source, ...] = (
         "speed-determinant",
         "Q_aver in X, and that it grows with X",
         ("43", "A14", "A15"),
-        {"p": "q_plus", "q": "q_minus", "T": "T", "X": "q_plus/q_minus", "Q": "(q_plus - q_minus)/((q_plus + q_minus)*T)"},
-        (
-            Claim("in X", "(A14): Q_aver (X + 1) T = X - 1", "Q*(X + 1)*T - (X - 1)", (("1", (0,), "1"),)),
-        ),
+        {
+            "p": "q_plus",
+            "q": "q_minus",
+            "T": "T",
+            "X": "q_plus/q_minus",
+            "Q": "(q_plus - q_minus)/((q_plus + q_minus)*T)",
+        },
+        (Claim("in X", "(A14): Q_aver (X + 1) T = X - 1", "Q*(X + 1)*T - (X - 1)", (("1", (0,), "1"),)),),
         given=("X*q - p", "Q*(p + q)*T - (p - q)"),
         positive=("q", "p", "T"),
         domain={"q_plus": (0.1, 3), "q_minus": (0.1, 3), "T": (0.3, 2)},
@@ -164,7 +170,14 @@ SOURCES: tuple[Source, ...] = (
             "Y": "p_plus/p_minus",
             "f": "sqrt((p_plus + p_minus)/(p_plus - p_minus))",
         },
-        (Claim("in Y", "(44) squared is (A16) squared: f^2 (Y - 1) = Y + 1", "f^2*(Y - 1) - (Y + 1)", (("1", (0,), "1"),)),),
+        (
+            Claim(
+                "in Y",
+                "(44) squared is (A16) squared: f^2 (Y - 1) = Y + 1",
+                "f^2*(Y - 1) - (Y + 1)",
+                (("1", (0,), "1"),),
+            ),
+        ),
         given=("Y*q - p", "f^2*(p - q) - (p + q)"),
         positive=("q", "p", "p - q"),
         domain={"p_plus": (2.1, 3), "p_minus": (0.1, 2)},
@@ -234,8 +247,10 @@ SOURCES: tuple[Source, ...] = (
             "p": "phi",
             "a": "u",
             "L": "sin(theta) - theta*cos(theta)",
-            "j": "(sin(phi + u) - (phi + u)*cos(theta) + sin(theta) - theta*cos(theta))/(2*(sin(theta) - theta*cos(theta)))",
-            "k": "(sin(phi - u) - (phi - u)*cos(theta) + sin(theta) - theta*cos(theta))/(2*(sin(theta) - theta*cos(theta)))",
+            "j": "(sin(phi + u) - (phi + u)*cos(theta) + sin(theta) - theta*cos(theta))/(2*(sin(theta) - "
+            "theta*cos(theta)))",
+            "k": "(sin(phi - u) - (phi - u)*cos(theta) + sin(theta) - theta*cos(theta))/(2*(sin(theta) - "
+            "theta*cos(theta)))",
             "f": "2*(cos(phi)*sin(u) - u*cos(theta))/(sin(theta) - theta*cos(theta)) - 1",
             "h": "2*(sin(phi + u) - (phi + u)*cos(theta))/(sin(theta) - theta*cos(theta)) - 1",
         },
@@ -248,7 +263,8 @@ SOURCES: tuple[Source, ...] = (
             Claim("the same f", "f is that share", "f - (2*(j - k) - 1)", (("1", (0,), "1"),)),
             Claim(
                 "doubled half",
-                "twice the half 0 < u < theta is off by 2 (sin(phi) cos(a) - phi cos(theta)) over L: nothing for phi = 0",
+                "twice the half 0 < u < theta is off by 2 (sin(phi) cos(a) - phi cos(theta)) over L: nothing for phi "
+                "= 0",
                 "L*(h - f) - 2*(s*C - p*e)",
             ),
         ),
@@ -312,7 +328,11 @@ SOURCES: tuple[Source, ...] = (
             "E": "P_B**2",
         },
         (
-            Claim("line", "(A12), summed: P_A zeta_x/(D k_c) + P_B zeta_z = (P_A^2 + P_B^2) cos(k_c x)", "a*x + d*b*z - d*(a^2 + b^2)*c"),
+            Claim(
+                "line",
+                "(A12), summed: P_A zeta_x/(D k_c) + P_B zeta_z = (P_A^2 + P_B^2) cos(k_c x)",
+                "a*x + d*b*z - d*(a^2 + b^2)*c",
+            ),
             Claim(
                 "conic",
                 "squared, (A13): A zeta_x^2 + P_B^2 zeta_z^2 + B zeta_x zeta_z = ((P_A^2 + P_B^2) cos(k_c x))^2",
@@ -388,7 +408,9 @@ def _terms(expr: sp.Expr, letters: Sequence[sp.Symbol]) -> Poly:
 def _multipliers(
     target: sp.Expr, given: Sequence[sp.Expr], letters: Sequence[sp.Symbol], order: str
 ) -> list[tuple[int, Poly]]:
-    """The m_i other than 0 with target = sum m_i given_i: by division, or by Groebner's basis and its transformation."""
+    """The m_i other than 0 with target = sum m_i given_i: by division, or by Groebner's basis and its "
+    "transformation.
+    """
     if target == 0:
         return []
     first = [sp.Symbol(letter) for letter in order]
@@ -489,7 +511,9 @@ def _form(where: Sequence[str], *, printed: bool = False) -> sp.Expr:
     return sp.sympify((found.printed if printed else found.subject())[where[1]])
 
 
-def _points(meanings: Iterable[sp.Expr], domain: Mapping[str, tuple[float, float]]) -> Iterator[dict[sp.Symbol, mp.mpf]]:
+def _points(
+    meanings: Iterable[sp.Expr], domain: Mapping[str, tuple[float, float]]
+) -> Iterator[dict[sp.Symbol, mp.mpf]]:
     """Four points of the symbols: in their domain, or between 0.3 and 1.7 and of either sign if real."""
     symbols = sorted(set().union(*(m.free_symbols for m in meanings)), key=lambda s: s.name)
     for index in range(4):
@@ -589,13 +613,16 @@ def page(certificates: Iterable[Mapping[str, Any]], records: Iterable[Mapping[st
         "# Certificates of the algebraic core",
         "",
         "Each certificate is a file in `derivations/certificates/data/` that says what is given, what follows, and the",
-        "multipliers that prove it; a checker of some fifty lines replays it in exact fractions with Python's own library:",
+        "multipliers that prove it; a checker of some fifty lines replays it in exact fractions with Python's own "
+        "library:",
         "",
         "    python derivations/certificates/checker.py derivations/certificates/data/*.json",
         "",
         "What is proved is printed below from the certificate's data, not from what it was made of, beside the paper's",
-        "formulas.  `python -m derivations certificates` replays all, and holds what is given and every claim against the",
-        "ledger's own formulas in the letters' places: a certificate that proves something else is refused.  Lean would",
+        "formulas.  `python -m derivations certificates` replays all, and holds what is given and every claim "
+        "against the",
+        "ledger's own formulas in the letters' places: a certificate that proves something else is refused.  Lean "
+        "would",
         "have been the stronger form; its toolchain comes from no package registry that this project builds from.",
     ]
     for certificate in certificates:

@@ -199,7 +199,9 @@ def _confirmed_by(r: dict[str, Any]) -> str:
     systems = f"<b>Confirmed by:</b> {escape(', '.join(second['confirmed_by']) if r['confirmed'] else 'nobody')}"
     if second["undecided"]:
         return f'<p class="place">{systems} ({escape(second["undecided"])}).</p>'
-    means = f' <span class="place">(Maxima by {escape("; ".join(second["methods"]))})</span>' if second["methods"] else ""
+    means = (
+        f' <span class="place">(Maxima by {escape("; ".join(second["methods"]))})</span>' if second["methods"] else ""
+    )
     return f"<p>{systems}{means}.</p>"
 
 

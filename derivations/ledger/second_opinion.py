@@ -3,8 +3,8 @@
 What is printed comes from the second transcription, what stands from the derivation, both as text by
 :mod:`derivations.maxima.printer`.  The premises stand in ``derivations/maxima/judges/``, written for Maxima; a judge
 does not know whether it is given a print, a correction or a mutant.  What it found is kept in
-``generated/ledger.second_opinion.json`` with a checksum of what it was asked, so that ``verify`` sees when that has changed
-without needing Maxima.
+``generated/ledger.second_opinion.json`` with a checksum of what it was asked, so that ``verify`` sees when that has
+changed without needing Maxima.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ import sympy as sp
 from derivations.codegen.emit import GENERATED
 from derivations.ledger.judge import usual
 from derivations.ledger.model import Entry, Forms
-from derivations.ledger.mutate import MUTATED, changes_nothing, mutants
+from derivations.ledger.mutate import MUTATED, Mutant, changes_nothing, mutants
 from derivations.ledger.transcription import load, second
 from derivations.maxima.printer import PrintError, forms_text, name_of
 from derivations.maxima.session import JUDGES, NO_VALUE, SCRIPTS, Finding, MaximaError, Session, preamble
@@ -40,7 +40,8 @@ ASKED = ("verified", "approximation", "erratum", "reconstructed")
 """Verdicts that are put to Maxima; a definition follows from nothing, and data are no algebra."""
 FILE = GENERATED / "ledger.second_opinion.json"
 _SECONDS = 30.0
-T, R = TypeVar("T"), TypeVar("R")
+T = TypeVar("T")
+R = TypeVar("R")
 _PARTS = {"verified": ("printed",), "approximation": ("printed",), "reconstructed": ("standing",)}
 
 
@@ -197,12 +198,16 @@ def _kept_file() -> dict[str, dict[str, Any]]:
 
 
 def stale(entry: Entry, derived: Forms) -> str | None:
-    """Why the kept opinion on an entry does not count, its derived forms given; None if it does or none is asked for."""
+    """Why the kept opinion on an entry does not count, its derived forms given; None if it does or none is asked "
+    "for.
+    """
     if entry.verdict not in ASKED:
         return None
     kept = _kept_file().get(entry.id)
     if kept is None or kept["asked"] != checksum(_asked(entry, derived)):
-        return "the second opinion was asked of other forms: run `python -m derivations verify --second-opinion --write`"
+        return (
+            "the second opinion was asked of other forms: run `python -m derivations verify --second-opinion --write`"
+        )
     if not kept["confirmed"] and not kept["undecided"]:
         return "Maxima does not confirm it"
     return None
@@ -229,6 +234,14 @@ class Tried:
     surviving: tuple[str, ...]
 
 
+def _changes_nothing(entry: Entry, mutant: Mutant, forms: Forms) -> bool:
+    """Whether a mutant is proved to be the same formula; not where one of both has no value."""
+    try:
+        return changes_nothing(entry, mutant, forms)
+    except (ArithmeticError, AttributeError, TypeError, ValueError):
+        return False
+
+
 def try_entry(entry: Entry, session: Session, every: int = 1) -> Tried:
     """Put every so manieth mutant of what stands of an entry to Maxima."""
     forms = entry.subject()
@@ -244,7 +257,7 @@ def try_entry(entry: Entry, session: Session, every: int = 1) -> Tried:
         against = next((f for f in found if not f.ok), None) if not isinstance(found, str) else None
         if against is not None:
             rejected[against.method] += 1
-        elif changes_nothing(entry, mutant, forms):
+        elif _changes_nothing(entry, mutant, forms):
             equivalent += 1
         else:
             why = f" ({found})" if isinstance(found, str) else ""
@@ -271,7 +284,8 @@ def run_mutants(entries: tuple[Entry, ...], every: int = 1) -> int:
     total = rejected.total() + equivalent + without + len(surviving)
     by = ", ".join(f"{count} by {method}" for method, count in rejected.most_common(6))
     print(
-        f"{total} mutants of {len(chosen)} entries put to Maxima: {rejected.total()} rejected ({by}), {equivalent} proved "
+        f"{total} mutants of {len(chosen)} entries put to Maxima: {rejected.total()} rejected ({by}), {equivalent} "
+        f"proved "
         f"equivalent, {without} without a value, {len(surviving)} surviving"
     )
     for line in surviving:

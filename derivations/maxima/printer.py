@@ -1,8 +1,8 @@
 """Trees as Maxima text: node by node as they stand, nothing is simplified on the way.
 
 What Maxima's own notation lacks is written with inert names that ``judges/kernel.mac`` gives their meaning: ``rows``
-of a piecewise form as pairs of value and condition, ``both`` and ``either`` for conditions joined, ``area`` of an integral
-(Maxima's own takes out of it what it holds for constant), ``angle2`` of two arguments.  Numbers are exact.
+of a piecewise form as pairs of value and condition, ``both`` and ``either`` for conditions joined, ``area`` of an
+integral (Maxima's own takes out of it what it holds for constant), ``angle2`` of two arguments.  Numbers are exact.
 """
 
 from __future__ import annotations

@@ -16,7 +16,15 @@ from types import TracebackType
 __all__ = ["JUDGES", "NO_VALUE", "SCRIPTS", "Finding", "MaximaError", "Session", "available", "preamble"]
 
 JUDGES = Path(__file__).parent / "judges"
-SCRIPTS = ("kernel.mac", "point.mac", "section_2.mac", "section_3.mac", "section_4.mac", "section_6.mac", "appendices.mac")
+SCRIPTS = (
+    "kernel.mac",
+    "point.mac",
+    "section_2.mac",
+    "section_3.mac",
+    "section_4.mac",
+    "section_6.mac",
+    "appendices.mac",
+)
 """The judges, each after those whose functions it uses."""
 NO_VALUE = "no value"
 """The method of a finding on forms that cannot be evaluated."""
