@@ -546,6 +546,23 @@ def misread(certificate: Mapping[str, Any], domain: Mapping[str, tuple[float, fl
     return list(dict.fromkeys(found))
 
 
+def _off_rates(
+    rates: Mapping[str, Poly],
+    values: dict[str, mp.mpc],
+    meanings: Mapping[str, sp.Expr],
+    point: Mapping[sp.Symbol, mp.mpf],
+) -> Iterator[str]:
+    """Rates that are not the derivatives by the letter whose rate is 1; a letter of its own is given its value."""
+    by = [meanings[letter] for letter, rate in rates.items() if rate == {"": "1"}]
+    for letter, rate in rates.items():
+        slope = evaluate(meanings[letter].diff(by[0]), point)
+        (alone,) = rate if list(rate.values()) == ["1"] else ("",)
+        if alone.isalpha():
+            values.setdefault(alone, slope)
+        if not _nothing(slope - _value(rate, values)):
+            yield f"the rate of {letter} is not {_written(rate)}"
+
+
 def _off(
     certificate: Mapping[str, Any],
     values: dict[str, mp.mpc],
@@ -553,14 +570,7 @@ def _off(
     point: Mapping[sp.Symbol, mp.mpf],
 ) -> Iterator[str]:
     """What does not hold at a point."""
-    by = [meanings[letter] for letter, rate in certificate["rates"].items() if rate == {"": "1"}]
-    for letter, rate in certificate["rates"].items():
-        slope = evaluate(meanings[letter].diff(by[0]), point)
-        alone = next(iter(rate)) if list(rate.values()) == ["1"] else ""
-        if alone and alone not in values and " " not in alone and "^" not in alone:
-            values[alone] = slope  # a letter that stands for nothing but this rate
-        if not _nothing(slope - _value(rate, values)):
-            yield f"the rate of {letter} is not {_written(rate)}"
+    yield from _off_rates(certificate["rates"], values, meanings, point)
     for terms in certificate["given"]:
         if not _nothing(_value(terms, values)):
             yield f"{_written(terms)} is not 0"

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
+from derivations.ledger.second_opinion import SAMPLED
 from trum_sym.paper.ledger import SEVERITIES, VERDICTS
 
 __all__ = ["REPLICATION", "claims_line", "label", "page", "rows"]
@@ -81,7 +82,8 @@ def _methods(records: list[Record]) -> list[str]:
     second = [r["second_opinion"] for r in records]
     both = sum(s["confirmed_by"] == ["SymPy", "Maxima"] for s in second)
     methods = Counter(f["method"] for s in second for found in s["findings"].values() for f in found)
-    sampled = sum(count for method, count in methods.items() if re.search("digits|QUADPACK|cases", method))
+    for_a_form = [f for s in second for found in s["findings"].values() for f in found if f["ok"]]
+    sampled = sum(bool(SAMPLED.search(f["method"])) for f in for_a_form)
     steps = [s for r in records for s in r["steps"]]
     return [
         "## Methods",
@@ -98,9 +100,11 @@ def _methods(records: list[Record]) -> list[str]:
         "form and the print after the stated correction pass.",
         "",
         f"A second computer algebra system, Maxima, derives what must hold on its own and confirms {both} entries, in "
-        f"{methods.total()} findings, {sampled} of them at sampled points or states. The algebraic core carries "
-        f"certificates that a "
-        "checker replays in exact fractions ([certificates](certificates.md)).",
+        f"{methods.total()} findings: {len(for_a_form)} for a form, {sampled} of these at sampled points or states "
+        f"and the "
+        f"others exact, and {methods.total() - len(for_a_form)} against a print. The algebraic core carries "
+        f"certificates "
+        "that a checker replays in exact fractions ([certificates](certificates.md)).",
         "",
         "Every small slip that happens in print is made once in every form that stands, and in the print of every "
         "erratum:",

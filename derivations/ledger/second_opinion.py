@@ -34,11 +34,25 @@ from derivations.maxima.printer import PrintError, forms_text, name_of
 from derivations.maxima.session import JUDGES, NO_VALUE, SCRIPTS, Finding, MaximaError, Session, preamble
 from derivations.nomenclature import NOMENCLATURE
 
-__all__ = ["ASKED", "FILE", "Opinion", "as_record", "ask", "checksum", "new_session", "run", "run_mutants", "stale"]
+__all__ = [
+    "ASKED",
+    "FILE",
+    "SAMPLED",
+    "Opinion",
+    "as_record",
+    "ask",
+    "checksum",
+    "new_session",
+    "run",
+    "run_mutants",
+    "stale",
+]
 
 ASKED = ("verified", "approximation", "erratum", "reconstructed")
 """Verdicts that are put to Maxima; a definition follows from nothing, and data are no algebra."""
 FILE = GENERATED / "ledger.second_opinion.json"
+SAMPLED = re.compile("digits|QUADPACK|cases")
+"""Methods that are no proof but numbers at points or states."""
 _SECONDS = 30.0
 T = TypeVar("T")
 R = TypeVar("R")
@@ -158,6 +172,22 @@ def _kept(entry: Entry, opinion: Opinion) -> dict[str, Any]:
     }
 
 
+def _summary(found: Mapping[str, dict[str, Any]], wrong: int) -> str:
+    """Counts by outcome, and of findings by the means that decided."""
+    undecided = [name for name, kept in found.items() if kept["undecided"]]
+    findings = [f for kept in found.values() for part in kept["findings"].values() for f in part]
+    sampled = sum(bool(SAMPLED.search(f["method"])) for f in findings if f["ok"])
+    speaking = sum(f["ok"] for f in findings)
+    return (
+        f"{len(found)} entries put to Maxima: {sum(kept['confirmed'] for kept in found.values())} confirmed, {wrong} "
+        f"not, "
+        f"{len(undecided)} undecided{': ' + ', '.join(undecided) if undecided else ''}\n"
+        f"{len(findings)} findings: {speaking - sampled} for a form by exact means, {sampled} for one at sampled "
+        f"points or "
+        f"states, {len(findings) - speaking} against a print"
+    )
+
+
 def run(entries: tuple[Entry, ...], *, write: bool) -> int:
     """Put entries to Maxima; 0 if it confirms all that it can decide and the file says the same, 2 without Maxima."""
     chosen, start = [e for e in entries if e.verdict in ASKED], time.perf_counter()
@@ -174,14 +204,7 @@ def run(entries: tuple[Entry, ...], *, write: bool) -> int:
     except MaximaError as error:
         print(f"derivations: {error}", file=sys.stderr)
         return 2
-    undecided = [name for name, kept in found.items() if kept["undecided"]]
-    means = Counter(f["method"] for kept in found.values() for part in kept["findings"].values() for f in part)
-    confirmed = sum(kept["confirmed"] for kept in found.values())
-    print(
-        f"{len(found)} entries put to Maxima: {confirmed} confirmed, {wrong} not, {len(undecided)} undecided"
-        + f"{': ' + ', '.join(undecided) if undecided else ''}; {means.total()} findings"
-    )
-    print("\n".join(f"  {count:4} by {method}" for method, count in means.most_common()))
+    print(_summary(found, wrong))
     _progress(f"{time.perf_counter() - start:.1f} s")
     if write:
         FILE.write_text(json.dumps(found, indent=1, ensure_ascii=False) + "\n", "utf-8")

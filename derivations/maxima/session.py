@@ -103,7 +103,9 @@ class Session:
         answer = self._said(self._preamble + "\n" + loads, seconds=120)
         if "error" in answer.lower() or answer.startswith("no answer"):
             self.close()
-            raise MaximaError(f"Maxima cannot load its judges: {' '.join(answer.split())[:300]}")
+            raise MaximaError(
+                f"Maxima cannot load its judges (is maxima-share installed?): {' '.join(answer.split())[:300]}"
+            )
         return process
 
     def _said(self, statements: str, seconds: float | None = None) -> str:

@@ -227,3 +227,10 @@ def test_a_slip_is_noticed_by_maxima_too(maxima, name, form, slip):
 def test_a_form_that_is_missing_speaks_against_itself(maxima):
     (found,) = maxima.ask("judge_A15", "[]")
     assert (found.ok, found.method) == (False, "no value")
+
+
+def test_the_docs_show_what_maxima_found():
+    text = (ROOT / "docs" / "ledger.md").read_text("utf-8")
+    shown = re.search(r"<!-- python -m derivations verify --second-opinion -->\n```\n(.*?)\n```", text, re.DOTALL)[1]
+    kept = json.loads(opinion.FILE.read_text("utf-8"))
+    assert shown == opinion._summary(kept, 0)
