@@ -76,6 +76,10 @@ SOURCES: tuple[Source, ...] = (
             "s": "sin(k_c*x)",
             "c": "cos(k_c*x)",
             "d": "D*k_c",
+            "z": "w_A*sin(k_c*x) + w_B*cos(k_c*x)",
+            "x": "D*k_c*(w_A*cos(k_c*x) - w_B*sin(k_c*x))",
+            "l": "v_A*sin(k_c*x) + v_B*cos(k_c*x)",
+            "k": "D*k_c*(v_A*cos(k_c*x) - v_B*sin(k_c*x))",
             "w": "sqrt(w_A**2 + w_B**2)",
             "S": "w_A/sqrt(w_A**2 + w_B**2)",
             "C": "w_B/sqrt(w_A**2 + w_B**2)",
@@ -84,7 +88,7 @@ SOURCES: tuple[Source, ...] = (
             Claim(
                 "anywhere",
                 "(A5) with the displacements of (11): xi_x' xi_z - xi_z' xi_x is the same at every x",
-                "(d*(g*c - h*s))*(a*s + b*c) - (g*s + h*c)*(d*(a*c - b*s)) - d*(g*b - h*a)",
+                "k*z - l*x - d*(g*b - h*a)",
             ),
             Claim(
                 "crest",
@@ -95,8 +99,18 @@ SOURCES: tuple[Source, ...] = (
                 "height", "(21): the wave's displacement there is its height", "(a*S + b*C) - w", (("1", (0,), "1"),)
             ),
         ),
-        given=(_TURN, "w*S - a", "w*C - b", "w^2 - a^2 - b^2"),
+        given=(
+            _TURN,
+            "z - (a*s + b*c)",
+            "x - d*(a*c - b*s)",
+            "l - (g*s + h*c)",
+            "k - d*(g*c - h*s)",
+            "w*S - a",
+            "w*C - b",
+            "w^2 - a^2 - b^2",
+        ),
         positive=("w",),
+        order="zxlks",
     ),
     Source(
         "two-phases",
@@ -112,16 +126,19 @@ SOURCES: tuple[Source, ...] = (
             "S": "sin(omega_b*t + varphi_b)",
             "C": "cos(omega_b*t + varphi_b)",
             "d": "D*k_c",
+            "u": "sin(omega_a*t + varphi_a + omega_b*t + varphi_b)",
+            "v": "sin(omega_b*t + varphi_b - omega_a*t - varphi_a)",
         },
         (
             Claim(
                 "sum and difference",
                 "(A6): v_A w_B - v_B w_A, times D k_c, with sines of sum and difference of both angles",
-                "2*Q - d*P*R*((n - m)*(s*C + c*S) + (n + m)*(S*c - C*s))",
+                "2*Q - d*P*R*((n - m)*u + (n + m)*v)",
             ),
         ),
         forms={"Q": ("A6", "Q_q")},
-        given=("Q - d*((-P*m*s)*(R*C) - (-R*n*S)*(P*c))",),
+        given=("Q - d*((-P*m*s)*(R*C) - (-R*n*S)*(P*c))", "u - (s*C + c*S)", "v - (S*c - C*s)"),
+        order="Quv",
     ),
     Source(
         "speed-determinant",
@@ -631,9 +648,8 @@ def page(certificates: Iterable[Mapping[str, Any]], records: Iterable[Mapping[st
         "What is proved is printed below from the certificate's data, not from what it was made of, beside the paper's",
         "formulas.  `python -m derivations certificates` replays all, and holds what is given and every claim "
         "against the",
-        "ledger's own formulas in the letters' places: a certificate that proves something else is refused.  Lean "
-        "would",
-        "have been the stronger form; its toolchain comes from no package registry that this project builds from.",
+        "ledger's own formulas in the letters' places: a certificate that proves something else is refused.",
+        "Lean would have been the stronger form; its toolchain was looked for in Debian, PyPI and npm and is in none.",
     ]
     for certificate in certificates:
         about = [by_id[name] for name in certificate["about"]]

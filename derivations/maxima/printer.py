@@ -36,6 +36,7 @@ _FUNCTIONS: dict[type, str] = {
     sp.And: "both",
     sp.Or: "either",
 }
+_UNORDERED = (sp.Max, sp.Min, sp.And, sp.Or)
 _RESERVED = {"lambda": "lambda_", "step": "step_"}
 _CONSTANTS: dict[sp.Basic, str] = {
     sp.pi: "%pi",
@@ -133,7 +134,10 @@ def text(node: sp.Basic) -> str:
     if node in _CONSTANTS:
         return _CONSTANTS[node]
     if node.func in _FUNCTIONS:
-        return f"{_FUNCTIONS[node.func]}({', '.join(map(text, node.args))})"
+        arguments = list(map(text, node.args))
+        if node.func in _UNORDERED:  # SymPy keeps them as a set, in an order that differs from run to run
+            arguments.sort()
+        return f"{_FUNCTIONS[node.func]}({', '.join(arguments)})"
     for kind, write in _WRITERS:
         if isinstance(node, kind):
             return write(node)
