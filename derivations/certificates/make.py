@@ -425,9 +425,7 @@ def _terms(expr: sp.Expr, letters: Sequence[sp.Symbol]) -> Poly:
 def _multipliers(
     target: sp.Expr, given: Sequence[sp.Expr], letters: Sequence[sp.Symbol], order: str
 ) -> list[tuple[int, Poly]]:
-    """The m_i other than 0 with target = sum m_i given_i: by division, or by Groebner's basis and its "
-    "transformation.
-    """
+    """The m_i other than 0 with target = sum m_i given_i: by division, or by Groebner's basis."""
     if target == 0:
         return []
     first = [sp.Symbol(letter) for letter in order]

@@ -221,15 +221,14 @@ def _kept_file() -> dict[str, dict[str, Any]]:
 
 
 def stale(entry: Entry, derived: Forms) -> str | None:
-    """Why the kept opinion on an entry does not count, its derived forms given; None if it does or none is asked "
-    "for.
-    """
+    """Why the kept opinion on an entry whose derived forms are given does not count; None if it does."""
     if entry.verdict not in ASKED:
         return None
     kept = _kept_file().get(entry.id)
     if kept is None or kept["asked"] != checksum(_asked(entry, derived)):
         return (
-            "the second opinion was asked of other forms: run `python -m derivations verify --second-opinion --write`"
+            "the second opinion was asked of other forms or of another judge: run "
+            "`python -m derivations verify --second-opinion --write`"
         )
     if not kept["confirmed"] and not kept["undecided"]:
         return "Maxima does not confirm it"
@@ -273,7 +272,8 @@ def try_entry(entry: Entry, session: Session, every: int = 1) -> Tried:
     surviving = []
     for mutant in list(mutants(forms))[::every]:
         try:
-            found = session.ask(judge_of(entry), forms_text(mutant.forms), hasty=True)
+            ordered = {mutant.name: mutant.forms[mutant.name], **mutant.forms}  # the changed one is looked at first
+            found = session.ask(judge_of(entry), forms_text(ordered), hasty=True)
         except PrintError:
             without += 1
             continue
