@@ -53,7 +53,7 @@ ASKED = ("verified", "approximation", "erratum", "reconstructed")
 FILE = GENERATED / "ledger.second_opinion.json"
 SAMPLED = re.compile("digits|QUADPACK|cases")
 """Methods that are no proof but numbers at points or states."""
-_SECONDS = 30.0
+_SECONDS = 60.0
 T = TypeVar("T")
 R = TypeVar("R")
 _PARTS = {"verified": ("printed",), "approximation": ("printed",), "reconstructed": ("standing",)}
