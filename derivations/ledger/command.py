@@ -9,6 +9,7 @@ from collections import Counter
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 from derivations.codegen.emit import GENERATED
@@ -20,7 +21,7 @@ from derivations.ledger.report import record
 from derivations.ledger.transcription import copy_of, differences, load
 from trum_sym.paper.ledger import table, written_out
 
-__all__ = ["as_json", "check_mutants", "prove", "transcription", "verify"]
+__all__ = ["as_json", "check_mutants", "outputs", "prove", "transcription", "verify"]
 
 
 def _progress(text: str) -> None:
@@ -132,14 +133,23 @@ def check_circular(entries: tuple[Entry, ...]) -> int:
     return 1 if found else 0
 
 
-def _write(records: list[dict[str, Any]], check: bool) -> int:
-    """Write ledger.json and ledger.html, or say whether they are stale."""
-    from derivations.ledger.assumptions import page as assumptions_page
-    from derivations.ledger.html import page
+def outputs(records: list[dict[str, Any]]) -> dict[Path, str]:
+    """What the ledger gives: its records and page, and the pages of the docs that are made of them."""
+    from derivations.ledger import article, assumptions, html, protocol
 
-    files = {"ledger.json": as_json(records), "ledger.html": page(records, ENTRIES)}
-    paths = {GENERATED / name: text for name, text in files.items()}
-    paths[GENERATED.parent / "docs" / "assumptions.md"] = assumptions_page()
+    docs = GENERATED.parent / "docs"
+    return {
+        GENERATED / "ledger.json": as_json(records),
+        GENERATED / "ledger.html": html.page(records, ENTRIES),
+        docs / "assumptions.md": assumptions.page(),
+        docs / "referee.md": protocol.page(records),
+        docs / "article.md": article.page(records),
+    }
+
+
+def _write(records: list[dict[str, Any]], check: bool) -> int:
+    """Write the outputs, or say which are stale."""
+    paths = outputs(records)
     if not check:
         for path, text in paths.items():
             path.write_text(text, "utf-8")
@@ -159,6 +169,8 @@ def verify(
     check: bool,
     effects: bool = False,
     circular: bool = False,
+    second_opinion: bool = False,
+    every: int = 1,
 ) -> int:
     """Run the command; 0 when all is confirmed, 1 when something is not, 2 for an unknown equation."""
     try:
@@ -166,6 +178,10 @@ def verify(
     except LookupError as error:
         print(f"derivations: {error.args[0]}", file=sys.stderr)
         return 2
+    if second_opinion:
+        from derivations.ledger.second_opinion import run, run_mutants
+
+        return run_mutants(entries, every) if mutants else run(entries, write=write and equation is None)
     if mutants:
         return check_mutants(entries)
     if effects:

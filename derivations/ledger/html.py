@@ -193,6 +193,29 @@ def _sureness(r: dict[str, Any]) -> str:
     return "".join(said)
 
 
+def _confirmed_by(r: dict[str, Any]) -> str:
+    """By which algebra systems a verdict is confirmed, by which means, and what the second one found."""
+    second = r["second_opinion"]
+    systems = f"<b>Confirmed by:</b> {escape(', '.join(second['confirmed_by']) if r['confirmed'] else 'nobody')}"
+    if second["undecided"]:
+        return f'<p class="place">{systems} ({escape(second["undecided"])}).</p>'
+    means = (
+        f' <span class="place">(Maxima by {escape("; ".join(second["methods"]))})</span>' if second["methods"] else ""
+    )
+    return f"<p>{systems}{means}.</p>"
+
+
+def _second(r: dict[str, Any]) -> str:
+    """What Maxima found, as a list like the evidence."""
+    words = {"printed": "printed", "standing": "reconstructed" if r["verdict"] == "reconstructed" else "put right"}
+    found = [
+        {"ok": f["ok"], "about": words[part], "kind": "Maxima", "detail": f"{f['detail']} ({f['method']})"}
+        for part, findings in r["second_opinion"]["findings"].items()
+        for f in findings
+    ]
+    return f"<details><summary>Second opinion</summary>{_evidence(found)}</details>" if found else ""
+
+
 def _article(r: dict[str, Any], picture: str) -> str:
     said = (
         r["id"],
@@ -213,12 +236,12 @@ def _article(r: dict[str, Any], picture: str) -> str:
         f'data-copy="{r["copy"]}" data-words="{escape(words)}">'
         f'<h2><a href="#{escape(anchor(r["id"]))}">{escape(_label(r["id"]))}</a> {_prose(r["title"])}'
         f'<span class="tag {r["verdict"]}">{r["verdict"]}</span>{_tags(r)}</h2>'
-        f'<p class="place">{escape(r["place"])}</p><p>{_prose(r["reason"])}</p>{found_by}'
+        f'<p class="place">{escape(r["place"])}</p><p>{_prose(r["reason"])}</p>{found_by}{_confirmed_by(r)}'
         f'<div class="pair">{_formulas("printed", r["printed_latex"])}'
         f"{_formulas(corrected, r['derived_latex'])}</div>"
         f"{_sureness(r)}<p><b>Effect.</b> {_prose(r['effect'])}</p>{_computed_with(r['effect_at'])}{figure}"
         f"<details open><summary>Derivation</summary>{_steps(r['steps'])}</details>"
-        f"<details><summary>Evidence</summary>{_evidence(r['evidence'])}</details></article>"
+        f"<details><summary>Evidence</summary>{_evidence(r['evidence'])}</details>{_second(r)}</article>"
     )
 
 

@@ -20,7 +20,16 @@ from derivations.ledger.judge import difference, evaluate, vanishes
 from derivations.ledger.model import Entry, Evidence, Forms
 from derivations.nomenclature import NOMENCLATURE
 
-__all__ = ["MUTATED", "Mutant", "Outcome", "equivalent", "mutants", "try_misreadings", "try_mutants"]
+__all__ = [
+    "MUTATED",
+    "Mutant",
+    "Outcome",
+    "changes_nothing",
+    "equivalent",
+    "mutants",
+    "try_misreadings",
+    "try_mutants",
+]
 
 MUTATED = ("verified", "erratum", "reconstructed")
 """Verdicts whose standing forms are mutated: printed and verified, corrected, reconstructed."""
@@ -180,13 +189,17 @@ def _whole_turns(mutated: sp.Basic, form: sp.Basic) -> bool:
     return any((turns * per).is_integer for per in (1, NOMENCLATURE["k_c"].symbol))
 
 
+def changes_nothing(entry: Entry, mutant: Mutant, forms: Forms) -> bool:
+    """Whether a mutant is the same formula, or the same angle or place up to whole turns."""
+    pair = mutant.forms[mutant.name], forms[mutant.name]
+    return equivalent(*pair) or (entry.units.get(mutant.name) in ("rad", "m") and _whole_turns(*pair))
+
+
 def _try(entry: Entry, forms: Forms, rejects: Callable[[Forms], Evidence | None]) -> list[Outcome]:
     outcomes = []
     for mutant in mutants(forms):
-        against, pair = rejects(mutant.forms), (mutant.forms[mutant.name], forms[mutant.name])
-        periodic = entry.units.get(mutant.name) in ("rad", "m")
-        same = against is None and (equivalent(*pair) or (periodic and _whole_turns(*pair)))
-        outcomes.append(Outcome(mutant, against, same))
+        against = rejects(mutant.forms)
+        outcomes.append(Outcome(mutant, against, against is None and changes_nothing(entry, mutant, forms)))
     return outcomes
 
 

@@ -11,6 +11,7 @@ from derivations.ledger.assumptions import assumptions_of
 from derivations.ledger.conditions import effect_at
 from derivations.ledger.model import Evidence, Forms, Result
 from derivations.ledger.referee import Review
+from derivations.ledger.second_opinion import as_record, stale
 from derivations.nomenclature import NOMENCLATURE, latex
 
 __all__ = ["forms_latex", "record"]
@@ -37,6 +38,8 @@ def _evidence(found: Iterable[Evidence], about: str) -> list[dict[str, Any]]:
 def record(result: Result, review: Review) -> dict[str, Any]:
     """What ``verify --json`` and ledger.json say of an entry."""
     entry, weight, problems = result.entry, review.severity, [*result.problems, *review.problems]
+    outdated = stale(entry, result.derivation.forms)
+    problems += [outdated] if outdated else []
     about = "reconstructed" if entry.verdict == "reconstructed" else "corrected"
     return {
         "id": entry.id,
@@ -54,6 +57,7 @@ def record(result: Result, review: Review) -> dict[str, Any]:
         "place": entry.place,
         "found_by": list(entry.found_by),
         "confirmed": not problems,
+        "second_opinion": as_record(entry),
         "problems": problems,
         "severity": weight.word if weight else None,
         "severity_detail": weight.why if weight else None,

@@ -110,6 +110,14 @@ def table(records: list[Record]) -> str:
 _MARKS = {None: "premise", True: "checked", False: "DOES NOT HOLD"}
 
 
+def _systems(record: Record) -> str:
+    """The algebra systems that confirm a verdict, with the second one's means or why it was not asked."""
+    second = record["second_opinion"]
+    systems = ", ".join(second["confirmed_by"]) if record["confirmed"] else "nobody"
+    means = second["undecided"] or "; ".join(second["methods"])
+    return f"{systems} ({means})" if means else systems
+
+
 def written_out(record: Record) -> str:
     """One entry: printed, derivation step by step, derived, evidence, effect; formulas in LaTeX."""
     r = record
@@ -128,6 +136,7 @@ def written_out(record: Record) -> str:
     lines += ["", "derived"] + [f"    {formula}" for formula in r["derived_latex"] or []] + ["", "evidence"]
     for e in r["evidence"]:
         lines.append(f"    {'for    ' if e['ok'] else 'against'} {e['about']:<9} {e['kind']}: {e['detail']}")
+    lines += ["", f"confirmed by: {_systems(r)}"]
     lines += ["", f"effect: {r['effect']}"]
     if r["effect_at"]:
         listed = ", ".join(f"{key.replace('_', ' ')} {value}" for key, value in r["effect_at"].items())

@@ -1,0 +1,1 @@
+"""Certificates of the algebraic core: polynomial identities with their multipliers, replayed in exact fractions."""
