@@ -378,15 +378,15 @@ BAD = [
     (("pareto", "--against", "nonsense"), ("against: got nonsense", "no figure")),
     (("pareto", "--objective", "nonsense"), ("objective: got nonsense",)),
     (("robust",), ("tolerances: got neither",)),
-    (("robust", "--tolerance", "friction_coefficient"), ("--tolerance", "NAME=SHARE")),
-    (("robust", "--tolerance", "friction_coefficient=2"), ("tolerance of friction_coefficient: got 2", "< 1")),
-    (("robust", "--tolerance", "friction_coefficient=0.3:0.4"), ("tolerance of friction_coefficient", "around 0.25")),
-    (("robust", "--tolerance", "crests=0.1"), ("tolerances: got crests", "continuously")),
-    (("robust", "--tolerance", "prepressure=0.1"), ("tolerances: got prepressure", "load_torque")),
-    (("robust", "--tolerance", "nonsense=0.1"), ("got nonsense", "motor file")),
-    (("robust", "--tolerance", "layer_stiffness=0.1"), ("tolerances: got layer_stiffness", "set it first")),
+    (("robust", "--spread", "friction_coefficient"), ("--spread", "NAME=SHARE")),
+    (("robust", "--spread", "friction_coefficient=2"), ("tolerance of friction_coefficient: got 2", "< 1")),
+    (("robust", "--spread", "friction_coefficient=0.3:0.4"), ("tolerance of friction_coefficient", "around 0.25")),
+    (("robust", "--spread", "crests=0.1"), ("tolerances: got crests", "continuously")),
+    (("robust", "--spread", "prepressure=0.1"), ("tolerances: got prepressure", "load_torque")),
+    (("robust", "--spread", "nonsense=0.1"), ("got nonsense", "motor file")),
+    (("robust", "--spread", "layer_stiffness=0.1"), ("tolerances: got layer_stiffness", "set it first")),
     (("robust", "--samples", "nowhere.csv"), ("nowhere.csv", "exists")),
-    (("robust", "--tolerance", "friction_coefficient=0.1", "--objective", "speed-error"), ("target_speed: got none",)),
+    (("robust", "--spread", "friction_coefficient=0.1", "--objective", "speed-error"), ("target_speed: got none",)),
 ]
 
 
