@@ -11,13 +11,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import xarray as xr
+from lazily import lazily
 from refusals import assert_one_clear_line
 
 import trum_sym as ts
 
 pytestmark = pytest.mark.filterwarnings("ignore::trum_sym.ValidityWarning")
 
+xr = lazily("xarray")
 MOTOR = ts.load_motor("trum60")
 TABLE = {"prepressure": [100.0, 140.0, 180.0], "amplitude": [8.5e-6, 6.6e-6, 5.6e-6]}
 BOX = {"prepressure": (170.0, 171.0), "frequency_difference": (3000.0, 3001.0)}
@@ -61,68 +62,70 @@ def deep(count):
     return value
 
 
-HOSTILE = {
-    "object": object(),
-    "type": int,
-    "function": len,
-    "module": np,
-    "bytes": b"180",
-    "bytearray": bytearray(b"1"),
-    "complex": 1j,
-    "nan": float("nan"),
-    "inf": -float("inf"),
-    "huge": 10**400,
-    "digits": 10**5000,
-    "minus": -1,
-    "zero": 0,
-    "half": 0.5,
-    "true": True,
-    "text": "nonsense\x00\n\x1b[31m",
-    "long text": "9" * 5000,
-    "surrogate": "\udcff",
-    "empty text": "",
-    "empty list": [],
-    "empty tuple": (),
-    "empty dict": {},
-    "dict": {"prepressure": object()},
-    "dict of numbers": {1: 2},
-    "dict of None": {None: None},
-    "set": {1.0},
-    "list of None": [None, None],
-    "list of lists": [[1.0], [1.0, 2.0]],
-    "list of text": ["a", "b"],
-    "mixed list": [1.0, "a", None],
-    "deep list": deep(200),
-    "generator": (x for x in ()),
-    "range": range(3),
-    "decimal": Decimal("NaN"),
-    "fraction": Fraction(1, 3),
-    "path": Path("/nowhere/x"),
-    "folder": Path("/"),
-    "slice": slice(None),
-    "ellipsis": ...,
-    "not implemented": NotImplemented,
-    "exception": ValueError("x"),
-    "raises": Raises(),
-    "endless": Endless(),
-    "object array": np.array([None, 1], object),
-    "empty array": np.zeros((0, 3)),
-    "text array": np.array(["a"]),
-    "dates": np.array(["2021-10-01"], "datetime64[D]"),
-    "structured": np.zeros(2, [("a", float)]),
-    "masked": np.ma.masked_array([1.0, 2.0], [True, False]),
-    "cube": np.ones((2, 3, 4)),
-    "matrix": np.asarray([[1.0, 2.0]]),
-    "0-d text": np.array("x"),
-    "data array": xr.DataArray([[1.0]], dims=("a", "b")),
-    "data array of text": xr.DataArray(["x"], dims="a"),
-    "data array with a wrong unit": xr.DataArray(1.0, attrs={"units": object()}),
-    "data set": xr.Dataset({"a": ("b", [1.0])}),
-    "motor": MOTOR,
-    "parameter": MOTOR.radius,
-    "drive": ts.Drive(),
-    "distribution": ts.Distribution("uniform", 1, 2),
-}
+@cache
+def hostile():
+    return {
+        "object": object(),
+        "type": int,
+        "function": len,
+        "module": np,
+        "bytes": b"180",
+        "bytearray": bytearray(b"1"),
+        "complex": 1j,
+        "nan": float("nan"),
+        "inf": -float("inf"),
+        "huge": 10**400,
+        "digits": 10**5000,
+        "minus": -1,
+        "zero": 0,
+        "half": 0.5,
+        "true": True,
+        "text": "nonsense\x00\n\x1b[31m",
+        "long text": "9" * 5000,
+        "surrogate": "\udcff",
+        "empty text": "",
+        "empty list": [],
+        "empty tuple": (),
+        "empty dict": {},
+        "dict": {"prepressure": object()},
+        "dict of numbers": {1: 2},
+        "dict of None": {None: None},
+        "set": {1.0},
+        "list of None": [None, None],
+        "list of lists": [[1.0], [1.0, 2.0]],
+        "list of text": ["a", "b"],
+        "mixed list": [1.0, "a", None],
+        "deep list": deep(200),
+        "generator": (x for x in ()),
+        "range": range(3),
+        "decimal": Decimal("NaN"),
+        "fraction": Fraction(1, 3),
+        "path": Path("/nowhere/x"),
+        "folder": Path("/"),
+        "slice": slice(None),
+        "ellipsis": ...,
+        "not implemented": NotImplemented,
+        "exception": ValueError("x"),
+        "raises": Raises(),
+        "endless": Endless(),
+        "object array": np.array([None, 1], object),
+        "empty array": np.zeros((0, 3)),
+        "text array": np.array(["a"]),
+        "dates": np.array(["2021-10-01"], "datetime64[D]"),
+        "structured": np.zeros(2, [("a", float)]),
+        "masked": np.ma.masked_array([1.0, 2.0], [True, False]),
+        "cube": np.ones((2, 3, 4)),
+        "matrix": np.asarray([[1.0, 2.0]]),
+        "0-d text": np.array("x"),
+        "data array": xr.DataArray([[1.0]], dims=("a", "b")),
+        "data array of text": xr.DataArray(["x"], dims="a"),
+        "data array with a wrong unit": xr.DataArray(1.0, attrs={"units": object()}),
+        "data set": xr.Dataset({"a": ("b", [1.0])}),
+        "motor": MOTOR,
+        "parameter": MOTOR.radius,
+        "drive": ts.Drive(),
+        "distribution": ts.Distribution("uniform", 1, 2),
+    }
 
 
 @cache
@@ -180,9 +183,9 @@ def parameters(name):
 def calls():
     for name in GOOD:
         for parameter in parameters(name):
-            for label, value in HOSTILE.items():
+            for label, value in hostile().items():
                 yield name, {parameter: value}, f"{parameter}={label}"
-    for label, value in HOSTILE.items():
+    for label, value in hostile().items():
         for key in ("radius", "crests", "amplitude"):
             yield "Motor.with_values", {"values": {key: value}}, f"values[{key}]={label}"
         yield "calibrate", {"data": {**TABLE, "amplitude": value}}, f"data[amplitude]={label}"

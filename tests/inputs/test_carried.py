@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import Any
 
 import numpy as np
-import pandas as pd
-import pint
 import pytest
-import xarray as xr
+from lazily import lazily
 from refusals import refusal
 
 import trum_sym as ts
@@ -18,7 +17,7 @@ from trum_sym.inputs.measurements import from_columns
 
 pytestmark = pytest.mark.filterwarnings("ignore::trum_sym.ImplausibleWarning")
 
-REGISTRY = pint.UnitRegistry()
+pd, pint, xr = (lazily(name) for name in ("pandas", "pint", "xarray"))
 MOTOR = ts.load_motor("trum60")
 BOX = {"prepressure": (170.0, 171.0), "frequency_difference": (3000.0, 3001.0)}
 
@@ -55,8 +54,13 @@ class Plain:
         return np.asarray(self.magnitude, dtype)
 
 
+@cache
+def registry():
+    return pint.UnitRegistry()
+
+
 def of_pint(value, unit):
-    return REGISTRY.Quantity(value, unit)
+    return registry().Quantity(value, unit)
 
 
 def of_xarray(value, unit):
@@ -145,7 +149,7 @@ def test_functions_convert_quantities_or_refuse_them(kind):
 
 
 def test_a_distribution_converts_quantities():
-    mm = REGISTRY.Quantity(1.0, "mm")
+    mm = registry().Quantity(1.0, "mm")
     given = ts.Distribution("normal", 25 * mm, 27 * mm, 26 * mm, 0.5 * mm)
     outputs = {"samples": 64, "outputs": ["stall_torque"]}
     ours = ts.tolerance(MOTOR, parameters={"contact_radius": given}, **outputs)
@@ -154,7 +158,7 @@ def test_a_distribution_converts_quantities():
 
 
 def test_quantities_in_a_list_convert_one_by_one():
-    q = REGISTRY.Quantity
+    q = registry().Quantity
     assert ts.Drive(frequency_difference=[q(2.5, "kHz"), q(3000, "Hz")]).frequency_difference.tolist() == [2500, 3000]
     with refusal("frequency_difference", "a unit on every number, or on none"):
         ts.Drive(frequency_difference=[q(2.5, "kHz"), 3000.0])
@@ -166,15 +170,15 @@ def test_what_is_no_unit_is_refused():
         np.timedelta64(2, "ms"),
         xr.DataArray(2e-3, attrs={"units": "fortnights"}),
         xr.DataArray(2e-3, attrs={"units": object()}),
-        REGISTRY.Quantity(20.0, "degC"),
-        REGISTRY.Quantity(2.0, "dimensionless"),
+        registry().Quantity(20.0, "degC"),
+        registry().Quantity(2.0, "dimensionless"),
     ):
         with refusal("sampling_period"):
             ts.evaluate(MOTOR, sampling_period=value)
 
 
 def test_pint_inside_an_array_that_has_labels_is_seen():
-    data = xr.DataArray(REGISTRY.Quantity([2.5, 3.0], "kHz"), dims="f")
+    data = xr.DataArray(registry().Quantity([2.5, 3.0], "kHz"), dims="f")
     assert np.asarray(ts.Drive(frequency_difference=data).frequency_difference).tolist() == [2500.0, 3000.0]
 
 
@@ -193,29 +197,29 @@ def along(name, values, index=None):
 
 
 UNLIKE = {
-    "dimensions": (along("F", [180.0, 190.0]), along("f", [3000.0, 3100.0])),
-    "coordinates": (along("k", [180.0, 190.0], [0, 1]), along("k", [3000.0, 3100.0], [1, 2])),
-    "transposed": (
+    "dimensions": lambda: (along("F", [180.0, 190.0]), along("f", [3000.0, 3100.0])),
+    "coordinates": lambda: (along("k", [180.0, 190.0], [0, 1]), along("k", [3000.0, 3100.0], [1, 2])),
+    "transposed": lambda: (
         xr.DataArray(np.full((2, 2), 180.0), dims=("a", "b")),
         xr.DataArray(np.full((2, 2), 3000.0), dims=("b", "a")),
     ),
-    "series reversed": (pd.Series([180.0, 190.0]), pd.Series([3000.0, 3100.0], index=[1, 0])),
-    "series apart": (pd.Series([180.0, 190.0], index=[3, 4]), pd.Series([3000.0, 3100.0], index=[5, 6])),
-    "series and array": (pd.Series([180.0, 190.0], index=["a", "b"]), along("f", [3000.0, 3100.0])),
-    "frames": (pd.DataFrame({"a": [180.0]}), pd.DataFrame({"b": [3000.0]})),
+    "series reversed": lambda: (pd.Series([180.0, 190.0]), pd.Series([3000.0, 3100.0], index=[1, 0])),
+    "series apart": lambda: (pd.Series([180.0, 190.0], index=[3, 4]), pd.Series([3000.0, 3100.0], index=[5, 6])),
+    "series and array": lambda: (pd.Series([180.0, 190.0], index=["a", "b"]), along("f", [3000.0, 3100.0])),
+    "frames": lambda: (pd.DataFrame({"a": [180.0]}), pd.DataFrame({"b": [3000.0]})),
 }
 ALIKE = {
-    "dimensions": (along("F", [180.0, 190.0]), along("F", [3000.0, 3100.0])),
-    "one index": (along("k", [180.0, 190.0], [0, 1]), along("k", [3000.0, 3100.0])),
-    "series": (pd.Series([180.0, 190.0], index=[3, 4]), pd.Series([3000.0, 3100.0], index=[3, 4])),
-    "series and plain": (pd.Series([180.0, 190.0], index=[3, 4]), [3000.0, 3100.0]),
-    "array and number": (along("F", [180.0, 190.0]), 3000.0),
+    "dimensions": lambda: (along("F", [180.0, 190.0]), along("F", [3000.0, 3100.0])),
+    "one index": lambda: (along("k", [180.0, 190.0], [0, 1]), along("k", [3000.0, 3100.0])),
+    "series": lambda: (pd.Series([180.0, 190.0], index=[3, 4]), pd.Series([3000.0, 3100.0], index=[3, 4])),
+    "series and plain": lambda: (pd.Series([180.0, 190.0], index=[3, 4]), [3000.0, 3100.0]),
+    "array and number": lambda: (along("F", [180.0, 190.0]), 3000.0),
 }
 
 
 @pytest.mark.parametrize("case", UNLIKE)
 def test_unlike_labels_are_refused_in_one_call_and_over_several(case):
-    first, second = UNLIKE[case]
+    first, second = UNLIKE[case]()
     naming = ("labels", "go together by name")
     with refusal("frequency_difference", *naming):
         ts.Drive(prepressure=first, frequency_difference=second)
@@ -234,7 +238,7 @@ def test_unlike_labels_are_refused_in_one_call_and_over_several(case):
 
 @pytest.mark.parametrize("case", ALIKE)
 def test_like_labels_pair_and_results_are_plain_arrays(case):
-    first, second = ALIKE[case]
+    first, second = ALIKE[case]()
     point = ts.evaluate(MOTOR, ts.Drive(prepressure=first, frequency_difference=second))
     expected = ts.evaluate(MOTOR, ts.Drive(prepressure=[180.0, 190.0], frequency_difference=np.asarray(second)))
     for name, value in point.as_dict().items():
@@ -244,16 +248,16 @@ def test_like_labels_pair_and_results_are_plain_arrays(case):
 
 @pytest.mark.parametrize("case", ["series reversed", "series apart", "coordinates", "dimensions"])
 def test_columns_of_data_pair_by_label_too(case):
-    first, second = UNLIKE[case]
+    first, second = UNLIKE[case]()
     with refusal("labels"):
         from_columns("data", {"prepressure": first, "resonance_frequency": second}, {}, synthetic=False)
 
 
 def test_a_sweep_refuses_one_dimension_with_two_indices_and_crosses_two_dimensions():
-    first, second = UNLIKE["coordinates"]
+    first, second = UNLIKE["coordinates"]()
     with refusal("frequency_difference", "labels", "go together by name"):
         ts.sweep(MOTOR, outputs=["amplitude"], prepressure=first, frequency_difference=second)
-    first, second = UNLIKE["dimensions"]
+    first, second = UNLIKE["dimensions"]()
     assert ts.sweep(MOTOR, outputs=["amplitude"], prepressure=first, frequency_difference=second).sizes == {
         "F": 2,
         "f": 2,
