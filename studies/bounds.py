@@ -90,14 +90,19 @@ def draw(box: str, count: int, seed: int, most_periods: int | None = None) -> di
         share = np.where(rng.random(count) < 0.6, rng.uniform(-1, 1, count) * (1 - nearest), share)
     start = rng.choice([0, 2], count) if box == "wave" else rng.integers(0, 3, count)
     return {
-        "prepressure": rng.uniform(100, 220, count), "frequency_difference": rng.uniform(-5000, 5000, count),
-        "periods": m, "on_periods": n, "share": share, "start": start, "hertz": rng.integers(0, 2, count),
+        "prepressure": rng.uniform(100, 220, count),
+        "frequency_difference": rng.uniform(-5000, 5000, count),
+        "periods": m,
+        "on_periods": n,
+        "share": share,
+        "start": start,
+        "hertz": rng.integers(0, 2, count),
         "switching_phase": rng.uniform(0, 2 * np.pi, count) * (rng.random(count) < 0.5),
         "phase_lead": rng.choice([-1, 1], count),
         "rotor_inertia": 10 ** rng.uniform(-9, -2, count) if wide else np.full(count, 4.5e-6),
         "friction_coefficient": rng.uniform(0.2, 0.3, count) if wide else np.full(count, 0.25),
         "tolerance": 10 ** rng.uniform(-9, -2, count),
-    }  # fmt: skip
+    }
 
 
 def _evaluated(columns: dict[str, np.ndarray], chosen: np.ndarray) -> tuple[Any, np.ndarray, np.ndarray, float]:
@@ -109,7 +114,7 @@ def _evaluated(columns: dict[str, np.ndarray], chosen: np.ndarray) -> tuple[Any,
         **{name: c[name] for name in _OF_DRIVE},
         load_torque=c["share"] * c["friction_coefficient"] * c["prepressure"] * radius,
         start=STARTS[int(c["start"][0])],
-    )  # fmt: skip
+    )
     contact = "hertz" if c["hertz"][0] else "winkler"
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ts.ValidityWarning)
@@ -120,9 +125,11 @@ def _evaluated(columns: dict[str, np.ndarray], chosen: np.ndarray) -> tuple[Any,
         case = prepare(motor, drive, Levels(contact=contact), 1e-3)
         orbit = solve_orbit({**case.arguments, "tolerance": c["tolerance"]}, case.symbols)
     stator = {
-        "wavenumber": np.asarray(case.stator.k_c), "amplitude": np.asarray(case.stator.W),
-        "neutral_axis": np.asarray(case.stator.D), "resonance_frequency": np.asarray(case.stator.omega_n) / (2 * np.pi),
-    }  # fmt: skip
+        "wavenumber": np.asarray(case.stator.k_c),
+        "amplitude": np.asarray(case.stator.W),
+        "neutral_axis": np.asarray(case.stator.D),
+        "resonance_frequency": np.asarray(case.stator.omega_n) / (2 * np.pi),
+    }
     values = {name: np.asarray(p.value) for name, p in motor.parameters()}
     given = {**c, "load_torque": drive.load_torque}
     return orbit, witness.constants(values, given, stator, contact), np.asarray(drive.load_torque), radius

@@ -20,6 +20,7 @@ from pathlib import Path
 import numpy as np
 
 import trum_sym as ts
+from trum_sym.inputs.plausible import unquestioned
 from trum_sym.model.levels import Levels
 from trum_sym.model.operating_point import prepare, results
 from trum_sym.model.sensitivities import DIFFERENTIATED, PARAMETERS
@@ -37,9 +38,10 @@ def draw(seed):
     """A motor and a drive with the rotor's load well inside what friction can hold."""
     rng = np.random.default_rng([9, seed])
     friction, force = rng.uniform(0.1, 0.4), rng.uniform(110, 210)
-    motor = ts.load_motor("trum60").with_values(
-        {"friction_coefficient": friction, "rotor_inertia": 10 ** rng.uniform(-6, -4)}
-    )
+    with unquestioned():  # on purpose beyond the range that the motor file states
+        motor = ts.load_motor("trum60").with_values(
+            {"friction_coefficient": friction, "rotor_inertia": 10 ** rng.uniform(-6, -4)}
+        )
     periods = int(rng.integers(6, 31))
     return motor, ts.Drive(
         prepressure=force,

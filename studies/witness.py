@@ -536,9 +536,17 @@ def constants(
     width = 1.6 * np.sqrt(force * curvature * compliance / (crests * motor["layer_width"]))
     radius = motor["contact_radius"]
     columns = [
-        _TURN * f_n, motor["damping_ratio"], _TURN * f_q, drive["switching_phase"], drive["phase_lead"], W,
-        stator["neutral_axis"] * k, force * k / (2 * crests * layer), k * width / 2,
-        float(contact == "hertz"), radius**2 * motor["friction_coefficient"] * force / motor["rotor_inertia"],
+        _TURN * f_n,
+        motor["damping_ratio"],
+        _TURN * f_q,
+        drive["switching_phase"],
+        drive["phase_lead"],
+        W,
+        stator["neutral_axis"] * k,
+        force * k / (2 * crests * layer),
+        k * width / 2,
+        float(contact == "hertz"),
+        radius**2 * motor["friction_coefficient"] * force / motor["rotor_inertia"],
         radius * drive["load_torque"] / motor["rotor_inertia"],
-    ]  # fmt: skip
+    ]
     return np.stack(np.broadcast_arrays(*(np.asarray(column, float) for column in columns)), axis=-1)

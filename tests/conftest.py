@@ -32,6 +32,8 @@ def console_refuses(capsys):
     def refuse(*arguments, naming):
         code = console.main(list(arguments))
         out, err = capsys.readouterr()
+        doubts = [line for line in err.splitlines(keepends=True) if line.startswith("trum-sym: warning: ")]
+        err = err.removeprefix("".join(doubts))  # of the motor's values come first, as load_motor gives them
         assert code == 2
         assert out == ""
         assert err.endswith("\n")

@@ -3,6 +3,7 @@
 from .calibration.calibrate import Calibration as Calibration
 from .calibration.calibrate import calibrate as calibrate
 from .errors import ConvergenceError as ConvergenceError
+from .errors import ImplausibleWarning as ImplausibleWarning
 from .errors import MissingExtraError as MissingExtraError
 from .errors import ParameterError as ParameterError
 from .errors import UnfinishedError as UnfinishedError
@@ -29,6 +30,7 @@ __all__ = [
     "ConvergenceError",
     "Distribution",
     "Drive",
+    "ImplausibleWarning",
     "MissingExtraError",
     "Motor",
     "OperatingPoint",

@@ -2,7 +2,15 @@
 
 from __future__ import annotations
 
-__all__ = ["ConvergenceError", "MissingExtraError", "ParameterError", "UnfinishedError", "ValidityWarning", "shorten"]
+__all__ = [
+    "ConvergenceError",
+    "ImplausibleWarning",
+    "MissingExtraError",
+    "ParameterError",
+    "UnfinishedError",
+    "ValidityWarning",
+    "shorten",
+]
 
 
 def _one_line(text: str) -> str:
@@ -15,6 +23,8 @@ def shorten(value: object) -> str:
         text = " ".join((value if isinstance(value, str) else repr(value)).split())
     except ValueError:  # Python does not print integers of more than 4300 digits
         text = "a number of too many digits"
+    except Exception:  # what a stranger's object raises instead of printing itself
+        text = f"an object of type {type(value).__name__}"
     text = text or "empty text"
     return text if len(text) <= 80 else text[:77] + "..."
 
@@ -59,3 +69,7 @@ class MissingExtraError(ImportError):
 
 class ValidityWarning(UserWarning):
     """The input lies outside the range on which an empirical formula was fitted."""
+
+
+class ImplausibleWarning(ValidityWarning):
+    """A motor's values contradict each other, or no such body has them; says which, and the unit that may be meant."""

@@ -223,6 +223,7 @@ def test_a_parameter_at_the_end_of_its_range_is_not_solved(trum60):
     assert "shear_correction to the end of its range" in found.message
 
 
+@pytest.mark.filterwarnings("ignore::trum_sym.ImplausibleWarning")
 def test_a_search_cannot_begin_where_the_model_has_no_answer(trum60):
     slippery = trum60.with_values({"friction_coefficient": 0.01})
     data = {"load_torque": np.array([0.0, 0.1, 0.2]), "mean_speed": np.array([1.0, 0.5, 0.1])}

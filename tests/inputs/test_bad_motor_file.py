@@ -34,7 +34,7 @@ BAD_ENTRIES = [
     ({"value": "1" + "0" * 5000}, ("motor",)),
     ({"value": '"x"', "unit": '"\\nV"'}, ("voltage.value: got x", "a number in")),
     ({"unit": '"Hz"'}, ("voltage.unit: got Hz", "converts to V")),
-    ({"unit": '"volt"'}, ("voltage.unit: got volt", "converts to V", "unknown unit")),
+    ({"unit": '"vlt"'}, ("voltage.unit: got vlt", "converts to V", "unknown unit", "volt")),
     ({"unit": '""'}, ("voltage.unit: got", "converts to V")),
     ({"unit": "1"}, ("voltage.unit: got 1", "text")),
     ({"unit": '"V deg^-9999"'}, ("voltage", "V")),

@@ -10,6 +10,8 @@ from reference import reference_measures
 import trum_sym as ts
 from trum_sym.model.cycle import PANELS_PER_PERIOD, cycle_sums, modal_values
 
+pytestmark = pytest.mark.filterwarnings("ignore::trum_sym.ImplausibleWarning")  # friction from none to any
+
 STARTS = ("periodic", "steady", "rest")
 MEASURES = ("q_ratio", "q_square_ratio", "q_average", "q_volatility")
 TABLE_3 = {"f_n": 39703.0, "df": 3000.0, "xi": 0.006, "psi": 0.0, "s": 1, "m": 20, "n": 14}

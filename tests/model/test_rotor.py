@@ -14,6 +14,8 @@ from trum_sym import _kernels
 from trum_sym.console import main
 from trum_sym.model.kernels import call
 
+pytestmark = pytest.mark.filterwarnings("ignore::trum_sym.ImplausibleWarning")  # friction from none to any
+
 
 def winkler(y):
     """theta, engagement 1/y and share of the Winkler layer at load y = sin theta - theta cos theta."""

@@ -15,6 +15,8 @@ from lazily import lazily
 import trum_sym as ts
 from trum_sym.model.kernels import call
 
+pytestmark = pytest.mark.filterwarnings("ignore::trum_sym.ImplausibleWarning")  # friction from none to any
+
 orbit_reference = lazily("orbit_reference")
 LIMIT = 0.0265 * 0.25 * 180.0  # r_c mu F_c of TRUM-60 at Table 3, N m
 

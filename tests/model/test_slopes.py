@@ -14,6 +14,8 @@ from trum_sym.model.kernels import call
 from trum_sym.model.operating_point import prepare
 from trum_sym.model.sensitivities import DIFFERENTIATED, PARAMETERS, orbit_with_slopes
 
+pytestmark = pytest.mark.filterwarnings("ignore::trum_sym.ImplausibleWarning")  # friction from none to any
+
 # relative steps of the differences
 STEPS = {
     "prepressure": 1e-4,

@@ -345,13 +345,13 @@ def test_columns_of_a_file_are_read_with_their_units(trum60, tmp_path):
     [
         (b"force\n1\n", "the columns force in @"),
         (b"prepressure,prepressure\n1,2\n", "a CSV file with a column prepressure"),
-        (b"", "a CSV file with a column prepressure"),
+        (b"", "a CSV file with a header line"),
         (b"prepressure\n", "0 rows in @"),
         (b"prepressure\n1\nmany\n", "many in line 3 of @"),
         (b"prepressure\n1\n\n-3\n", "got -3"),
         (b"a,prepressure\n1\n", "1 columns in line 2 of @"),
         (b"prepressure [Hz]\n1\n", "1 Hz in line 2 of @"),
-        (b"prepressure\n\xff\n", "a CSV file with a column prepressure"),
+        (b"prepressure\n\xff\n", "a readable CSV file (not UTF-8 text)"),
         (b'prepressure\n"1\n', "unexpected end of data"),
     ],
 )

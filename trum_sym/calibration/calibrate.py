@@ -12,14 +12,16 @@ import numpy as np
 
 from trum_sym.calibration.least_squares import Residuals, Separation, fit, interval_factor
 from trum_sym.calibration.models import DecayModel, Model, PointModel
-from trum_sym.errors import ParameterError, ValidityWarning
-from trum_sym.inputs.checks import Array, number
-from trum_sym.inputs.choices import choice
+from trum_sym.errors import ImplausibleWarning, ParameterError, ValidityWarning
+from trum_sym.inputs.checks import Array
+from trum_sym.inputs.choices import choice, path_of, words
 from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.measurements import Measurements, from_columns, read_measurements
 from trum_sym.inputs.motor import SPECS, Motor, Parameter, spec
 from trum_sym.inputs.motor_file import load_motor
+from trum_sym.inputs.plausible import doubts, outside_range, unquestioned
+from trum_sym.inputs.points import check_single, one_number, period_of
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.quantities import QUANTITIES
 
@@ -177,7 +179,7 @@ def calibrate(
     measured = _measurements(data)
     machine = motor if isinstance(motor, Motor) else load_motor(motor)
     choice("errors", errors, ERRORS)
-    confidence = float(number("confidence", confidence, Domain(low=0.0, high=1.0), "1"))
+    confidence = one_number("confidence", confidence, "1", Domain(low=0.0, high=1.0))
     names = _names(measured, parameters)
     drive = Drive() if drive is None else drive
     if not isinstance(drive, Drive) or any(np.ndim(value) for value in drive.numbers().values()):
@@ -185,14 +187,31 @@ def calibrate(
     if any(np.ndim(parameter.value) for _, parameter in machine.parameters()):
         raise ParameterError("motor", machine.name, "a motor of single numbers, not arrays")
     chosen = Levels(**levels)
-    with warnings.catch_warnings():
+    period = period_of(sampling_period)
+    check_single({} if period is None else {"sampling_period": period})
+    with warnings.catch_warnings(), unquestioned():
         warnings.simplefilter("ignore", ValidityWarning)  # the search may leave eq. 8's range, or set it
         model: Model
         if measured.is_decay:
             model = DecayModel(measured, machine, names, drive, chosen)
         else:
-            model = PointModel(measured, machine, names, drive, chosen, sampling_period)
-        return _fitted(model, measured, machine, names, errors, confidence, progress)
+            model = PointModel(measured, machine, names, drive, chosen, period)  # type: ignore[arg-type]
+        found = _fitted(model, measured, machine, names, errors, confidence, progress)
+    _warn_beyond(found, machine)
+    return found
+
+
+def _warn_beyond(found: Calibration, before: Motor) -> None:
+    """Warn of a fitted value that is outside its stated range, or that no such body has."""
+    said = [outside_range(e.name, e.value, getattr(before, e.name)) for e in found.estimates if e.in_motor]
+    known = doubts(dict(before.parameters()))
+    said += [doubt for doubt in doubts(dict(found.motor.parameters())) if doubt not in known]
+    for doubt in filter(None, said):
+        warnings.warn(
+            f"fitted {doubt}; look at the data's units and at what else could be fitted",
+            ImplausibleWarning,
+            stacklevel=3,
+        )
 
 
 def _measurements(data: object) -> Measurements:
@@ -200,9 +219,7 @@ def _measurements(data: object) -> Measurements:
         return data
     if isinstance(data, Mapping):
         return from_columns("data", data, {}, synthetic=False)
-    if not isinstance(data, str | PathLike) or not str(data):
-        raise ParameterError("data", data, "the path of a CSV file, or columns by name")
-    return read_measurements(data)
+    return read_measurements(path_of("data", data, "the path of a CSV file, or columns by name"))
 
 
 def _names(data: Measurements, parameters: Sequence[str] | None) -> tuple[str, ...]:
@@ -210,14 +227,13 @@ def _names(data: Measurements, parameters: Sequence[str] | None) -> tuple[str, .
     if parameters is None:
         usual = {_USUAL.get(observed, _USUAL_OTHERWISE) for observed in data.observed}
         parameters = usual.pop() if len(usual) == 1 else _USUAL_OTHERWISE
-    if isinstance(parameters, str) or not parameters:
-        raise ParameterError("parameters", parameters, "names of the motor file in a list")
+    parameters = words("parameters", parameters, "names of the motor file in a list")
     for place, name in enumerate(parameters):
         if spec(name).domain.integer:
             raise ParameterError("parameters", name, "parameters that vary continuously")
         if name in parameters[:place]:
             raise ParameterError("parameters", name, "each name once")
-    return tuple(parameters)
+    return parameters
 
 
 def _fitted(

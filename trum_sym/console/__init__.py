@@ -13,6 +13,7 @@ from trum_sym.console.report import report
 from trum_sym.console.robust import robust
 from trum_sym.console.simulate import simulate
 from trum_sym.console.speed_table import speed_table
+from trum_sym.console.streams import spelling_streams
 from trum_sym.console.sweep import sweep
 from trum_sym.console.tolerance import tolerance
 
@@ -52,10 +53,15 @@ def main(arguments: list[str] | None = None) -> int:
     """Run the console; returns the exit code and never lets a traceback through for bad input."""
     import warnings
 
-    def show(message: Warning | str, *_: object, **__: object) -> None:
-        click.echo(f"trum-sym: warning: {_one_line(str(message))}", err=True)
+    shown = set()
 
-    with warnings.catch_warnings():
+    def show(message: Warning | str, *_: object, **__: object) -> None:
+        text = _one_line(str(message))
+        if text not in shown:
+            shown.add(text)
+            click.echo(f"trum-sym: warning: {text}", err=True)
+
+    with spelling_streams(), warnings.catch_warnings():
         warnings.simplefilter("always")
         warnings.showwarning = show
         try:

@@ -23,7 +23,7 @@ def equations(equation: str | None, verdict: str | None, severity: str | None, a
     if as_json:
         import json
 
-        click.echo(json.dumps(chosen, indent=1, ensure_ascii=False))
+        click.echo(json.dumps(chosen, indent=1))
     elif equation is not None:
         click.echo(written_out(chosen[0]))
     else:

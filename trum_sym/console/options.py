@@ -116,6 +116,7 @@ def chosen_motor(name: str, overrides: tuple[str, ...]) -> Motor:
     """The motor that ``--motor`` and ``--set`` mean."""
     from trum_sym.errors import ParameterError
     from trum_sym.inputs.motor_file import load_motor
+    from trum_sym.inputs.plausible import unquestioned
 
     values: dict[str, str] = {}
     for override in overrides:
@@ -126,7 +127,11 @@ def chosen_motor(name: str, overrides: tuple[str, ...]) -> Motor:
         if key in values:
             raise ParameterError("--set", override, f"each name once; {key} was set to {values[key]} before")
         values[key] = value
-    return load_motor(name).with_values(values)
+    if not values:
+        return load_motor(name)
+    with unquestioned():  # with_values warns of what is left
+        machine = load_motor(name)
+    return machine.with_values(values)
 
 
 def chosen_drive(options: dict[str, Any]) -> Drive:

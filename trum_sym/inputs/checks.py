@@ -9,9 +9,10 @@ import numpy as np
 import numpy.typing as npt
 
 from trum_sym.errors import ParameterError
+from trum_sym.inputs.carried import LabelledArray, Labels, in_unit, labels_of, magnitude_and_unit
 from trum_sym.inputs.domain import Domain
 
-__all__ = ["Array", "ArrayLike", "broadcast_shape", "number"]
+__all__ = ["Array", "ArrayLike", "broadcast_shape", "check_labels", "number", "quantity"]
 
 Array: TypeAlias = npt.NDArray[np.float64]
 ArrayLike: TypeAlias = float | Array
@@ -20,21 +21,36 @@ ArrayLike: TypeAlias = float | Array
 def number(name: str, value: object, domain: Domain, unit: str) -> ArrayLike:
     """Return ``value`` as a float or a read-only float64 array, or say what is wrong with it.
 
+    A value that carries a unit, as pint's and astropy's quantities or an xarray.DataArray with ``attrs["units"]`` do,
+    is converted; one that carries none is in ``unit``, the SI unit.  Labels stay with the array.
+
     Raises
     ------
     ParameterError
-        If the value is not numeric, not real, not finite, or outside ``domain``.
+        If the value is not numeric, not real, not finite, outside ``domain``, or in a unit that does not convert.
     """
-    allowed = domain.describe(unit)
+    return quantity(name, value, domain, unit)[0]
+
+
+def quantity(name: str, value: object, domain: Domain, unit: str | None) -> tuple[ArrayLike, str | None]:
+    """As :func:`number`, and the unit that the value carried, None if it carried none.
+
+    ``unit`` is None where a value may be of any kind; it is then in SI.
+    """
+    allowed = domain.describe(unit or "its SI unit")
     try:
         if np.ma.is_masked(value):
             raise TypeError
-        raw = np.asarray(value)
+        magnitude, given = magnitude_and_unit(name, value)
+        raw = np.asarray(in_unit(name, magnitude, given, unit))
         if raw.dtype.kind not in "iuf":
             raise TypeError
         with np.errstate(over="ignore"):
             values = raw.astype(np.float64)
-    except (TypeError, ValueError):
+        labels = labels_of(value)
+    except ParameterError:
+        raise
+    except Exception:  # whatever an object raises that was asked for its numbers, it is no number
         raise ParameterError(name, value, allowed) from None
     if values.size == 0:
         raise ParameterError(name, value, f"{allowed}; the array is empty")
@@ -43,9 +59,32 @@ def number(name: str, value: object, domain: Domain, unit: str) -> ArrayLike:
         first = values[~inside].flat[0].item()
         raise ParameterError(name, first, allowed)
     if values.ndim == 0:
-        return float(values)
+        return float(values), given
+    if labels is not None and len(labels.dimensions) == values.ndim:
+        labelled = values.view(LabelledArray)
+        labelled.labels = labels
+        values = labelled
     values.flags.writeable = False
-    return values
+    return values, given
+
+
+def check_labels(labels: Mapping[str, Labels | None]) -> None:
+    """Refuse labelled arrays that would go together place by place although their labels are not the same.
+
+    Raises
+    ------
+    ParameterError
+        Which names both.
+    """
+    known = [(name, found) for name, found in labels.items() if found is not None]
+    for name, found in known[1:]:
+        if not found.fits(known[0][1]):
+            raise ParameterError(
+                name,
+                f"labels {found}",
+                f"those of {known[0][0]}, {known[0][1]}: labelled arrays go together by name; align them, give their "
+                "bare values, or let sweep cross their dimensions",
+            )
 
 
 def broadcast_shape(values: Mapping[str, ArrayLike]) -> tuple[int, ...]:
@@ -54,8 +93,9 @@ def broadcast_shape(values: Mapping[str, ArrayLike]) -> tuple[int, ...]:
     Raises
     ------
     ParameterError
-        If the shapes do not broadcast; names the first value that does not fit and its shape.
+        If the shapes do not broadcast, or labelled arrays have unlike labels; names the first value that does not fit.
     """
+    check_labels({name: labels_of(value) for name, value in values.items()})
     shape: tuple[int, ...] = ()
     for name, value in values.items():
         try:

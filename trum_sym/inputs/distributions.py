@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from trum_sym.errors import ParameterError
-from trum_sym.inputs.checks import Array
-from trum_sym.inputs.domain import Spec
+from trum_sym.inputs.checks import Array, number
+from trum_sym.inputs.domain import Domain, Spec
 from trum_sym.inputs.units import parse_quantity
 from trum_sym.output.json_text import finite
 
@@ -25,6 +25,7 @@ _FORMS = {
 }
 KINDS = tuple(_FORMS)
 _WIDEST = 1e6  # beyond this times the width that is left, rounding shows in the levels of a cut distribution
+_LONGEST = 1000  # characters of a text
 _LEAST = 2.0**-53  # the lowest level that is drawn, and the distance of the highest from 1
 
 
@@ -101,10 +102,10 @@ def checked(name: str, distribution: Distribution, wanted: Spec) -> Distribution
         For an unknown kind, ends in the wrong order, a spread that is not positive, or values that the parameter
         cannot have.
     """
-    domain, unit, given = wanted.domain, wanted.unit, distribution
+    domain, unit, given = wanted.domain, wanted.unit, _in_si(name, distribution, wanted.unit)
     if domain.integer:
         raise ParameterError(name, given.kind, "one value: it is a whole number and cannot vary continuously")
-    if given.kind not in _FORMS:
+    if not isinstance(given.kind, str) or given.kind not in _FORMS:
         raise ParameterError(name, given.kind, f"a distribution: {', '.join(KINDS)}")
     for end, at in (("low", given.low), ("high", given.high)):
         if not _real(at) or math.isnan(at):
@@ -116,6 +117,20 @@ def checked(name: str, distribution: Distribution, wanted: Spec) -> Distribution
     if not given.low < given.high:
         raise _wrong(name, f"{given.kind} from {given.low:g} to {given.high:g}", "low < high", unit)
     return _checked_bounded(name, given, unit) if given.kind in ("uniform", "triangular") else _cut(name, given, wanted)
+
+
+def _in_si(name: str, given: Distribution, unit: str) -> Distribution:
+    """The distribution with plain numbers, those that carry a unit converted."""
+    changed: dict[str, Any] = {}
+    for field in fields(given):
+        value = getattr(given, field.name)
+        if field.name == "kind" or value is None or isinstance(value, float):
+            continue
+        plain = number(f"{name}, {field.name}", value, Domain(), unit)
+        if np.ndim(plain):
+            raise ParameterError(f"{name}, {field.name}", f"an array of shape {np.shape(plain)}", "one number")
+        changed[field.name] = float(plain)
+    return replace(given, **changed)
 
 
 def _checked_bounded(name: str, given: Distribution, unit: str) -> Distribution:
@@ -158,6 +173,8 @@ def from_text(name: str, text: str, unit: str) -> Distribution:
     ParameterError
         If the kind is unknown, or its numbers are too few, too many or unreadable.
     """
+    if len(text) > _LONGEST:
+        raise ParameterError(name, text, f"a distribution of at most {_LONGEST} characters")
     kind, *given = (part.strip() for part in text.split(":"))
     if kind not in _FORMS:
         raise ParameterError(name, kind or text, f"a distribution: {', '.join(KINDS)}")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from os import PathLike
@@ -12,10 +11,12 @@ from types import MappingProxyType
 import numpy as np
 
 from trum_sym.errors import ParameterError
-from trum_sym.inputs.checks import Array, number
+from trum_sym.inputs.carried import Labels, labels_of
+from trum_sym.inputs.checks import Array, check_labels, quantity
+from trum_sym.inputs.csv_text import plain_number, read_table
 from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import DRIVE_DOMAINS, LEAD
-from trum_sym.inputs.units import Unit, parse_unit
+from trum_sym.inputs.units import Unit, parse_unit, unit_for
 from trum_sym.quantities import QUANTITIES
 
 __all__ = ["INPUTS", "SIGNALS", "UNCERTAINTY", "Measurements", "from_columns", "read_measurements", "table_of"]
@@ -33,7 +34,6 @@ _POSITIVE = (
     "wavenumber",
     "envelope",
 )
-_MAX_BYTES = 200_000_000
 
 
 @dataclass(frozen=True)
@@ -83,7 +83,7 @@ class Measurements:
 
 
 def from_columns(name: str, columns: Mapping[str, object], units: Mapping[str, str], synthetic: bool) -> Measurements:
-    """Check columns in SI units.
+    """Check columns in SI units, or with units of their own: quantities, DataArrays with ``attrs["units"]``.
 
     Raises
     ------
@@ -91,12 +91,19 @@ def from_columns(name: str, columns: Mapping[str, object], units: Mapping[str, s
         For an unknown or missing column, a value that is not finite or outside its domain, or unequal lengths.
     """
     checked: dict[str, Array] = {}
+    labels: dict[str, Labels | None] = {}
+    units = dict(units)
     for column, values in columns.items():
         wanted, domain = _expected(column)
-        array = np.atleast_1d(np.asarray(number(column, values, domain, wanted or "its SI unit")))
+        found, given = quantity(column, values, domain, wanted)
+        if given is not None:
+            units[column] = given
+        labels[column] = labels_of(found)
+        array = np.atleast_1d(np.asarray(found))
         if array.ndim != 1:
             raise ParameterError(column, f"shape {array.shape}", "one row of numbers")
         checked[column] = array
+    check_labels(labels)
     lengths = {column: array.size for column, array in checked.items()}
     for column, length in lengths.items():
         if length != next(iter(lengths.values())):
@@ -107,8 +114,10 @@ def from_columns(name: str, columns: Mapping[str, object], units: Mapping[str, s
     return data
 
 
-def _expected(column: str) -> tuple[str | None, Domain]:
+def _expected(column: object) -> tuple[str | None, Domain]:
     """SI unit (None: the user's choice) and domain of a column."""
+    if not isinstance(column, str):
+        raise ParameterError("column", column, "names of columns as text")
     of = column.removesuffix(UNCERTAINTY)
     if of in QUANTITIES or of in SIGNALS:
         unit = QUANTITIES[of].unit if of in QUANTITIES else {"displacement": "m", "velocity": "m/s"}.get(of)
@@ -186,50 +195,23 @@ def table_of(path: Path, unit_of: Callable[[str], str | None]) -> tuple[dict[str
     path, unit_of : Path, callable
         The file; the SI unit of a column by name, None if any will do; raises a ParameterError for a name that is none.
     """
-    comments, rows = _rows(path)
-    if not rows:
-        raise ParameterError("data", str(path), "a CSV file with a header line such as prepressure [N],amplitude [um]")
-    (_, header), *body = rows
-    columns = [_header(cell, unit_of) for cell in header]
+    table = read_table("data", path)
+    columns = [_header(cell, unit_of) for cell in table.header]
     names = [name for name, _, _ in columns]
     for place, name in enumerate(names):
         if name in names[:place]:
             raise ParameterError("column", name, "each column once")
-    if not body:
-        raise ParameterError("data", f"{path.name} with a header and no rows", "at least one row of numbers")
     found: dict[str, list[float]] = {name: [] for name in names}
-    for line, cells in body:
+    for line, cells in table.rows():
         if len(cells) != len(names):
-            raise ParameterError(f"data: line {line}", f"{len(cells)} cells", f"{len(names)}, one for each column")
+            allowed = f"{len(names)}, one for each column, written with {table.written}"
+            raise ParameterError(f"data: line {line}", f"{len(cells)} cells", allowed)
         for (name, unit, given), cell in zip(columns, cells, strict=True):
-            found[name].append(_cell(f"{name}: line {line}", cell, unit, given))
+            found[name].append(_cell(f"{name}: line {line}", cell, unit, given, table.written))
+    if not found[names[0]]:
+        raise ParameterError("data", f"{path.name} with a header and no rows", "at least one row of numbers")
     units = {name: given for name, _, given in columns}
-    return {name: np.array(values) for name, values in found.items()}, units, comments
-
-
-def _rows(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
-    """Comments, and cells with their line numbers."""
-    try:
-        if path.stat().st_size > _MAX_BYTES:
-            raise ParameterError("data", f"{path.stat().st_size} bytes", f"at most {_MAX_BYTES} bytes")
-        text = path.read_text("utf-8-sig")
-    except FileNotFoundError:
-        raise ParameterError("data", str(path), "the path of a CSV file that exists") from None
-    except (OSError, ValueError) as error:
-        if isinstance(error, ParameterError):
-            raise
-        reason = error.strerror if isinstance(error, OSError) else "not UTF-8 text"
-        raise ParameterError("data", str(path), f"a readable CSV file ({reason})") from None
-    numbered = [(k, line) for k, line in enumerate(text.splitlines(), 1) if line.strip()]
-    comments = [line for _, line in numbered if line.startswith("#")]
-    data = [(k, line) for k, line in numbered if not line.startswith("#")]
-    try:
-        cells = list(csv.reader((line for _, line in data), strict=True))
-    except csv.Error as error:
-        raise ParameterError("data", str(path), f"a CSV file ({error})") from None
-    if len(cells) != len(data):
-        raise ParameterError("data", str(path), "a CSV file with one row a line")
-    return comments, [(k, row) for (k, _), row in zip(data, cells, strict=True)]
+    return {name: np.array(values) for name, values in found.items()}, units, table.comments
 
 
 def _header(cell: str, unit_of: Callable[[str], str | None]) -> tuple[str, Unit, str]:
@@ -238,6 +220,8 @@ def _header(cell: str, unit_of: Callable[[str], str | None]) -> tuple[str, Unit,
     wanted = unit_of(name)
     if bracket and not rest.endswith("]"):
         raise ParameterError("column", cell, "a header such as prepressure [N]")
+    if "[" in rest or "]" in rest[:-1]:
+        raise ParameterError("column", cell, "one column: separate them with commas, semicolons or tabs")
     given = rest.removesuffix("]").strip() if bracket else ""
     if not given:
         if wanted != "1":
@@ -245,20 +229,18 @@ def _header(cell: str, unit_of: Callable[[str], str | None]) -> tuple[str, Unit,
         given = "1"
     allowed = f"a unit that converts to {wanted}" if wanted not in (None, "1") else "1, or a unit"
     try:
-        unit = parse_unit(given)
+        unit = parse_unit(given) if wanted is None else unit_for(given, wanted)
     except ValueError as error:
-        raise ParameterError(f"column {name}", given, f"{allowed} ({error})") from None
-    if wanted is not None and unit.dimension != parse_unit(wanted).dimension:
-        raise ParameterError(f"column {name}", given, allowed)
+        raise ParameterError(f"column {name}", given, f"{allowed} ({error})" if str(error) else allowed) from None
     return name, unit, given
 
 
-def _cell(name: str, text: str, unit: Unit, given: str) -> float:
+def _cell(name: str, text: str, unit: Unit, given: str, written: str) -> float:
     allowed = f"a finite number in {given}" if given != "1" else "a finite number"
-    try:
-        value = unit.to_si(float(text))
-    except (ValueError, OverflowError):
-        raise ParameterError(name, text, allowed) from None
+    number_given = plain_number(text)
+    if number_given is None:
+        raise ParameterError(name, text, f"{allowed}, written with {written}")
+    value = unit.to_si(number_given)
     if not np.isfinite(value):
         raise ParameterError(name, text, allowed)
     return value

@@ -13,6 +13,7 @@ from trum_sym.errors import ParameterError
 from trum_sym.inputs.checks import ArrayLike, broadcast_shape, number
 from trum_sym.inputs.distributions import Distribution
 from trum_sym.inputs.domain import Domain, Spec
+from trum_sym.inputs.plausible import warn_implausible, warn_outside_range
 from trum_sym.inputs.units import parse_quantity
 
 __all__ = ["SPECS", "Motor", "Parameter", "Published", "spec"]
@@ -149,15 +150,28 @@ class Motor:
     text: str = field(default="", repr=False, compare=False)  # of the motor file, whatever was set since
 
     def __post_init__(self) -> None:
-        """Checks every value, and the sizes that must fit each other."""
-        for name, parameter in self.parameters():
-            number(name, parameter.value, SPECS[name].domain, parameter.unit)
+        """Checks every value, and the sizes that must fit each other; warns of what no such motor has."""
+        if not isinstance(self.name, str):
+            raise ParameterError("name", self.name, "the motor's name as text")
+        for name, wanted in SPECS.items():
+            parameter = getattr(self, name)
+            if parameter is None and not wanted.required:
+                continue
+            if not isinstance(parameter, Parameter):
+                raise ParameterError(name, parameter, "a Parameter; with_values takes plain numbers and text")
+            for given, allowed in ((parameter.unit, wanted.unit), (parameter.symbol, wanted.symbol)):
+                if given != allowed:
+                    raise ParameterError(name, given, f"{allowed}, as every {name} has")
+            value = number(name, parameter.value, wanted.domain, wanted.unit)
+            if value is not parameter.value:
+                object.__setattr__(self, name, replace(parameter, value=value))
         broadcast_shape({name: parameter.value for name, parameter in self.parameters()})
         _ordered(self, "tooth_height", "beam_thickness")
         _ordered(self, "fit_prepressure_min", "fit_prepressure_max")
         gaps = self.tooth_count.value * self.slot_width.value
         if np.any(gaps >= self.perimeter.value):
             raise ParameterError("slot_width", self.slot_width.value, "less than perimeter / tooth_count")
+        warn_implausible(dict(self.parameters()))
 
     def parameters(self) -> Iterator[tuple[str, Parameter]]:
         """The parameters that are set, by name."""
@@ -171,7 +185,9 @@ class Motor:
         return {parameter.symbol: parameter.value for _, parameter in self.parameters()}
 
     def with_values(self, values: Mapping[str, float | ArrayLike | str], source: str = "set") -> Motor:
-        """A motor with some values replaced; text may carry a unit, ``"26.5 mm"``.
+        """A motor with some values replaced; text may carry a unit, ``"26.5 mm"``, and so may a quantity.
+
+        Warns of a value outside the range that its former one was stated with.
 
         Parameters
         ----------
@@ -186,11 +202,16 @@ class Motor:
             For an unknown name, or a value outside the parameter's domain.
         """
         changed = {}
+        if not isinstance(values, Mapping):
+            raise ParameterError("values", values, "a mapping of names of the motor file to values")
+        if not isinstance(source, str):
+            raise ParameterError("source", source, "text")
         for name, given in values.items():
             wanted = spec(name)
             value = parse_quantity(name, given, wanted.unit) if isinstance(given, str) else given
             checked = number(name, value, wanted.domain, wanted.unit)
             changed[name] = Parameter(checked, wanted.unit, wanted.symbol, source)
+            warn_outside_range(name, checked, getattr(self, name))
         return replace(self, **changed)  # type: ignore[arg-type]
 
 
@@ -205,12 +226,12 @@ SPECS: Mapping[str, Spec] = MappingProxyType(
 )
 
 
-def spec(name: str) -> Spec:
+def spec(name: object) -> Spec:
     """The specification of a parameter; a ParameterError for a name that is none."""
-    if name not in SPECS:
+    if not isinstance(name, str) or name not in SPECS:
         from difflib import get_close_matches
 
-        close = get_close_matches(name, SPECS, n=3, cutoff=0.5)
+        close = get_close_matches(name, SPECS, n=3, cutoff=0.5) if isinstance(name, str) else []
         hint = f"; close names: {', '.join(close)}" if close else ""
         raise ParameterError("motor parameter", name, f"a name of the motor file{hint}")
     return SPECS[name]

@@ -10,11 +10,13 @@ from typing import Any
 
 from trum_sym.errors import ParameterError
 from trum_sym.inputs.checks import ArrayLike, number
+from trum_sym.inputs.choices import path_of
+from trum_sym.inputs.csv_text import read_text
 from trum_sym.inputs.distributions import Distribution, checked
 from trum_sym.inputs.domain import Domain, Spec
 from trum_sym.inputs.drive import DRIVE_DOMAINS
 from trum_sym.inputs.motor import SPECS, Motor, Parameter, Published, spec
-from trum_sym.inputs.units import Unit, parse_unit
+from trum_sym.inputs.units import Unit, parse_unit, unit_for
 from trum_sym.quantities import QUANTITIES
 
 __all__ = ["load_motor", "motor_text"]
@@ -35,16 +37,18 @@ _KEYS = (
 )
 
 
+_MAX_BYTES = 1_000_000  # a motor takes 10 000
+_MAX_DOTS = 200  # in a line
+_MAX_PUBLISHED = 1000
+
+
 def _unit(name: str, given: str, wanted: str) -> Unit:
     """The given unit, if it converts to the wanted one."""
     allowed = f"a unit that converts to {wanted}" if wanted != "1" else "1, or a unit that converts to a pure number"
     try:
-        unit = parse_unit(given)
+        return unit_for(given, wanted)
     except ValueError as error:
-        raise ParameterError(name, given, f"{allowed} ({error})") from None
-    if unit.dimension != parse_unit(wanted).dimension:
-        raise ParameterError(name, given, allowed)
-    return unit
+        raise ParameterError(name, given, f"{allowed} ({error})" if str(error) else allowed) from None
 
 
 def _in_si(name: str, raw: object, unit: Unit, given: str) -> float:
@@ -169,15 +173,15 @@ def motor_text(source: str | PathLike[str]) -> str:
     """The text of a motor file, by name or path."""
     path = Path(__file__).parents[1] / "data" / "trum60.toml" if str(source) == "trum60" else Path(source)
     try:
-        return path.read_text("utf-8")
+        return read_text("motor", path, "a TOML file", _MAX_BYTES)
     except FileNotFoundError:
         raise ParameterError("motor", str(source), "trum60 or the path of a TOML file that exists") from None
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "not UTF-8 text"
-        raise ParameterError("motor", str(source), f"a readable TOML file ({reason})") from None
 
 
 def _read_toml(source: str | PathLike[str], text: str) -> dict[str, Any]:
+    dots = max((line.count(".") for line in text.splitlines()), default=0)
+    if dots > _MAX_DOTS:  # of a key that is nested without end tomllib takes minutes
+        raise ParameterError("motor", str(source), f"a TOML file with at most {_MAX_DOTS} points in a line, not {dots}")
     try:
         return tomllib.loads(text)
     except (ValueError, RecursionError) as error:
@@ -198,8 +202,7 @@ def load_motor(source: str | PathLike[str] = "trum60") -> Motor:
         If the file is missing, is not TOML, or an entry is unknown, incomplete, of a wrong unit or
         outside its domain.
     """
-    if not isinstance(source, str | PathLike) or not str(source):
-        raise ParameterError("motor", source, "trum60 or the path of a TOML file")
+    path_of("motor", source, "trum60 or the path of a TOML file")
     text = motor_text(source)
     data = _read_toml(source, text)
     unknown = sorted(set(data) - {"name", "parameters", "published"})
@@ -209,8 +212,8 @@ def load_motor(source: str | PathLike[str] = "trum60") -> Motor:
         raise ParameterError("motor file: name", data.get("name", "nothing"), "the motor's name as text")
     if not isinstance(data.get("parameters"), dict):
         raise ParameterError("motor file: parameters", data.get("parameters", "nothing"), "a table [parameters]")
-    if not isinstance(data.get("published", []), list):
-        raise ParameterError("published", data["published"], "an array of tables [[published]]")
+    if not isinstance(data.get("published", []), list) or len(data.get("published", [])) > _MAX_PUBLISHED:
+        raise ParameterError("published", data["published"], f"up to {_MAX_PUBLISHED} tables [[published]]")
     parameters = {name: _read_parameter(name, entry) for name, entry in data["parameters"].items()}
     missing = [name for name, wanted in SPECS.items() if wanted.required and name not in parameters]
     if missing:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from os import PathLike
-from pathlib import Path
 from typing import Any
 
 from trum_sym.errors import MissingExtraError
+from trum_sym.inputs.choices import path_of
 from trum_sym.inputs.motor import Motor, Parameter
 from trum_sym.inputs.motor_file import load_motor, motor_text
 from trum_sym.inputs.units import Unit, parse_unit
@@ -44,7 +44,7 @@ def write_motor(motor: Motor, base: str | PathLike[str], target: str | PathLike[
         import tomlkit
     except ImportError:
         raise MissingExtraError("a motor file", "tomlkit", "optimize") from None
-    path = Path(target)
+    path = path_of(name, target)
     check_target(name, path, (".toml",))
     before = load_motor(base)
     text = tomlkit.parse(motor_text(base))

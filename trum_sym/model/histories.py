@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Unpack
 import numpy as np
 
 from trum_sym.errors import MissingExtraError, ParameterError
-from trum_sym.inputs.checks import Array, ArrayLike, number
+from trum_sym.inputs.checks import Array, ArrayLike
 from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
-from trum_sym.inputs.points import check_single, numbers_of
+from trum_sym.inputs.points import check_single, numbers_of, one_number, period_of
 from trum_sym.model.cycle import response, scaled
 from trum_sym.model.kernels import call
 from trum_sym.model.levels import LevelChoice, Levels
@@ -89,17 +89,17 @@ def simulate(
     except ImportError:
         raise MissingExtraError("simulate", "xarray", "data") from None
     count_domain = Domain(low=1, low_open=False, high=_MAX_SAMPLES, high_open=False, integer=True)
-    given = {"cycles": cycles, "samples_per_period": samples_per_period}
-    counts = {name: number(name, count, count_domain, "1") for name, count in given.items()}
-    check_single(counts)
-    repeats, per_period = (int(count) for count in counts.values())
+    repeats = int(one_number("cycles", cycles, "1", count_domain))
+    per_period = int(one_number("samples_per_period", samples_per_period, "1", count_domain))
     drive = Drive() if drive is None else drive
+    period = period_of(sampling_period)
+    check_single({} if period is None else {"sampling_period": period})
     if isinstance(drive, Drive) and isinstance(motor, Motor):  # evaluate refuses all else
-        check_single(numbers_of(motor, drive, sampling_period))
+        check_single(numbers_of(motor, drive, period))
         if repeats * per_period * int(drive.periods) > _MAX_SAMPLES:
             allowed = f"at most {_MAX_SAMPLES} samples, cycles * periods * samples_per_period"
             raise ParameterError("cycles", repeats, allowed)
-    case, point = settle(motor, drive, Levels(**levels), tolerance, sampling_period)
+    case, point = settle(motor, drive, Levels(**levels), tolerance, period)
     count = int(drive.periods) * per_period
     columns, region = _cycle(case, point, count)
     advance = columns.pop("advance")
@@ -125,7 +125,7 @@ def simulate(
                 {"flag_values": [0, 1, 2], "flag_meanings": " ".join(name.replace(" ", "_") for name in REGIONS)},
             ),
         },
-        attrs=_attributes(case, point, {**settings, "sampling_period": sampling_period}),
+        attrs=_attributes(case, point, {**settings, "sampling_period": None if period is None else float(period)}),
     )
 
 

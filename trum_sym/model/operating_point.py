@@ -8,11 +8,11 @@ from typing import Any, Unpack
 
 import numpy as np
 
-from trum_sym.inputs.checks import Array, ArrayLike, broadcast_shape, number
+from trum_sym.inputs.checks import Array, ArrayLike, broadcast_shape
 from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
-from trum_sym.inputs.points import check_point, numbers_of
+from trum_sym.inputs.points import check_point, numbers_of, one_number, period_of
 from trum_sym.model.cycle import check_steady_state, cycle_sums, modal_values, scaled
 from trum_sym.model.kernels import call
 from trum_sym.model.levels import LevelChoice, Levels
@@ -23,6 +23,7 @@ __all__ = [
     "OF_CYCLE",
     "OF_ORBIT",
     "RESULTS",
+    "TOLERANCES",
     "Case",
     "OperatingPoint",
     "evaluate",
@@ -34,16 +35,31 @@ __all__ = [
 
 OF_CYCLE = frozenset(("q_ratio", "q_square_ratio", "q_average", "q_volatility"))
 """The figures that take the sums over a cycle."""
-OF_ORBIT = frozenset((
-    "mean_speed", "min_speed", "max_speed", "speed_volatility", "stall_torque", "contact_fraction",
-    "mean_speed_error", "min_speed_error", "max_speed_error", "speed_volatility_error", "stall_torque_error",
-    "converged", "runaway", "reason",
-))  # fmt: skip
+OF_ORBIT = frozenset(
+    (
+        "mean_speed",
+        "min_speed",
+        "max_speed",
+        "speed_volatility",
+        "stall_torque",
+        "contact_fraction",
+        "mean_speed_error",
+        "min_speed_error",
+        "max_speed_error",
+        "speed_volatility_error",
+        "stall_torque_error",
+        "converged",
+        "runaway",
+        "reason",
+    )
+)
 """The figures that take the rotor's orbit; ``runaway`` is where no speed balances the load, ``reason`` why an orbit is
 not converged, in words."""
 
 _TOLERANCE, _FINEST = 1e-6, 1e-9  # where none is given: at first, and the finest that a single point goes to
 _DIGITS = 5e-5  # of the mean speed: four digits of it are right
+TOLERANCES = Domain(low=1e-9, low_open=False, high=1e-2, high_open=False)
+"""Of a rotor's speeds, relative to the largest."""
 _ENCODER_SAMPLES = 64  # per drive period, of the path that the encoder differences
 
 
@@ -225,10 +241,11 @@ def prepare(
     drive = Drive() if drive is None else drive
     check_point(motor, drive)
     inputs = numbers_of(motor, drive)
+    sampling_period = period_of(sampling_period)
     if sampling_period is not None:
-        inputs["sampling_period"] = number("sampling_period", sampling_period, Domain(low=0.0), "s")
+        inputs["sampling_period"] = sampling_period
     shape = broadcast_shape(inputs)
-    number("tolerance", tolerance, Domain(low=1e-9, low_open=False, high=1e-2, high_open=False), "1")
+    tolerance = one_number("tolerance", tolerance, "1", TOLERANCES)
     check_steady_state(motor.damping_ratio.value, drive)
     stator = solve_stator(motor, drive, levels, warn=warn)
     values = modal_values(stator.omega_n, motor.damping_ratio.value, drive)

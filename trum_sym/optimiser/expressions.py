@@ -12,11 +12,12 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
+from fractions import Fraction
 from types import MappingProxyType
 from typing import Any
 
 from trum_sym.errors import ParameterError, shorten
-from trum_sym.inputs.units import Dimension, parse_quantity, parse_unit
+from trum_sym.inputs.units import Dimension, Kind, parse_quantity, parse_unit
 from trum_sym.optimiser.extra import casadi
 from trum_sym.quantities import QUANTITIES
 
@@ -94,18 +95,18 @@ def symbol(name: str) -> Any:  # noqa: ANN401
 class _Term:
     """A part of an expression.
 
-    The dimension of a bare number is open, and a figure that it multiplies is weighted: in a sum a weight may carry
+    The kind of a bare number is open, and a figure that it multiplies is weighted: in a sum a weight may carry
     any unit.
     """
 
     graph: Any
-    dimension: Dimension | None
+    kind: Kind | None
     number: float | None = None
     weighted: bool = False
 
 
 def _all_weighted(terms: list[_Term]) -> bool:
-    return all(term.weighted or term.dimension is None for term in terms)
+    return all(term.weighted or term.kind is None for term in terms)
 
 
 class _Reader:
@@ -133,7 +134,7 @@ class _Reader:
             case ast.UnaryOp(op=ast.USub(), operand=inner):
                 term = self.read(inner, depth + 1)
                 negative = None if term.number is None else -term.number
-                return _Term(-term.graph, term.dimension, negative, term.weighted)
+                return _Term(-term.graph, term.kind, negative, term.weighted)
             case ast.UnaryOp(op=ast.UAdd(), operand=inner):
                 return self.read(inner, depth + 1)
             case ast.BinOp(left=left, op=op, right=right):
@@ -148,20 +149,20 @@ class _Reader:
             hint = f"close names: {', '.join(close)}" if close else f"names are {', '.join(VARIABLES)}"
             raise self.refuse(f"no figure is called {shorten(figure)}; {hint}")
         self.names.add(figure)
-        return _Term(_SYMBOLS[figure], parse_unit(VARIABLES[figure]).dimension)
+        return _Term(_SYMBOLS[figure], parse_unit(VARIABLES[figure]).kind)
 
-    def same(self, terms: list[_Term]) -> Dimension | None:
-        """The one dimension of terms that are added or compared; numbers and weights take what the others need."""
-        found = {term.dimension for term in terms if term.dimension is not None and not term.weighted}
+    def same(self, terms: list[_Term]) -> Kind | None:
+        """The one kind of terms that are added or compared; numbers and weights take what the others need."""
+        found = {term.kind.compared for term in terms if term.kind is not None and not term.weighted}
         if len(found) > 1:
             raise self.refuse(f"{' and '.join(sorted(map(str, found)))} do not add; a weight may take a unit away")
-        weighted = {term.dimension for term in terms if term.dimension is not None}
+        weighted = {term.kind.compared for term in terms if term.kind is not None}
         return found.pop() if found else weighted.pop() if len(weighted) == 1 else None
 
     def combine(self, op: ast.operator, left: _Term, right: _Term) -> _Term:
-        first, second = left.dimension or Dimension(), right.dimension or Dimension()
-        bare = left.dimension is None and right.dimension is None
-        weighted = left.dimension is None or right.dimension is None or left.weighted or right.weighted
+        first, second = left.kind or Kind(), right.kind or Kind()
+        bare = left.kind is None and right.kind is None
+        weighted = left.kind is None or right.kind is None or left.weighted or right.weighted
         match op:
             case ast.Add():
                 return _Term(left.graph + right.graph, self.same([left, right]), weighted=_all_weighted([left, right]))
@@ -177,8 +178,8 @@ class _Reader:
                 if right.number is None or not float(right.number).is_integer() or abs(right.number) > 9:
                     raise self.refuse("exponents are integers from -9 to 9; sqrt() takes roots")
                 power = int(right.number)
-                dimension = None if left.dimension is None else first.power(power)
-                return _Term(left.graph**power, dimension, weighted=left.weighted)
+                kind = None if left.kind is None else first.power(power)
+                return _Term(left.graph**power, kind, weighted=left.weighted)
         raise self.refuse(f"not the operator {type(op).__name__.lower()}")
 
     def apply(self, function: str, terms: list[_Term]) -> _Term:
@@ -191,14 +192,14 @@ class _Reader:
         if len(terms) == 1:
             (term,) = terms
             if function == "abs":
-                return _Term(casadi.fabs(term.graph), term.dimension, weighted=term.weighted)
+                return _Term(casadi.fabs(term.graph), term.kind, weighted=term.weighted)
             if function == "sqrt":
-                powers = None if term.dimension is None else Dimension(*(a / 2 for a in term.dimension))
+                powers = None if term.kind is None else term.kind.power(Fraction(1, 2))
                 return _Term(casadi.sqrt(term.graph), powers, weighted=term.weighted)
             if function in ("exp", "log"):
-                if term.dimension not in (None, Dimension()) and not term.weighted:
+                if term.kind is not None and term.kind.dimension != Dimension() and not term.weighted:
                     raise self.refuse(f"{function} takes a pure number")
-                return _Term(getattr(casadi, function)(term.graph), Dimension())
+                return _Term(getattr(casadi, function)(term.graph), Kind())
         raise self.refuse("functions are abs, sqrt, exp and log of one value, min and max of several")
 
 
@@ -229,10 +230,10 @@ def parse_expression(name: str, text: object) -> Expression:
     term = reader.read(tree.body)
     if not reader.names:
         raise reader.refuse("no figure occurs in it")
-    dimension = term.dimension or Dimension()
-    if any(exponent.denominator != 1 for exponent in dimension):
-        raise reader.refuse(f"the root of a unit is left, {dimension}")
-    unit = VARIABLES[tree.body.id] if isinstance(tree.body, ast.Name) else str(dimension)
+    kind = term.kind or Kind()
+    if any(exponent.denominator != 1 for exponent in (*kind.dimension, kind.angle)):
+        raise reader.refuse(f"the root of a unit is left, {kind}")
+    unit = VARIABLES[tree.body.id] if isinstance(tree.body, ast.Name) else str(kind)
     return Expression(text.strip(), term.graph, frozenset(reader.names), unit)
 
 

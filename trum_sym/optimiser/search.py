@@ -12,12 +12,10 @@ from typing import Any, Unpack
 import numpy as np
 
 from trum_sym.errors import ParameterError, ValidityWarning
-from trum_sym.inputs.checks import number
-from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import DRIVE_DOMAINS, Drive
 from trum_sym.inputs.motor import Motor
-from trum_sym.inputs.points import check_point, check_single, numbers_of
-from trum_sym.inputs.units import ARCSEC, parse_quantity
+from trum_sym.inputs.points import check_point, check_single, numbers_of, one_number
+from trum_sym.inputs.units import ARCSEC
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.optimiser.chart import basins, chart
 from trum_sym.optimiser.expressions import Constraint, Expression, parse_constraint, parse_expression, symbol
@@ -32,7 +30,6 @@ __all__ = [
     "aim_of",
     "box_of",
     "check_scalars",
-    "one_number",
     "optimize",
     "warn_outside_fit",
 ]
@@ -121,15 +118,6 @@ def check_scalars(motor: Motor, drive: Drive) -> None:
     check_single(numbers_of(motor, drive), "one number; optimize each case by itself")
 
 
-def one_number(name: str, value: object, unit: str) -> float:
-    """A finite number in its SI unit, from a number or text."""
-    given = parse_quantity(name, value, unit) if isinstance(value, str) else value
-    checked = number(name, given, Domain(), unit)
-    if np.ndim(checked):
-        raise ParameterError(name, value, f"one number in {unit}")
-    return float(checked)
-
-
 def box_of(drive: Drive, bounds: Mapping[str, Bound] | None) -> tuple[Box, list[tuple[int, int]], Drive]:
     """The box of what varies, the pairs of periods and on_periods, and the drive with what is held."""
     if bounds is not None and not isinstance(bounds, Mapping):
@@ -155,7 +143,7 @@ def box_of(drive: Drive, bounds: Mapping[str, Bound] | None) -> tuple[Box, list[
 
 def _checked(label: str, name: str, value: object) -> float:
     domain, unit = DRIVE_DOMAINS[name]
-    return float(number(label, one_number(label, value, unit), domain, unit))
+    return one_number(label, value, unit, domain)
 
 
 def _range(name: str, value: Sequence[object]) -> tuple[float, float]:

@@ -11,17 +11,16 @@ from typing import Unpack
 import numpy as np
 
 from trum_sym.errors import ParameterError
-from trum_sym.inputs.checks import number
 from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
+from trum_sym.inputs.points import one_number
 from trum_sym.inputs.units import ARCSEC
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.optimiser.chart import chart
 from trum_sym.optimiser.expressions import Constraint, Expression, parse_expression
 from trum_sym.optimiser.finish import Finished
 from trum_sym.optimiser.model import Model, functions
-from trum_sym.optimiser.search import one_number
 from trum_sym.optimiser.solve import Answer, Problem, solve
 from trum_sym.output.json_text import json_text
 from trum_sym.output.progress import shown
@@ -162,8 +161,10 @@ def pareto(
     MissingExtraError
         Without CasADi.
     """
-    count = int(number("points", points, _COUNT, "1"))
+    count = int(one_number("points", points, "1", _COUNT))
     target = None if target_speed is None else one_number("target_speed", target_speed, "rad/s")
+    if not isinstance(against, str):
+        raise ParameterError("against", against, f"one of {', '.join(AGAINST)}, or arithmetic on figures")
     if against == "speed-error" and target is None:
         raise ParameterError("target_speed", "none", "a speed in rad/s for speed-error")
     held = None if against == "speed-error" else target
@@ -188,7 +189,7 @@ def pareto(
     )
 
 
-def _against(against: object, target: float | None) -> tuple[Expression, float]:
+def _against(against: str, target: float | None) -> tuple[Expression, float]:
     """The second figure, and -1 if it is to be large."""
     if against == "torque-margin":
         backward = target is not None and target < 0
@@ -197,8 +198,6 @@ def _against(against: object, target: float | None) -> tuple[Expression, float]:
         ), -1.0
     if against == "speed-error":
         return parse_expression("against", "mean_speed"), 1.0
-    if not isinstance(against, str):
-        raise ParameterError("against", against, f"one of {', '.join(AGAINST)}, or arithmetic on figures")
     return parse_expression("against", against), 1.0
 
 

@@ -12,14 +12,14 @@ from typing import Any, TypeVar, Unpack
 import numpy as np
 
 from trum_sym.errors import ParameterError
-from trum_sym.inputs.checks import number
 from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import DRIVE_DOMAINS, Drive
 from trum_sym.inputs.motor import Motor, spec
-from trum_sym.inputs.units import ARCSEC, parse_quantity
+from trum_sym.inputs.plausible import unquestioned
+from trum_sym.inputs.points import one_number
+from trum_sym.inputs.units import ARCSEC
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.optimiser.model import Model
-from trum_sym.optimiser.search import one_number
 from trum_sym.optimiser.solve import Problem, solve
 from trum_sym.output.json_text import json_text
 from trum_sym.output.progress import shown
@@ -164,7 +164,7 @@ def robust(
         Without CasADi or SciPy.
     """
     target = None if target_speed is None else one_number("target_speed", target_speed, "rad/s")
-    error = objective == "speed-error"
+    error = isinstance(objective, str) and objective == "speed-error"
     if error and target is None:
         raise ParameterError("target_speed", "none", "a speed in rad/s for the objective speed-error")
     aim, held = ("mean_speed", None) if error else (objective, target)
@@ -208,8 +208,7 @@ def _ranges(
                 raise ParameterError(f"tolerance of {name}", given, "two numbers, low and high, or one share")
             low, high = (_value(name, end) for end in given)
         else:
-            share = parse_quantity(f"tolerance of {name}", given, "1") if isinstance(given, str) else given
-            share = float(number(f"tolerance of {name}", share, Domain(low=0.0, high=1.0), "1"))
+            share = one_number(f"tolerance of {name}", given, "1", Domain(low=0.0, high=1.0))
             low, high = sorted((_value(name, value * (1 - share)), _value(name, value * (1 + share))))
         if not low <= value <= high or low == high:
             raise ParameterError(f"tolerance of {name}", f"{low:g} to {high:g}", f"low < high around {value:g}")
@@ -232,8 +231,7 @@ def _nominal(problem: Problem, name: str) -> float:
 
 def _value(name: str, given: float | str) -> float:
     domain, unit = DRIVE_DOMAINS[name] if name in DRIVE_DOMAINS else (spec(name).domain, spec(name).unit)
-    value = parse_quantity(name, given, unit) if isinstance(given, str) else given
-    return float(number(name, value, domain, unit))
+    return one_number(name, given, unit, domain)
 
 
 def _cases(
@@ -258,7 +256,9 @@ def _cases(
 def _model(problem: Problem, case: Mapping[str, float]) -> Model:
     values: dict[str, Any] = dict(case)
     drive = replace(problem.drive, load_torque=values.pop("load_torque", problem.drive.load_torque))
-    return Model(problem.motor.with_values(values), drive, problem.levels, problem.box, problem.names)
+    with unquestioned():
+        motor = problem.motor.with_values(values)
+    return Model(motor, drive, problem.levels, problem.box, problem.names)
 
 
 def _result(

@@ -8,14 +8,14 @@ from typing import Unpack
 import numpy as np
 
 from trum_sym.errors import ParameterError
-from trum_sym.inputs.checks import number
+from trum_sym.inputs.choices import choice
 from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
+from trum_sym.inputs.points import one_number
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.optimiser.chart import chart
 from trum_sym.optimiser.model import Model
-from trum_sym.optimiser.search import one_number
 from trum_sym.output.progress import said
 from trum_sym.studies.posed import Bound, posed
 from trum_sym.studies.speed_table_result import Gap, Segment, SpeedTable
@@ -72,15 +72,14 @@ def speed_table(
         Without CasADi.
     """
     low, high = (
-        float(number(name, one_number(name, value, "rad/s"), Domain(low=0.0), "rad/s"))
+        one_number(name, value, "rad/s", Domain(low=0.0))
         for name, value in (("slowest", slowest), ("fastest", fastest))
     )
     if low >= high:
         raise ParameterError("slowest", f"{low:g} rad/s", f"less than fastest, {high:g} rad/s")
-    count = int(number("points", points, _COUNT, "1"))
-    error = float(number("error", error, Domain(low=1e-6, low_open=False, high=0.5, high_open=False), "1"))
-    if direction not in _DIRECTIONS:
-        raise ParameterError("direction", direction, f"one of {', '.join(_DIRECTIONS)}")
+    count = int(one_number("points", points, "1", _COUNT))
+    error = one_number("error", error, "1", Domain(low=1e-6, low_open=False, high=0.5, high_open=False))
+    choice("direction", direction, _DIRECTIONS)
     problem = posed(motor, drive, Levels(**levels), "speed_deviation", None, bounds, constraints)
     sizes = np.geomspace(low, high, count)
     speeds = {"both": np.concatenate([-sizes[::-1], sizes]), "positive": sizes, "negative": -sizes[::-1]}[direction]

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from os import PathLike
-from pathlib import Path
 
 import numpy as np
 
 from trum_sym.errors import ParameterError
 from trum_sym.inputs.checks import Array
+from trum_sym.inputs.choices import path_of
 from trum_sym.inputs.drive import Drive
+from trum_sym.inputs.points import one_number
 from trum_sym.inputs.units import ARCSEC
 
 __all__ = ["Gap", "Segment", "SpeedTable"]
@@ -89,14 +90,15 @@ class SpeedTable:
         known = {"prepressure": "N", "frequency_difference": "Hz"}
         return ", ".join(f"{name} {numbers[name]:g} {known[name]}" for name in known if name not in self.variables)
 
-    def at(self, speed: float) -> dict[str, float]:
-        """The drive for a speed in rad/s, linear between neighbours.
+    def at(self, speed: float | str) -> dict[str, float]:
+        """The drive for a speed in rad/s, or text with a unit, linear between neighbours.
 
         Raises
         ------
         ParameterError
             For a speed that lies in no segment.
         """
+        speed = one_number("speed", speed, "rad/s")
         for segment in self.segments:
             if segment.speed[0] <= speed <= segment.speed[-1]:
                 return {name: float(np.interp(speed, segment.speed, x)) for name, x in segment.drive.items()}
@@ -142,7 +144,7 @@ class SpeedTable:
         from trum_sym.output.files import check_target, write_bytes
         from trum_sym.studies.table_files import Rows, as_c, as_csv
 
-        path = Path(target)
+        path = path_of(name, target)
         check_target(name, path, (".csv", ".h"))
         if not self.segments:
             raise ParameterError(name, "a table without entries", "a range of speeds that the box has")

@@ -11,7 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from trum_sym.errors import ParameterError
-from trum_sym.inputs.checks import Array, ArrayLike, number
+from trum_sym.inputs.carried import Labels, labels_of
+from trum_sym.inputs.checks import Array, ArrayLike, check_labels, number
 from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import DRIVE_DOMAINS
 from trum_sym.inputs.motor import SPECS
@@ -94,16 +95,19 @@ def read_ranges(ranges: Mapping[str, object]) -> tuple[dict[str, ArrayLike], Gri
     ----------
     ranges : mapping
         By name: a number, a sequence, a text in the notation of :func:`trum_sym.sweeps.notation.parse`, or a
-        one-dimensional xarray.DataArray; those of one dimension vary together, as do columns of one file.
+        one-dimensional xarray.DataArray; those of one dimension vary together, as do columns of one file.  Quantities
+        and DataArrays with ``attrs["units"]`` are converted.
 
     Raises
     ------
     ParameterError
-        For an unknown name, values outside their domain, an empty axis, a value twice on it, or nothing that varies.
+        For an unknown name, values outside their domain, an empty axis, a value twice on it, nothing that varies, or
+        one dimension with two indices.
     """
     fixed: dict[str, ArrayLike] = {}
     axes: dict[str, dict[str, Array]] = {}
     files: dict[str, str] = {}
+    labels: dict[str, dict[str, Labels]] = {}
     for name, given in ranges.items():
         domain, unit = _parameter(name)
         value: Any = parse(name, given, unit) if isinstance(given, str) else given
@@ -111,8 +115,9 @@ def read_ranges(ranges: Mapping[str, object]) -> tuple[dict[str, ArrayLike], Gri
         if isinstance(value, Column):
             dimension = files.setdefault(value.file, f"row_{len(files) + 1}" if files else "row")
             value = value.values
-        elif getattr(value, "dims", None):
-            dimension, value = value.dims[0] if len(value.dims) == 1 else name, value.values
+        elif (known := labels_of(value)) is not None and len(known.dimensions) == 1 and hasattr(value, "dims"):
+            (dimension,) = known.dimensions
+            labels.setdefault(dimension, {})[name] = known
         checked = number(name, value, domain, unit)
         _check_lead(name, checked)
         if isinstance(checked, float):
@@ -122,7 +127,9 @@ def read_ranges(ranges: Mapping[str, object]) -> tuple[dict[str, ArrayLike], Gri
             raise ParameterError(name, f"an array of shape {checked.shape}", f"1 to {MAX_VALUES} values in a row")
         if dimension == name:
             _check_distinct(name, checked)
-        axes.setdefault(str(dimension), {})[name] = checked
+        axes.setdefault(str(dimension), {})[name] = np.asarray(checked)
+    for together in labels.values():
+        check_labels(together)
     _check_axes(axes)
     return fixed, Grid(tuple(Axis(dimension, values) for dimension, values in axes.items()))
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import csv
+import math
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,6 +10,7 @@ import numpy as np
 
 from trum_sym.errors import ParameterError
 from trum_sym.inputs.checks import Array
+from trum_sym.inputs.csv_text import read_table
 from trum_sym.inputs.units import parse_quantity
 
 __all__ = ["MAX_VALUES", "Column", "is_range", "parse"]
@@ -81,8 +82,7 @@ def _range(name: str, text: str, unit: str) -> Array:
         raise ParameterError(name, text, NOTATION)
     if by:
         low, high, step = _numbers(name, [*parts[:2], step_text], text, unit)
-        if not np.isfinite([low, high, step]).all() or step == 0:
-            raise ParameterError(name, text, "finite ends and a finite step that is not 0")
+        _check_finite(name, text, low, high, step)
         steps = (high - low) / step
         if steps < 0:
             raise ParameterError(name, text, "a step that leads from the first end to the second")
@@ -91,10 +91,16 @@ def _range(name: str, text: str, unit: str) -> Array:
         count = round(steps) + 1
     else:
         low, high = _numbers(name, parts[:2], text, unit)
+        _check_finite(name, text, low, high)
         count = _count(name, parts[2], text)
     if count < 2 or low == high:
         raise ParameterError(name, text, "a range of two values or more")
     return np.linspace(low, high, count)
+
+
+def _check_finite(name: str, text: str, low: float, high: float, step: float = 1.0) -> None:
+    if not all(map(math.isfinite, (low, high, high - low, step, (high - low) / (step or math.nan)))):
+        raise ParameterError(name, text, "finite ends and a finite step that is not 0")
 
 
 def _count(name: str, part: str, text: str) -> int:
@@ -105,25 +111,14 @@ def _count(name: str, part: str, text: str) -> int:
 
 def _column(name: str, file: str, unit: str) -> Column:
     wanted = f"@ and the path of a CSV file with a column {name}"
-    try:
-        with Path(file).open(encoding="utf-8-sig", newline="") as lines:
-            rows = csv.reader(lines, strict=True)
-            header = [cell.strip() for cell in next(rows, [])]
-            titles = [cell.partition("[") for cell in header]
-            places = [i for i, title in enumerate(titles) if title[0].strip() == name]
-            if len(places) != 1:
-                raise ParameterError(name, f"the columns {', '.join(header)} in @{file}", wanted)
-            place = places[0]
-            given = titles[place][2].rstrip("] ")
-            values = [_cell(name, file, rows.line_num, row, place, unit, given) for row in rows if row]
-    except OSError as error:
-        raise ParameterError(name, f"@{file}", f"{wanted} ({error.strerror})") from None
-    except (UnicodeDecodeError, csv.Error) as error:
-        raise ParameterError(name, f"@{file}", f"{wanted} ({error})") from None
-    except ValueError as error:
-        if isinstance(error, ParameterError):
-            raise
-        raise ParameterError(name, f"@{file}", wanted) from None  # no path at all
+    table = read_table(name, Path(file))
+    titles = [cell.partition("[") for cell in table.header]
+    places = [i for i, title in enumerate(titles) if title[0].strip() == name]
+    if len(places) != 1:
+        raise ParameterError(name, f"the columns {', '.join(map(str.strip, table.header))} in @{file}", wanted)
+    place = places[0]
+    given = titles[place][2].rstrip("] ")
+    values = [_cell(name, file, line, row, place, unit, given) for line, row in table.rows()]
     if not 1 <= len(values) <= MAX_VALUES:
         raise ParameterError(name, f"{len(values)} rows in @{file}", f"{wanted} of 1 to {MAX_VALUES} rows")
     return Column(str(Path(file)), np.array(values))

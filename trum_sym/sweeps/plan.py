@@ -12,14 +12,14 @@ from typing import Any
 import numpy as np
 
 from trum_sym.errors import ConvergenceError, ParameterError
-from trum_sym.inputs.checks import ArrayLike, number
-from trum_sym.inputs.choices import choice
+from trum_sym.inputs.checks import ArrayLike
+from trum_sym.inputs.choices import choice, words
 from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import SPECS, Motor
-from trum_sym.inputs.points import check_point
+from trum_sym.inputs.points import check_point, one_number, period_of
 from trum_sym.model.levels import Levels
-from trum_sym.model.operating_point import OF_ORBIT
+from trum_sym.model.operating_point import OF_ORBIT, TOLERANCES
 from trum_sym.model.stator import warn_outside_fit
 from trum_sym.quantities import ERRORS, QUANTITIES
 from trum_sym.sweeps.grid import PARAMETERS, Grid, chunk_shape, read_ranges
@@ -148,7 +148,8 @@ def make_plan(
     numbers = {**drive.numbers(), **{name: value for name, value in fixed.items() if name in drive.numbers()}}
     set_values = {name: value for name, value in fixed.items() if name in SPECS}
     machine = replace(motor, published=()).with_values(set_values)
-    period = fixed.get("sampling_period", sampling_period)
+    period = period_of(fixed.get("sampling_period", sampling_period))
+    tolerance = one_number("tolerance", tolerance, "1", TOLERANCES)
     given: dict[str, ArrayLike] = {**numbers, **{name: parameter.value for name, parameter in machine.parameters()}}
     for name, value in given.items() if period is None else [*given.items(), ("sampling_period", period)]:
         if np.ndim(value) and name not in swept:
@@ -168,21 +169,20 @@ def _outputs(given: Sequence[str] | None, swept: set[str]) -> tuple[str, ...]:
     known = [name for name in (*QUANTITIES, *ERRORS, "converged") if name not in swept]
     if given is None:
         return tuple(known)
-    if isinstance(given, str) or not given:
-        raise ParameterError("outputs", given, f"a list of figures: {', '.join(known)}")
+    given = words("outputs", given, f"a list of figures: {', '.join(known)}")
     for name in given:
         if name in swept:
             raise ParameterError("outputs", name, "figures that are not swept themselves")
         choice("outputs", name, tuple(known))
     if len(set(given)) < len(given):
         raise ParameterError("outputs", ", ".join(given), "each figure once")
-    return tuple(given)
+    return given
 
 
 def _points(grid: Grid, outputs: tuple[str, ...], chunk: float | None) -> int:
     """Points of a chunk: for the grid, what its points cost, and the memory of this machine."""
     if chunk is not None:
-        return int(number("chunk", chunk, Domain(low=1, low_open=False, integer=True), "1"))
+        return int(one_number("chunk", chunk, "1", Domain(low=1, low_open=False, integer=True)))
     low, high = _CHUNK_POINTS[not OF_ORBIT.isdisjoint(outputs)]
     memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     room = int(_MEMORY_SHARE * memory / (_POINT_BYTES * (os.cpu_count() or 1)))

@@ -16,8 +16,10 @@ import numpy as np
 
 from trum_sym.errors import MissingExtraError, ParameterError, UnfinishedError
 from trum_sym.inputs.checks import ArrayLike
+from trum_sym.inputs.choices import path_of
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
+from trum_sym.inputs.points import period_of
 from trum_sym.model.levels import LEVEL_NAMES, Levels
 from trum_sym.output.progress import Progress
 from trum_sym.sweeps.engine import Cluster, Here, Pool, compute_all
@@ -129,9 +131,9 @@ def sweep(
     """
     level_names = [name for name in LEVEL_NAMES if name != "amplitude" or isinstance(ranges.get(name), str)]
     levels = Levels(**{name: ranges.pop(name) for name in level_names if name in ranges})  # type: ignore[arg-type]
-    if np.ndim(sampling_period) or isinstance(sampling_period, str):  # type: ignore[arg-type]
+    if isinstance(sampling_period, str) or isinstance(period_of(sampling_period), np.ndarray):
         ranges, sampling_period = {**ranges, "sampling_period": sampling_period}, None
-    target = None if out is None else Path(out)
+    target = None if out is None else path_of("out", out)
     check_out("out", target)
     plan = make_plan(motor, drive, levels, sampling_period, tolerance, outputs, chunk, ranges)
     return run("out", plan, target, scheduler, chunk is not None, sys.stderr if progress else None)[0]

@@ -20,6 +20,7 @@ from trum_sym.errors import ConvergenceError, ParameterError
 from trum_sym.inputs.checks import Array, ArrayLike
 from trum_sym.inputs.drive import Drive, Start
 from trum_sym.inputs.motor import SPECS, Motor
+from trum_sym.inputs.plausible import unquestioned
 from trum_sym.model.batch import StoppedError, one_thread
 from trum_sym.model.levels import Levels
 from trum_sym.model.operating_point import OF_ORBIT, Case, prepare, results
@@ -74,7 +75,8 @@ class Settings:
         """
         of_motor = {name: value for name, value in values.items() if name in SPECS}
         of_drive = {name: values.get(name, value) for name, value in self.numbers.items()}
-        motor = self.motor.with_values(of_motor) if of_motor else self.motor
+        with unquestioned():
+            motor = self.motor.with_values(of_motor) if of_motor else self.motor
         drive = Drive(**of_drive, start=self.start)
         period = values.get("sampling_period", self.sampling_period)
         return prepare(motor, drive, self.levels, self.tolerance, period, warn=False)

@@ -11,11 +11,13 @@ import numpy as np
 
 from trum_sym.errors import ParameterError
 from trum_sym.inputs.checks import Array, ArrayLike
+from trum_sym.inputs.choices import words
 from trum_sym.inputs.distributions import Distribution, checked, from_text
 from trum_sym.inputs.domain import Spec
 from trum_sym.inputs.drive import DRIVE_DOMAINS, Drive
 from trum_sym.inputs.motor import SPECS, Motor, spec
-from trum_sym.inputs.points import check_point, check_single, numbers_of
+from trum_sym.inputs.plausible import unquestioned
+from trum_sym.inputs.points import check_point, check_single, numbers_of, period_of
 from trum_sym.inputs.units import parse_quantity
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.model.operating_point import evaluate
@@ -39,7 +41,7 @@ def _spec_of(name: str) -> Spec:
     if name in DRIVE_DOMAINS:
         domain, unit = DRIVE_DOMAINS[name]
         return Spec(unit, name, domain, required=True)
-    if name not in SPECS:
+    if name not in SPECS:  # a name that is no text is refused before
         from difflib import get_close_matches
 
         close = get_close_matches(name, [*SPECS, *DRIVE_DOMAINS], n=3, cutoff=0.5)
@@ -56,6 +58,8 @@ def _chosen(motor: Motor, parameters: Mapping[str, Given] | Sequence[str] | None
         parameters = [MOTOR_FILE]
     if isinstance(parameters, str) or not isinstance(parameters, Mapping | Sequence):
         raise ParameterError("parameters", parameters, "names, or distributions by name")
+    if not isinstance(parameters, Mapping):
+        parameters = words("parameters", parameters, "names, or distributions by name") if len(parameters) else ()
     given: dict[str, Given] = dict(parameters) if isinstance(parameters, Mapping) else dict.fromkeys(parameters)
     chosen: dict[str, Distribution] = {}
     for name, wish in given.items():
@@ -83,7 +87,7 @@ def _chosen(motor: Motor, parameters: Mapping[str, Given] | Sequence[str] | None
     return chosen
 
 
-def _read_target(text: object) -> Target:
+def read_target(text: object) -> Target:
     found = _TARGET.fullmatch(text) if isinstance(text, str) else None
     if found is None:
         raise ParameterError("target", text, "OUTPUT >= NUMBER or <=, >, <, such as mean_speed >= 600 arcsec/s")
@@ -162,27 +166,30 @@ def tolerance(
     samples, seed = check_design(samples, seed)
     drive = Drive() if drive is None else drive
     check_point(motor, drive)
-    check_single(numbers_of(motor, drive), "one number: a study is of one point")
+    period = period_of(sampling_period)
+    check_single(numbers_of(motor, drive, period), "one number: a study is of one point")
     outputs = _texts("outputs", outputs)
     for output in outputs:
         _check_output("outputs", output)
     if not outputs:
         raise ParameterError("outputs", "none", f"at least one of {', '.join(QUANTITIES)}")
-    targets = tuple(map(_read_target, _texts("target", target)))
+    targets = tuple(map(read_target, _texts("target", target)))
     distributions = _chosen(motor, parameters)
     sampled = {name: checked(name, given, _spec_of(name)) for name, given in distributions.items()}
-    nominal = evaluate(motor, drive, tolerance=tolerance, sampling_period=sampling_period, **levels)
+    nominal = evaluate(motor, drive, tolerance=tolerance, sampling_period=period, **levels)
     settled = []
 
     def figures(point: Mapping[str, Array]) -> dict[str, ArrayLike]:
         of_drive = {name: value for name, value in point.items() if name in DRIVE_DOMAINS}
         of_motor = {name: value for name, value in point.items() if name not in DRIVE_DOMAINS}
+        with unquestioned():
+            machine = motor.with_values(of_motor)
         found = evaluate(
-            motor.with_values(of_motor),
+            machine,
             replace(drive, **of_drive),  # type: ignore[arg-type]
             tolerance=tolerance,
             progress=progress,
-            sampling_period=sampling_period,
+            sampling_period=period,
             **levels,
         )
         values: dict[str, ArrayLike] = {name: np.asarray(getattr(found, name)) for name in QUANTITIES}
@@ -202,7 +209,7 @@ def tolerance(
         indicators=(BALANCED, MISSED) if targets else (BALANCED,),
     )
     shape = found.values[BALANCED].shape
-    settings = {**asdict(Levels(**levels)), "sampling_period": sampling_period}
+    settings = {**asdict(Levels(**levels)), "sampling_period": period}
     return Study(
         motor,
         drive,
