@@ -22,12 +22,17 @@ using Kernel = int (*)(const double**, double**, long long int*, double*, int);
 
 template <Kernel kernel, int n_in, int n_out>
 void kernel_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
+  // A kernel writes its first result before it has read its last argument, and with out= both may lie in one place:
+  // NumPy makes a copy only where they overlap out of step.
+  double in[n_in], out[n_out];
   const double* arg[n_in];
   double* res[n_out];
+  for (int j = 0; j < n_in; ++j) arg[j] = &in[j];
+  for (int j = 0; j < n_out; ++j) res[j] = &out[j];
   for (npy_intp i = 0; i < dimensions[0]; ++i) {
-    for (int j = 0; j < n_in; ++j) arg[j] = reinterpret_cast<const double*>(args[j] + i * steps[j]);
-    for (int j = 0; j < n_out; ++j) res[j] = reinterpret_cast<double*>(args[n_in + j] + i * steps[n_in + j]);
+    for (int j = 0; j < n_in; ++j) in[j] = *reinterpret_cast<const double*>(args[j] + i * steps[j]);
     kernel(arg, res, nullptr, nullptr, 0);
+    for (int j = 0; j < n_out; ++j) *reinterpret_cast<double*>(args[n_in + j] + i * steps[n_in + j]) = out[j];
   }
 }
 
@@ -286,6 +291,11 @@ PyMODINIT_FUNC PyInit__kernels() {
   PyObject* module = PyModule_Create(&definition);
   PyObject* signatures = PyDict_New();
   if (module == nullptr || signatures == nullptr) return nullptr;
+#ifdef Py_GIL_DISABLED
+  // The loops share nothing that is written but which instruction set the orbits run on, which `use` sets for tests;
+  // but no interpreter without the lock has run the tests yet, so the lock stays on.
+  PyUnstable_Module_SetGIL(module, Py_MOD_GIL_USED);
+#endif
 #define ADD(name, n_in, n_out, inputs, outputs) \
   if (!add(module, signatures, #name, loop_##name, n_in, n_out, inputs, outputs)) return nullptr;
   TRUM_KERNELS(ADD)

@@ -10,6 +10,7 @@ import numpy as np
 
 from trum_sym.inputs.checks import Array
 from trum_sym.inputs.units import ARCSEC
+from trum_sym.output.c_text import EXACT_ARITHMETIC, as_comment
 
 __all__ = ["Rows", "as_c", "as_csv"]
 
@@ -59,10 +60,11 @@ def as_c(name: str, about: Sequence[str], columns: Mapping[str, str], segments: 
     begins = np.cumsum([0, *(segment.speed.size for segment in segments)])
     speeds = [value for segment in segments for value in segment.speed]
     rows = [row for segment in segments for row in zip(*segment.values, strict=True)]
-    comment = "\n".join(f" * {line}" for line in about).replace("*/", "* /")
+    comment = "\n".join(f" * {as_comment(line)}" for line in about)
     places = (f"#define {upper}_{column.upper()} {k} /* {unit} */" for k, (column, unit) in enumerate(columns.items()))
     return _C_TEXT.format(
         about=comment,
+        exact="\n".join(EXACT_ARITHMETIC),
         name=name,
         upper=upper,
         places="\n".join(places),
@@ -81,6 +83,8 @@ _C_TEXT = """\
  */
 #ifndef {upper}_H
 #define {upper}_H
+
+{exact}
 
 {places}
 #define {upper}_COLUMNS {columns}
