@@ -13,7 +13,7 @@ from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
 from trum_sym.inputs.points import check_point, numbers_of
-from trum_sym.model.cycle import check_steady_state, cycle_sums, modal_values, scaled
+from trum_sym.model.cycle import check_steady_state, cycle_sums, modal_values, scaled, warn_next_to_resonance
 from trum_sym.model.kernels import call
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.model.rotor import Orbit, encoder_deviation, history, orbit_values, solve_orbit
@@ -187,6 +187,8 @@ def prepare(
     check_steady_state(motor.damping_ratio.value, drive)
     stator = solve_stator(motor, drive, levels, warn=warn)
     values = modal_values(stator.omega_n, motor.damping_ratio.value, drive)
+    if warn:
+        warn_next_to_resonance(values)
     symbols = {**motor.symbols(), **stator.values, **drive.symbols()}
     arguments = orbit_values(scaled(values, stator.W), symbols, levels.contact, tolerance)
     return Case(motor, drive, levels, shape, stator, values, symbols, arguments, sampling_period)
