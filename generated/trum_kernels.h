@@ -3,7 +3,7 @@
 #define TRUM_KERNELS_H
 
 #if defined(__FAST_MATH__) || defined(_M_FP_FAST) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
-#error "trum: -Ofast, -ffast-math and -ffinite-math-only drop the tests for NaN that refuse bad input and end searches"
+#error "trum: -Ofast, -ffast-math, -ffinite-math-only drop the tests for NaN that refuse input and end searches"
 #endif
 
 /* the numbers of kernels outside lanes: double, or casadi_real where the compiler is told one */

@@ -39,6 +39,12 @@ class ParameterError(ValueError):
         super().__init__(f"{_one_line(name)}: got {shorten(got)}, need {_one_line(allowed)}")
 
     def __reduce__(self) -> tuple[type[ParameterError], tuple[str, object, str]]:
+        import pickle
+
+        try:
+            pickle.dumps(self.got)
+        except Exception:  # whatever was given may raise anything
+            return type(self), (self.name, shorten(self.got), self.allowed)
         return type(self), (self.name, self.got, self.allowed)
 
 
@@ -54,7 +60,11 @@ class MissingExtraError(ImportError):
     """A package that the default install does not bring; names what needs it and how to get it."""
 
     def __init__(self, what: str, package: str, extra: str) -> None:
+        self.what, self.package, self.extra = what, package, extra
         super().__init__(f"{what} needs {package}: pip install 'trum-sym[{extra}]'", name=package)
+
+    def __reduce__(self) -> tuple[type[MissingExtraError], tuple[str, str, str]]:
+        return type(self), (self.what, self.package, self.extra)
 
 
 class ValidityWarning(UserWarning):

@@ -22,6 +22,7 @@ from trum_sym.inputs.motor import SPECS, Motor, Parameter, spec
 from trum_sym.inputs.motor_file import load_motor
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.quantities import QUANTITIES
+from trum_sym.values import Value
 
 __all__ = ["ERRORS", "Calibration", "FittedParameter", "calibrate"]
 
@@ -37,8 +38,8 @@ _USUAL_OTHERWISE = ("friction_coefficient", "contact_radius")
 _LAW = ("amplitude_factor", "amplitude_exponent")
 
 
-@dataclass(frozen=True)
-class FittedParameter:
+@dataclass(frozen=True, eq=False)
+class FittedParameter(Value):
     """One fitted parameter, in SI.
 
     Attributes
@@ -65,8 +66,8 @@ class FittedParameter:
     exact_slopes: bool
 
 
-@dataclass(frozen=True)
-class Calibration:
+@dataclass(frozen=True, eq=False)
+class Calibration(Value):
     """What the data say about the motor.
 
     Attributes

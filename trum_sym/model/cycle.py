@@ -78,8 +78,8 @@ def warn_next_to_resonance(values: dict[str, ArrayLike]) -> None:
         message = "damping_ratio: 0 so near the resonance, where an undamped drive has no steady state"
     elif np.any(times > _FREE):
         message = (
-            f"damping_ratio: so little that the free vibration is {np.max(times):.3g} times the forced one, for a cycle "
-            "repeats it nearly in phase"
+            f"damping_ratio: so little that the free vibration is {np.max(times):.3g} times the forced one, for a "
+            "cycle repeats it nearly in phase"
         )
     else:
         return

@@ -18,6 +18,7 @@ from trum_sym.model.kernels import call
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.model.rotor import Orbit, encoder_deviation, history, orbit_values, solve_orbit
 from trum_sym.model.stator import Stator, solve_stator
+from trum_sym.values import Value
 
 __all__ = ["OF_CYCLE", "OF_ORBIT", "RESULTS", "Case", "OperatingPoint", "evaluate", "point_of", "prepare", "results"]
 
@@ -40,8 +41,8 @@ OF_ORBIT = frozenset(
 _ENCODER_SAMPLES = 64  # per drive period, of the path that the encoder differences
 
 
-@dataclass(frozen=True, kw_only=True)
-class OperatingPoint:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class OperatingPoint(Value):
     """What the motor does at a drive; SI units, frequencies in Hz, speeds in rad/s.
 
     Every number is a float, or an array of the inputs' common shape.

@@ -361,7 +361,7 @@ def _optimum(
         evaluations=evaluations,
         message=_message(status, objective, target, answer, reachable),
         evidence=evidence,
-        figures=MappingProxyType(dict(figures)),
+        figures=figures,
         problem=problem,
     )
 

@@ -6,7 +6,7 @@ __all__ = ["EXACT_ARITHMETIC", "as_comment"]
 
 EXACT_ARITHMETIC = (
     "#if defined(__FAST_MATH__) || defined(_M_FP_FAST) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)",
-    '#error "trum: -Ofast, -ffast-math and -ffinite-math-only drop the tests for NaN that refuse bad input and end searches"',
+    '#error "trum: -Ofast, -ffast-math, -ffinite-math-only drop the tests for NaN that refuse input and end searches"',
     "#endif",
 )
 """Lines that stop a compiler which was told that no number is NaN or infinite."""

@@ -25,6 +25,7 @@ from trum_sym.output.json_text import json_text
 from trum_sym.output.progress import shown
 from trum_sym.studies.minimax import Minimax, Outcome
 from trum_sym.studies.posed import Bound, posed
+from trum_sym.values import Value
 
 __all__ = ["RobustCase", "RobustPoint", "robust"]
 
@@ -35,8 +36,8 @@ Tolerance = float | str | tuple[float | str, float | str]
 _T = TypeVar("_T")
 
 
-@dataclass(frozen=True, kw_only=True)
-class RobustCase:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class RobustCase(Value):
     """One case at the robust point: what differs from the nominal case, and its figures, SI units."""
 
     changed: Mapping[str, float]
@@ -47,8 +48,8 @@ class RobustCase:
     violation: float
 
 
-@dataclass(frozen=True, kw_only=True)
-class RobustPoint:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class RobustPoint(Value):
     """The point of a box whose worst case is the best.
 
     Attributes

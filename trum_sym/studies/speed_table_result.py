@@ -13,14 +13,15 @@ from trum_sym.errors import ParameterError
 from trum_sym.inputs.checks import Array
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.units import ARCSEC
+from trum_sym.values import Value
 
 __all__ = ["Gap", "Segment", "SpeedTable"]
 
 _ALWAYS = {"prepressure": "N", "frequency_difference": "Hz", "drive_frequency": "Hz"}
 
 
-@dataclass(frozen=True, kw_only=True)
-class Segment:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Segment(Value):
     """A stretch of speeds along which the drive varies continuously; arrays of one length, speeds rising.
 
     Speeds and their standard deviation in rad/s, drive frequency in Hz; ``drive`` has what varies, in SI units.
@@ -32,8 +33,8 @@ class Segment:
     drive: Mapping[str, Array]
 
 
-@dataclass(frozen=True)
-class Gap:
+@dataclass(frozen=True, eq=False)
+class Gap(Value):
     """Speeds that the table does not have, rad/s, and why."""
 
     low: float
@@ -41,8 +42,8 @@ class Gap:
     reason: str
 
 
-@dataclass(frozen=True, kw_only=True)
-class SpeedTable:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class SpeedTable(Value):
     """The drive against the mean speed.
 
     Attributes

@@ -16,6 +16,7 @@ from trum_sym.inputs.motor import SPECS, Motor
 from trum_sym.model.operating_point import OperatingPoint
 from trum_sym.quantities import QUANTITIES
 from trum_sym.uncertainty.propagation import Estimate, Propagation, share
+from trum_sym.values import Value
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -31,8 +32,8 @@ def unit_of(name: str) -> str:
     return DRIVE_DOMAINS[name][1] if name in DRIVE_DOMAINS else SPECS[name].unit
 
 
-@dataclass(frozen=True)
-class Target:
+@dataclass(frozen=True, eq=False)
+class Target(Value):
     """What an output has to keep to, such as ``mean_speed >= 600 arcsec/s``; ``bound`` in the output's SI unit."""
 
     text: str
@@ -45,8 +46,8 @@ class Target:
         return ~np.asarray(_COMPARE[self.relation](values, self.bound), bool)
 
 
-@dataclass(frozen=True)
-class Study:
+@dataclass(frozen=True, eq=False)
+class Study(Value):
     """A tolerance study; SI units, frequencies in Hz, speeds in rad/s.
 
     Attributes
