@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
+from trum_sym.text import one_line
+
 __all__ = ["ConvergenceError", "MissingExtraError", "ParameterError", "UnfinishedError", "ValidityWarning", "shorten"]
-
-
-def _one_line(text: str) -> str:
-    return " ".join(text.split())
 
 
 def shorten(value: object) -> str:
     """What was given, on one line of at most 80 characters."""
     try:
-        text = " ".join((value if isinstance(value, str) else repr(value)).split())
+        text = one_line(value if isinstance(value, str) else repr(value))
     except ValueError:  # Python does not print integers of more than 4300 digits
         text = "a number of too many digits"
     text = text or "empty text"
@@ -36,7 +34,7 @@ class ParameterError(ValueError):
         self.name = name
         self.got = got
         self.allowed = allowed
-        super().__init__(f"{_one_line(name)}: got {shorten(got)}, need {_one_line(allowed)}")
+        super().__init__(f"{one_line(name)}: got {shorten(got)}, need {one_line(allowed)}")
 
     def __reduce__(self) -> tuple[type[ParameterError], tuple[str, object, str]]:
         import pickle

@@ -11,12 +11,14 @@ from trum_sym.console.optimize import optimize
 from trum_sym.console.pareto import pareto
 from trum_sym.console.report import report
 from trum_sym.console.robust import robust
+from trum_sym.console.say import say
 from trum_sym.console.simulate import simulate
 from trum_sym.console.speed_table import speed_table
 from trum_sym.console.sweep import sweep
 from trum_sym.console.tolerance import tolerance
+from trum_sym.text import one_line
 
-__all__ = ["main"]
+__all__ = ["main", "outcome"]
 
 
 @click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
@@ -24,7 +26,7 @@ __all__ = ["main"]
 def _cli() -> None:
     """Travelling-wave ultrasonic motors at very low speed (superimposed pulse driving).
 
-    Exit codes: 0 done; 1 the work was done and its answer is no; 2 bad input.
+    Exit codes: 0 done; 1 the work was done and its answer is no; 2 bad input, or no room for the result.
     """
 
 
@@ -44,16 +46,20 @@ for _command in (
     _cli.add_command(_command)
 
 
-def _one_line(message: str) -> str:
-    return " ".join(message.split())
-
-
 def main(arguments: list[str] | None = None) -> int:
-    """Run the console; returns the exit code and never lets a traceback through for bad input."""
+    """Run the console; returns the exit code and never lets a traceback through for bad input or surroundings."""
+    code, message = outcome(arguments)
+    if message is not None:
+        say(f"trum-sym: {message}", err=True)
+    return code
+
+
+def outcome(arguments: list[str] | None = None) -> tuple[int, str | None]:
+    """Run the console; returns the exit code, and on one line why it is not 0 where that is not printed yet."""
     import warnings
 
     def show(message: Warning | str, *_: object, **__: object) -> None:
-        click.echo(f"trum-sym: warning: {_one_line(str(message))}", err=True)
+        say(f"trum-sym: warning: {one_line(str(message))}", err=True)
 
     with warnings.catch_warnings():
         warnings.simplefilter("always")
@@ -61,33 +67,35 @@ def main(arguments: list[str] | None = None) -> int:
         try:
             result = _cli.main(args=arguments, prog_name="trum-sym", standalone_mode=False)
         except click.exceptions.NoArgsIsHelpError as help_shown:
-            click.echo(help_shown.format_message())
-            return 2
+            say(help_shown.format_message())
+            return 2, None
         except click.ClickException as error:
-            click.echo(f"trum-sym: {_one_line(error.format_message())}", err=True)
-            return 2
+            return 2, one_line(error.format_message())
         except click.Abort:
-            click.echo("trum-sym: interrupted", err=True)
-            return 130
-        except ValueError as error:
-            from trum_sym.errors import ParameterError
+            return 130, "interrupted"
+        except SystemExit:  # click's, where the pipe that it prints to is closed
+            return 141, None
+        except (ValueError, ImportError, RuntimeError, OSError, MemoryError) as error:
+            code, message = _of_surroundings(error)
+            return code, one_line(message)
+    return result if isinstance(result, int) else 0, None
 
-            if not isinstance(error, ParameterError):
-                raise
-            click.echo(f"trum-sym: {error}", err=True)
-            return 2
-        except ImportError as error:
-            from trum_sym.errors import MissingExtraError
 
-            if not isinstance(error, MissingExtraError):
-                raise
-            click.echo(f"trum-sym: {error}", err=True)
-            return 2
-        except RuntimeError as error:
-            from trum_sym.errors import ConvergenceError, UnfinishedError
+def _of_surroundings(error: Exception) -> tuple[int, str]:
+    """Exit code and message of what is no fault of this program; raises the rest."""
+    from trum_sym.errors import ConvergenceError, MissingExtraError, ParameterError, UnfinishedError
 
-            if not isinstance(error, ConvergenceError | UnfinishedError):
-                raise
-            click.echo(f"trum-sym: {error}", err=True)
-            return 1
-    return result if isinstance(result, int) else 0
+    if isinstance(error, ConvergenceError | UnfinishedError):
+        return 1, str(error)
+    if isinstance(error, ParameterError | MissingExtraError):
+        return 2, str(error)
+    if isinstance(error, MemoryError):
+        return 2, "not enough memory"
+    if isinstance(error, OSError):
+        where = f" {error.filename}" if error.filename is not None else ""
+        return 2, f"the system refuses{where}: {error.strerror or error}"
+    if isinstance(error, ImportError):
+        return 2, f"a module cannot be loaded: {error}"
+    if "can't start new thread" in str(error):
+        return 2, "the system refuses a new thread"
+    raise error

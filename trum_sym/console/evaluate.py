@@ -7,6 +7,7 @@ from typing import Any
 import click
 
 from trum_sym.console.options import chosen_drive, chosen_levels, chosen_motor, point_options
+from trum_sym.console.say import say
 
 __all__ = ["evaluate"]
 
@@ -27,8 +28,8 @@ def evaluate(motor: str, overrides: tuple[str, ...], as_json: bool, **options: A
     if as_json:
         from trum_sym.console.tables import as_json_text
 
-        click.echo(as_json_text(point))
+        say(as_json_text(point))
     else:
         from trum_sym.console.tables import as_table
 
-        click.echo(as_table(machine, drive, point, {**levels, "sampling_period": period}))
+        say(as_table(machine, drive, point, {**levels, "sampling_period": period}))

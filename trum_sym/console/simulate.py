@@ -8,6 +8,7 @@ from typing import Any
 import click
 
 from trum_sym.console.options import chosen_drive, chosen_levels, chosen_motor, number_option, point_options
+from trum_sym.console.say import say
 
 __all__ = ["simulate"]
 
@@ -49,8 +50,8 @@ def simulate(
     )
     if out is not None:
         write("--out", histories, out)
-        click.echo(f"{out}: {histories.sizes['time']} times of {len(histories.data_vars)} histories")
+        say(f"{out}: {histories.sizes['time']} times of {len(histories.data_vars)} histories")
     else:
         from trum_sym.console.tables import histories_table
 
-        click.echo(histories_table(histories))
+        say(histories_table(histories))

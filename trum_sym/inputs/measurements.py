@@ -15,6 +15,7 @@ from trum_sym.errors import ParameterError
 from trum_sym.inputs.checks import Array, number
 from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import DRIVE_DOMAINS, LEAD
+from trum_sym.inputs.reading import read_text
 from trum_sym.inputs.units import Unit, parse_unit
 from trum_sym.quantities import QUANTITIES
 from trum_sym.values import Value
@@ -213,7 +214,7 @@ def _rows(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
     try:
         if path.stat().st_size > _MAX_BYTES:
             raise ParameterError("data", f"{path.stat().st_size} bytes", f"at most {_MAX_BYTES} bytes")
-        text = path.read_text("utf-8-sig")
+        text = read_text(path, _MAX_BYTES, "utf-8-sig")
     except FileNotFoundError:
         raise ParameterError("data", str(path), "the path of a CSV file that exists") from None
     except (OSError, ValueError) as error:

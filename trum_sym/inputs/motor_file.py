@@ -13,11 +13,13 @@ from trum_sym.inputs.distributions import Distribution, checked
 from trum_sym.inputs.domain import Domain, Spec
 from trum_sym.inputs.drive import DRIVE_DOMAINS
 from trum_sym.inputs.motor import SPECS, Motor, Parameter, Published, spec
+from trum_sym.inputs.reading import read_text
 from trum_sym.inputs.units import Unit, parse_unit
 from trum_sym.quantities import QUANTITIES
 
 __all__ = ["load_motor", "motor_text"]
 
+_MAX_BYTES = 1_000_000  # of a motor file: two hundred times the shipped one
 _KEYS = (
     "value",
     "unit",
@@ -168,7 +170,7 @@ def motor_text(source: str | PathLike[str]) -> str:
     """The text of a motor file, by name or path."""
     path = Path(__file__).parents[1] / "data" / "trum60.toml" if str(source) == "trum60" else Path(source)
     try:
-        return path.read_text("utf-8")
+        return read_text(path, _MAX_BYTES)
     except FileNotFoundError:
         raise ParameterError("motor", str(source), "trum60 or the path of a TOML file that exists") from None
     except (OSError, ValueError) as error:

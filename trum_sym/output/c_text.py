@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from trum_sym.text import one_line
+
 __all__ = ["EXACT_ARITHMETIC", "as_comment"]
 
 EXACT_ARITHMETIC = (
@@ -23,7 +25,7 @@ def as_comment(text: str) -> str:
     >>> as_comment("a */ b")
     'a * / b'
     """
-    text = text.replace("\\", "/")
+    text = one_line(text).replace("\\", "/")
     for pair in ("*/", "/*", "??"):
         while pair in text:
             text = text.replace(pair, f"{pair[0]} {pair[1]}")

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypeAlias
 import numpy as np
 
 from trum_sym.errors import MissingExtraError, ParameterError
+from trum_sym.output.files import write_bytes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -169,7 +170,7 @@ def save(figure: Figure, target: Path) -> None:
     element = svg(figure, target.stem, target.stem)
     space = ' xmlns="http://www.w3.org/2000/svg"'
     opened = element.replace("<svg", f"<svg{space}", 1).replace("</title>", _BACKGROUND, 1)
-    target.write_text(opened + "\n", encoding="utf-8", newline="\n")
+    write_bytes("picture", f"{opened}\n".encode(), target)
 
 
 def svg(figure: Figure, salt: str, title: str) -> str:

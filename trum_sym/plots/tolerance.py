@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from trum_sym.errors import MissingExtraError
-from trum_sym.output.files import check_target, replaced
+from trum_sym.output.files import check_target, write_bytes
 from trum_sym.quantities import QUANTITIES
+from trum_sym.text import one_line
 from trum_sym.uncertainty.propagation import CONFIDENCE, Estimate, Indices
 from trum_sym.uncertainty.result import BALANCED, MISSED, Study
 from trum_sym.uncertainty.tables import label, shown
@@ -69,11 +71,14 @@ def draw(name: str, study: Study, target: Path) -> None:
     rows[-1][1].set_xlabel(f"Sobol index, interval at {100 * CONFIDENCE:g} %")
     drive = study.drive
     figure.suptitle(
-        f"{study.motor.name}, {drive.prepressure:g} N, {drive.frequency_difference:+g} Hz, {drive.on_periods:g} of "
-        f"{drive.periods:g} periods on, load {drive.load_torque:g} N m; {study.samples} samples, seed {study.seed}"
+        f"{one_line(study.motor.name)}, "
+        f"{drive.prepressure:g} N, {drive.frequency_difference:+g} Hz, {drive.on_periods:g} of "
+        f"{drive.periods:g} periods on, load {drive.load_torque:g} N m; {study.samples} samples, seed {study.seed}",
+        parse_math=False,
     )
-    with replaced(name, target) as beside:
-        figure.savefig(beside, dpi=120)
+    content = BytesIO()
+    figure.savefig(content, format=target.suffix[1:], dpi=120)
+    write_bytes(name, content.getvalue(), target)
 
 
 def _title(study: Study, output: str) -> str:

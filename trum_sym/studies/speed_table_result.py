@@ -13,6 +13,7 @@ from trum_sym.errors import ParameterError
 from trum_sym.inputs.checks import Array
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.units import ARCSEC
+from trum_sym.text import one_line
 from trum_sym.values import Value
 
 __all__ = ["Gap", "Segment", "SpeedTable"]
@@ -120,7 +121,7 @@ class SpeedTable(Value):
         held = "" if len(self.variables) == 2 else f"{self.held()}, "
         phase = "" if "switching_phase" in self.variables else f", switching phase {drive.switching_phase:g} rad"
         lines = [
-            f"speed table of {self.motor}: {held}load {drive.load_torque:g} N m, {drive.on_periods:g} of "
+            f"speed table of {one_line(self.motor)}: {held}load {drive.load_torque:g} N m, {drive.on_periods:g} of "
             f"{drive.periods:g} periods on, start {drive.start}, phase lead {drive.phase_lead:+g}" + phase,
             f"linear interpolation between entries meets the speed within {100 * self.error:g} % "
             f"(of {self.floor / ARCSEC:.6g} arcsec/s where it is slower); largest error seen "

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,6 +11,7 @@ import numpy as np
 
 from trum_sym.errors import ParameterError
 from trum_sym.inputs.checks import Array
+from trum_sym.inputs.reading import opened
 from trum_sym.inputs.units import parse_quantity
 
 __all__ = ["MAX_VALUES", "Column", "is_range", "parse"]
@@ -106,7 +108,7 @@ def _count(name: str, part: str, text: str) -> int:
 def _column(name: str, file: str, unit: str) -> Column:
     wanted = f"@ and the path of a CSV file with a column {name}"
     try:
-        with Path(file).open(encoding="utf-8-sig", newline="") as lines:
+        with io.TextIOWrapper(opened(Path(file)), encoding="utf-8-sig", newline="") as lines:
             rows = csv.reader(lines, strict=True)
             header = [cell.strip() for cell in next(rows, [])]
             titles = [cell.partition("[") for cell in header]

@@ -65,6 +65,9 @@ class Store:
     def dataset(self) -> xr.Dataset:
         """The data set; read from the store as it is used, or all of it if it is in memory."""
         found: xr.Dataset = xr.open_zarr(self.source, chunks=None)
+        for variable in found.variables.values():  # or the set could only be written as this store is
+            preferred = variable.encoding.get("preferred_chunks")
+            variable.encoding = {} if preferred is None else {"preferred_chunks": preferred}
         return found if self.root else found.load()
 
 

@@ -15,6 +15,7 @@ from trum_sym.inputs.drive import DRIVE_DOMAINS, Drive
 from trum_sym.inputs.motor import SPECS, Motor
 from trum_sym.model.operating_point import OperatingPoint
 from trum_sym.quantities import QUANTITIES
+from trum_sym.text import one_line
 from trum_sym.uncertainty.propagation import Estimate, Propagation, share
 from trum_sym.values import Value
 
@@ -127,7 +128,7 @@ class Study(Value):
             variables[name] = (dims, found.values[name], {"units": output.unit, "long_name": output.label})
         variables["converged"] = (dims, self.settled, {"long_name": "the orbit met its tolerance"})
         attributes = {
-            "title": f"tolerance study of {self.motor.name}",
+            "title": f"tolerance study of {one_line(self.motor.name)}",
             "trum_sym": version("trum-sym"),
             "samples": self.samples,
             "seed": self.seed,
