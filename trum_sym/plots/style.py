@@ -9,6 +9,7 @@ from contextlib import AbstractContextManager
 from functools import wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeAlias
+from xml.sax.saxutils import escape
 
 import numpy as np
 
@@ -201,5 +202,6 @@ def svg(figure: Figure, salt: str, title: str) -> str:
     element = re.sub(
         r'width="[^"]+pt" height="[^"]+pt" ', "", re.sub(r"<!--.*?-->\s*", "", element, flags=re.S), count=1
     )
-    label = title.replace("&", "&amp;").replace("<", "&lt;")
-    return re.sub(r"<svg([^>]*)>", rf'<svg\1 role="img"><title>{label}</title>', element, count=1).strip()
+    opened = re.search(r"<svg[^>]*", element)
+    assert opened is not None
+    return f'{opened[0]} role="img"><title>{escape(title)}</title>{element[opened.end() + 1 :]}'.strip()
