@@ -20,7 +20,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 EXTRAS = ("data", "optimize", "report", "sweep")
-TOOLS = ("pytest", "pytest-xdist", "hypothesis", "mpmath", "import-linter")
+TOOLS = ("pytest", "pytest-xdist", "hypothesis", "mpmath")
 SAMPLE = (
     "tests/test_values.py",
     "tests/output",
@@ -28,7 +28,7 @@ SAMPLE = (
     "tests/sweeps/test_sweep.py",
     "tests/uncertainty/test_tolerance_console.py",
     "tests/optimiser/test_bad_optimise.py",
-    "tests/model/test_histories.py",
+    "tests/sweeps/test_sweep_durability.py",
 )
 
 

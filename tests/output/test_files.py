@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import errno
 import os
 import resource
@@ -64,7 +65,7 @@ def test_netcdf_that_meets_a_full_disk_does_not_end_the_interpreter(tmp_path):
         "try: write('out', histories, pathlib.Path(sys.argv[1]))\n"
         "except ts.ParameterError as error: print(error)\n"
     )
-    done = subprocess.run([sys.executable, "-c", program, tmp_path / "a.nc"], capture_output=True, text=True)
+    done = subprocess.run([sys.executable, "-P", "-c", program, tmp_path / "a.nc"], capture_output=True, text=True)
     assert (done.returncode, done.stderr) == (0, "")
     assert done.stdout.count("\n") == 1
     assert "File too large" in done.stdout
@@ -82,9 +83,13 @@ def test_what_is_written_is_read_again(tmp_path, suffix):
     else:
         import pandas as pd
 
-        table = pd.read_csv(target) if suffix == ".csv" else pd.read_parquet(target)
-        assert list(table.columns) == ["time [s]", "speed [rad/s]"]
-        assert np.array_equal(table["speed [rad/s]"], wanted.speed)
+        if suffix == ".csv":
+            header, *rows = csv.reader(target.read_text().splitlines())
+            table = dict(zip(header, np.array(rows, float).T, strict=True))
+        else:
+            table = pd.read_parquet(target)
+        assert list(table) == ["time [s]", "speed [rad/s]"]
+        assert np.array_equal(np.asarray(table["speed [rad/s]"]), wanted.speed.values)
 
 
 @pytest.mark.parametrize("call", ["mkstemp", "fsync", "replace", "chmod"])
@@ -123,7 +128,7 @@ def test_a_process_that_is_killed_leaves_the_old_file_and_the_next_one_tidies_up
         "with replaced('out', pathlib.Path(sys.argv[1])) as file:\n"
         "    file.write(b'half'); file.flush(); os.kill(os.getpid(), 9)\n"
     )
-    assert subprocess.run([sys.executable, "-c", program, target]).returncode == -9
+    assert subprocess.run([sys.executable, "-P", "-c", program, target]).returncode == -9
     assert len(names(tmp_path)) == 2
     assert target.read_bytes() == b"before"
     files.write_bytes("--out", b"new", target)

@@ -1,0 +1,417 @@
+"""A bad day for every command that writes: nothing is lost, nothing is half-written, and one line says what happened.
+
+python -m studies.faults [COUNT] [--seed N] [--only FAULT]
+
+Commands run in processes that are forked once all modules are loaded; the fault SLOW starts them as a shell does, and
+interrupts them while modules load.  Each is told to replace a file, or to make a new one, and meets one fault:
+
+disk         no room: a small tmpfs where mounting is allowed, and a limit on the length of files
+folder       the folder is not ours to write in
+SIGINT, SIGTERM, SIGHUP, SIGKILL, SLOW        at a random moment
+pipe         whoever reads the output has gone, at once or after some bytes; or the output is /dev/full, or closed
+memory       the address space ends
+files        no more files can be opened
+clock        the clock is set back in the middle, and the old file is from the future
+
+Then: the file is the old one or the new one, whole; nothing lies beside it (of SIGKILL: until the command runs again);
+there is at most one line of error, and no traceback; the process ended by itself within a minute; where the exit code
+is 0, the new file is there; and the same command without a fault makes what it would have made.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import hashlib
+import os
+import random
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).resolve().parents[1]
+LONGEST = 60.0  # s
+POINT = ("--load-torque", "0.05")
+SWEEP = ("sweep", "--prepressure", "160:200:6", "--frequency-difference", "2900:3100:4")
+SWEEP += ("--outputs", "q_average,amplitude")
+TOLERANCE = ("tolerance", *POINT, "--vary", "friction_coefficient", "--samples", "64", "--tolerance", "1e-2")
+OPTIMUM = ("optimize", *POINT, "--objective", "q_volatility", "--bounds", "prepressure=175:185")
+OPTIMUM += ("--bounds", "frequency_difference=3000")
+TABLE = ("speed-table", *POINT, "--from", "2 rad/s", "--to", "2.02 rad/s", "--direction", "positive", "--points", "2")
+TABLE += ("--error", "0.5", "--bounds", "prepressure=175:185", "--bounds", "frequency_difference=3000")
+COMMANDS: dict[str, tuple[str, ...]] = {
+    "histories.nc": ("simulate", "--out"),
+    "histories.csv": ("simulate", "--samples-per-period", "16", "--out"),
+    "map.zarr": (*SWEEP, "--chunk", "4", "--out"),
+    "map.nc": (*SWEEP, "--out"),
+    "map.parquet": (*SWEEP, "--out"),
+    "map.csv": (*SWEEP, "--out"),
+    "points.nc": (*TOLERANCE, "--out"),
+    "points.csv": (*TOLERANCE, "--out"),
+    "study.png": (*TOLERANCE, "--plot"),
+    "study.pdf": (*TOLERANCE, "--plot"),
+    "study.svg": (*TOLERANCE, "--plot"),
+    "box.png": (*OPTIMUM, "--plot"),
+    "box.svg": (*OPTIMUM, "--plot"),
+    "table.csv": (*TABLE, "--out"),
+    "table.h": (*TABLE, "--out"),
+    "motor.toml": ("calibrate", "DATA", "--fit", "amplitude_factor", "--out"),
+    "report": ("report",),
+}
+DATA = "prepressure [N],amplitude [um]\n140,6.3\n160,5.9\n180,5.5\n200,5.3\n"
+ENDING = {"SIGINT": signal.SIGINT, "SIGTERM": signal.SIGTERM, "SIGHUP": signal.SIGHUP, "SIGKILL": signal.SIGKILL}
+FAULTS = ("disk", "folder", *ENDING, "pipe", "memory", "files", "clock", "SLOW")
+OLD = b"the old one\n"
+
+
+@dataclass
+class Bad:
+    """What went wrong, by kind."""
+
+    lost: list[str] = field(default_factory=list)
+    half_written: list[str] = field(default_factory=list)
+    tracebacks: list[str] = field(default_factory=list)
+    crashes: list[str] = field(default_factory=list)
+    lines: list[str] = field(default_factory=list)
+
+    def all(self) -> list[str]:
+        return [f"{kind}: {text}" for kind, texts in vars(self).items() for text in texts]
+
+
+def preload() -> None:
+    """Load what the commands would load, and put a page in the report's place: drawing all of it takes a minute."""
+    import casadi  # noqa: F401
+    import h5netcdf  # noqa: F401
+    import matplotlib as mpl
+    import matplotlib.backends.backend_agg
+    import matplotlib.backends.backend_pdf
+    import matplotlib.backends.backend_svg
+    import pyarrow.parquet  # noqa: F401
+    import scipy.stats  # noqa: F401
+    import tomlkit  # noqa: F401
+    import xarray  # noqa: F401
+
+    import trum_sym.console
+    import trum_sym.report.output
+    import trum_sym.sweeps.store
+
+    os.environ["SOURCE_DATE_EPOCH"] = "0"  # so that a picture's bytes do not depend on the day
+    mpl.rcParams["svg.hashsalt"] = "faults"
+    page = "<p>" + "0123456789" * 50_000
+    trum_sym.report.output.page = lambda *_, **__: page
+
+
+def contents(path: Path) -> str | None:
+    """What is at a path, as a digest; None if nothing is."""
+    if path.is_dir():
+        found = {str(file.relative_to(path)): contents(file) for file in sorted(path.rglob("*")) if file.is_file()}
+        return repr(found)
+    return hashlib.sha256(path.read_bytes()).hexdigest() if path.exists() else None
+
+
+class Harness:
+    """Faults on a folder of their own."""
+
+    def __init__(self, folder: Path, seed: int, small: bool) -> None:
+        self.folder, self.rng, self.small = folder, random.Random(seed), small
+        self.bad = Bad()
+        self.count: Counter[str] = Counter()
+        self.codes: Counter[str] = Counter()
+        self.wanted: dict[str, str | None] = {}
+        self.takes: dict[str, float] = {}
+        (folder / "data.csv").write_text(DATA)
+        folder.chmod(0o755)
+
+    def arguments(self, name: str, target: Path) -> list[str]:
+        data = str(self.folder / "data.csv")
+        return [*(data if part == "DATA" else part for part in COMMANDS[name]), str(target)]
+
+    def reference(self, name: str) -> None:
+        """What the command makes when nothing happens, and how long it takes."""
+        if name in self.wanted:
+            return
+        for turn in range(2):
+            place = self.folder / f"reference-{turn}"
+            place.mkdir(exist_ok=True)
+            begin = time.monotonic()
+            code, error = self.forked(name, place / name)
+            self.takes[name] = time.monotonic() - begin
+            if code or "Traceback" in error:
+                raise RuntimeError(f"{name}: exit code {code} without a fault: {error}")
+            made = contents(place / name)
+            if turn and made != self.wanted[name]:
+                raise RuntimeError(f"{name}: two runs make different files; they cannot be told from broken ones")
+            self.wanted[name] = made
+            shutil.rmtree(place)
+
+    def forked(
+        self,
+        name: str,
+        target: Path,
+        prepare: Callable[[], None] = lambda: None,
+        meanwhile: Callable[[int], None] = lambda _: None,
+        out: int | None = None,
+    ) -> tuple[int, str]:
+        """Run a command in a child; returns its exit code, negative for a signal, and its standard error."""
+        with tempfile.TemporaryFile() as said, tempfile.TemporaryFile() as printed:
+            child = os.fork()
+            if not child:
+                try:
+                    os.setsid()
+                    os.dup2(said.fileno(), 2)
+                    os.dup2(printed.fileno() if out is None else out, 1)
+                    sys.argv = ["trum-sym", *self.arguments(name, target)]
+                    prepare()
+                    from trum_sym.__main__ import run
+
+                    run()
+                finally:
+                    sys.excepthook(*sys.exc_info())
+                    os._exit(99)
+            meanwhile(child)
+            code = self.ended(child)
+            said.seek(0)
+            return code, said.read().decode("utf-8", "replace")
+
+    def ended(self, child: int) -> int:
+        end = time.monotonic() + LONGEST
+        while time.monotonic() < end:
+            found, status = os.waitpid(child, os.WNOHANG)
+            if found:
+                return os.waitstatus_to_exitcode(status)
+            time.sleep(0.002)
+        os.kill(child, signal.SIGKILL)
+        os.waitpid(child, 0)
+        return -1000
+
+    # --- The faults ---------------------------------------------------------------------------------------------------
+
+    def disk(self, name: str, target: Path) -> tuple[int, str]:
+        room = int(10 ** self.rng.uniform(0, 6))
+        if self.small and self.rng.random() < 0.7:
+            filler = target.parent / "filler"
+            state = os.statvfs(target.parent)
+            with filler.open("wb") as file:
+                os.posix_fallocate(file.fileno(), 0, max(1, state.f_bavail * state.f_bsize - room))
+            try:
+                return self.forked(name, target)
+            finally:
+                filler.unlink()
+        return self.forked(name, target, lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (room, room)))
+
+    def folder_(self, name: str, target: Path) -> tuple[int, str]:
+        def nobody() -> None:
+            if os.geteuid() == 0:
+                os.setgroups([]), os.setgid(65534), os.setuid(65534)
+
+        target.parent.chmod(0o555)
+        try:
+            return self.forked(name, target, nobody)
+        finally:
+            target.parent.chmod(0o755)
+
+    def signalled(self, name: str, target: Path, number: int) -> tuple[int, str]:
+        moment = self.rng.uniform(0, 1.1 * self.takes[name])
+
+        def send(child: int) -> None:
+            time.sleep(moment)
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(child, number)
+
+        return self.forked(name, target, meanwhile=send)
+
+    def slow(self, name: str, target: Path) -> tuple[int, str]:
+        """Started anew, and interrupted from its own first line on: before that it is the interpreter's."""
+        number = self.rng.choice([signal.SIGINT, signal.SIGTERM])
+        moment = self.rng.uniform(0, 1.0)
+        program = "import trum_sym.__main__ as m, sys; sys.stdout.write('x'); sys.stdout.flush(); m.run()"
+        command = [sys.executable, "-c", program, *self.arguments(name, target)]
+        with tempfile.TemporaryFile() as said:
+            process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=said)
+            process.stdout.read(1)
+            time.sleep(0.001 + moment)
+            process.send_signal(number)
+            try:
+                process.communicate(timeout=LONGEST)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.communicate()
+                return -1000, ""
+            said.seek(0)
+            return process.returncode, said.read().decode("utf-8", "replace")
+
+    def pipe(self, name: str, target: Path) -> tuple[int, str]:
+        way = self.rng.choice(["gone", "some", "full", "closed", "full error", "closed error"])
+        if way in ("gone", "some"):
+            ours, theirs = os.pipe()
+            os.set_inheritable(theirs, True)
+            if way == "gone":
+                os.close(ours)
+
+            def read(_: int) -> None:
+                os.close(theirs)
+                if way == "some":
+                    os.read(ours, self.rng.randrange(1, 40))
+                    os.close(ours)
+
+            def forget() -> None:
+                os.close(theirs)
+                if way == "some":
+                    os.close(ours)
+
+            return self.forked(name, target, forget, read, out=theirs)
+
+        def prepare() -> None:
+            number = 2 if "error" in way else 1
+            os.close(number)
+            if "full" in way:
+                os.open("/dev/full", os.O_WRONLY)
+            stream = None
+            if "full" in way:
+                stream = open(number, "w", encoding="utf-8", closefd=False)  # noqa: SIM115
+            setattr(sys, "stderr" if number == 2 else "stdout", stream)
+
+        return self.forked(name, target, prepare)
+
+    def memory(self, name: str, target: Path) -> tuple[int, str]:
+        more = int(10 ** self.rng.uniform(5, 8.7))
+
+        def limit() -> None:
+            pages = int(Path("/proc/self/statm").read_text().split()[0])
+            size = pages * resource.getpagesize() + more
+            resource.setrlimit(resource.RLIMIT_AS, (size, size))
+
+        return self.forked(name, target, limit)
+
+    def files(self, name: str, target: Path) -> tuple[int, str]:
+        more = self.rng.randrange(0, 14)
+
+        def limit() -> None:
+            most = max(map(int, os.listdir("/proc/self/fd"))) + 1 + more
+            resource.setrlimit(resource.RLIMIT_NOFILE, (most, most))
+
+        return self.forked(name, target, limit)
+
+    def clock(self, name: str, target: Path) -> tuple[int, str]:
+        begin, step, real = time.monotonic(), self.rng.uniform(0, self.takes[name]), time.time
+        if target.exists():
+            os.utime(target, (4e9, 4e9))
+
+        def back() -> None:
+            time.time = lambda: real() - (1e8 if time.monotonic() - begin > step else 0.0)
+
+        return self.forked(name, target, back)
+
+    # --- What is looked at --------------------------------------------------------------------------------------------
+
+    def one(self, fault: str, name: str) -> None:
+        """One fault on one command."""
+        self.reference(name)
+        place = self.folder / ("small" if self.small else "large") / "here"
+        place.mkdir(parents=True)
+        target, store = place / name, name.endswith(".zarr") or name == "report"
+        replacing = not store and self.rng.random() < 0.6
+        if replacing:
+            target.write_bytes(OLD)
+        before = contents(target)
+        acts: dict[str, Any] = {"disk": self.disk, "folder": self.folder_, "pipe": self.pipe, "memory": self.memory}
+        acts |= {"files": self.files, "clock": self.clock, "SLOW": self.slow}
+        act = acts.get(fault) or (lambda n, t: self.signalled(n, t, ENDING[fault]))
+        code, error = act(name, target)
+        self.count[fault] += 1
+        self.codes[f"{code}"] += 1
+        self.judge(f"{fault} on {name}, exit code {code}", code, error, fault, before, target)
+        now_whole = contents(target) == self.wanted[name]
+        if now_whole and fault not in ("disk", "SIGKILL") and not store:
+            shutil.rmtree(place)
+            return
+        again, said = self.forked(name, target)
+        if again or contents(target) != self.wanted[name] or {path.name for path in place.iterdir()} != {name}:
+            beside = sorted(path.name for path in place.iterdir())
+            self.bad.lost.append(f"{fault} on {name}: run again, exit code {again}, {beside}: {said[-300:]}")
+        shutil.rmtree(place)
+
+    def judge(self, what: str, code: int, error: str, fault: str, before: str | None, target: Path) -> None:
+        """Whether all is as it should be after a fault."""
+        now, wanted = contents(target), self.wanted[target.name]
+        store = target.suffix == ".zarr" or target.name == "report"
+        if not store and now not in (before, wanted):
+            (self.bad.lost if now is None else self.bad.half_written).append(f"{what}: {now}")
+        if target.name == "report" and target.is_dir():
+            ledger, index = (target / part for part in ("ledger.html", "index.html"))
+            if any(part.exists() and repr(contents(part)) not in wanted for part in (ledger, index)):
+                self.bad.half_written.append(f"{what}: a part of the report")
+        beside = [path.name for path in target.parent.iterdir() if path.name != target.name]
+        killed = fault == "SIGKILL" and code == -signal.SIGKILL
+        if beside and not killed:
+            self.bad.half_written.append(f"{what}: beside it {beside}")
+        if code == 0 and now != wanted and "error" not in what:
+            self.bad.lost.append(f"{what}: but it is not there")
+        if "Traceback" in error or "Exception ignored" in error:
+            self.bad.tracebacks.append(f"{what}: {error[-1500:]}")
+        if code not in (0, 1, 2, 129, 130, 141, 143) and not killed:
+            self.bad.crashes.append(f"{what}: {error[-500:]}")
+        said = [line for line in error.splitlines() if line and not line.startswith("trum-sym: warning:")]
+        said = [line for line in said if not line.startswith("figures") and " points (" not in line]  # progress
+        told = code in (0, 141) or killed or "error" in what
+        if len(said) > 1 or (not told and (len(said) != 1 or not said[0].startswith("trum-sym: "))):
+            self.bad.lines.append(f"{what}: {said[-6:]}")
+
+
+def run(count: int, seed: int, only: str | None, small: bool, folder: Path) -> int:
+    """Meet that many faults; print what they did; 1 if anything was not as it should be."""
+    preload()
+    begin = time.monotonic()
+    harness = Harness(folder, seed, small)
+    faults, names = ([only] if only else list(FAULTS)), list(COMMANDS)
+    plan = [(faults[i % len(faults)], names[(i // len(faults) + i) % len(names)]) for i in range(count)]
+    for fault, name in plan:
+        shown = len(harness.bad.all())
+        if fault == "SLOW" and name == "report":
+            name = "histories.nc"  # the report itself, a minute long, is not run here
+        harness.one(fault, name)
+        for line in harness.bad.all()[shown:]:
+            print(line, flush=True)
+    kinds = ", ".join(f"{kind.replace('_', '-')} {len(found)}" for kind, found in vars(harness.bad).items())
+    print(f"{count} faults: {', '.join(f'{fault} {harness.count[fault]}' for fault in faults)}")
+    print(
+        f"on {len(names)} writers; exit codes {dict(sorted(harness.codes.items()))}; {time.monotonic() - begin:.0f} s"
+    )
+    print(kinds)
+    return int(bool(harness.bad.all()))
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("count", type=int, nargs="?", default=1000)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", choices=FAULTS)
+    parser.add_argument("--small", help=argparse.SUPPRESS)
+    given = parser.parse_args()
+    if given.small is None:
+        with tempfile.TemporaryDirectory() as folder:
+            small = Path(folder) / "small"
+            small.mkdir()
+            command = [sys.executable, "-m", "studies.faults", *sys.argv[1:], "--small"]
+            mount = 'mount -t tmpfs -o size=4m tmpfs "$0" && exec "$@"'
+            allowed = ["unshare", "--mount", "sh", "-c", mount.replace('&& exec "$@"', ""), str(small)]
+            if shutil.which("unshare") and subprocess.run(allowed, capture_output=True).returncode == 0:
+                command = ["unshare", "--mount", "sh", "-c", mount, str(small), *command, "yes"]
+            else:
+                print("no mounting here: a full disk is a limit on the length of files")
+                command.append("no")
+            return subprocess.run([*command], cwd=ROOT, env={**os.environ, "TRUM_FAULTS": folder}).returncode
+    return run(given.count, given.seed, given.only, given.small == "yes", Path(os.environ["TRUM_FAULTS"]))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
