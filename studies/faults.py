@@ -1,6 +1,6 @@
 """A bad day for every command that writes: nothing is lost, nothing is half-written, and one line says what happened.
 
-python -m studies.faults [COUNT] [--seed N] [--only FAULT]
+python -m studies.faults [COUNT] [--seed N] [--only FAULT] [--writer FILE ...]
 
 Commands run in processes that are forked once all modules are loaded; the fault SLOW starts them as a shell does, and
 interrupts them while modules load.  Each is told to replace a file, or to make a new one, and meets one fault:
@@ -118,6 +118,16 @@ def contents(path: Path) -> str | None:
     return hashlib.sha256(path.read_bytes()).hexdigest() if path.exists() else None
 
 
+def _catches(child: int, number: int) -> bool:
+    """Whether a process has a handler for a signal, or has ended."""
+    try:
+        status = Path(f"/proc/{child}/status").read_text()
+    except OSError:
+        return True
+    masks = [line.split()[1] for line in status.splitlines() if line.startswith("SigCgt:")]
+    return not masks or bool(int(masks[0], 16) >> (number - 1) & 1) or "\nState:\tZ" in status
+
+
 class Harness:
     """Faults on a folder of their own."""
 
@@ -162,12 +172,14 @@ class Harness:
         out: int | None = None,
     ) -> tuple[int, str]:
         """Run a command in a child; returns its exit code, negative for a signal, and its standard error."""
-        with tempfile.TemporaryFile() as said, tempfile.TemporaryFile() as printed:
+        ours, theirs = os.pipe()  # not a file: its length may be what is limited
+        with tempfile.TemporaryFile() as printed:
             child = os.fork()
             if not child:
                 try:
                     os.setsid()
-                    os.dup2(said.fileno(), 2)
+                    os.dup2(theirs, 2)
+                    os.close(ours), os.close(theirs)
                     os.dup2(printed.fileno() if out is None else out, 1)
                     sys.argv = ["trum-sym", *self.arguments(name, target)]
                     prepare()
@@ -177,21 +189,28 @@ class Harness:
                 finally:
                     sys.excepthook(*sys.exc_info())
                     os._exit(99)
+            os.close(theirs)
+            os.set_blocking(ours, False)
             meanwhile(child)
-            code = self.ended(child)
-            said.seek(0)
-            return code, said.read().decode("utf-8", "replace")
+            return self.ended(child, ours)
 
-    def ended(self, child: int) -> int:
-        end = time.monotonic() + LONGEST
-        while time.monotonic() < end:
+    def ended(self, child: int, error: int) -> tuple[int, str]:
+        """The exit code and the standard error of a child; -1000 if it does not end."""
+        said, end, code = b"", time.monotonic() + LONGEST, None
+        while code is None and time.monotonic() < end:
             found, status = os.waitpid(child, os.WNOHANG)
             if found:
-                return os.waitstatus_to_exitcode(status)
+                code = os.waitstatus_to_exitcode(status)
+            with contextlib.suppress(BlockingIOError):
+                while part := os.read(error, 65536):
+                    said += part
             time.sleep(0.002)
-        os.kill(child, signal.SIGKILL)
-        os.waitpid(child, 0)
-        return -1000
+        os.close(error)
+        if code is None:
+            os.kill(child, signal.SIGKILL)
+            os.waitpid(child, 0)
+            code = -1000
+        return code, said.decode("utf-8", "replace")
 
     # --- The faults ---------------------------------------------------------------------------------------------------
 
@@ -223,6 +242,8 @@ class Harness:
         moment = self.rng.uniform(0, 1.1 * self.takes[name])
 
         def send(child: int) -> None:
+            while not _catches(child, signal.SIGHUP):  # the last that the console takes care of
+                time.sleep(0.001)
             time.sleep(moment)
             with contextlib.suppress(ProcessLookupError):
                 os.kill(child, number)
@@ -367,12 +388,12 @@ class Harness:
             self.bad.lines.append(f"{what}: {said[-6:]}")
 
 
-def run(count: int, seed: int, only: str | None, small: bool, folder: Path) -> int:
+def run(count: int, seed: int, only: str | None, names: list[str], small: bool, folder: Path) -> int:
     """Meet that many faults; print what they did; 1 if anything was not as it should be."""
     preload()
     begin = time.monotonic()
     harness = Harness(folder, seed, small)
-    faults, names = ([only] if only else list(FAULTS)), list(COMMANDS)
+    faults = [only] if only else list(FAULTS)
     plan = [(faults[i % len(faults)], names[(i // len(faults) + i) % len(names)]) for i in range(count)]
     for fault, name in plan:
         shown = len(harness.bad.all())
@@ -395,6 +416,7 @@ def main() -> int:
     parser.add_argument("count", type=int, nargs="?", default=1000)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--only", choices=FAULTS)
+    parser.add_argument("--writer", choices=COMMANDS, action="append")
     parser.add_argument("--small", help=argparse.SUPPRESS)
     given = parser.parse_args()
     if given.small is None:
@@ -410,7 +432,8 @@ def main() -> int:
                 print("no mounting here: a full disk is a limit on the length of files")
                 command.append("no")
             return subprocess.run([*command], cwd=ROOT, env={**os.environ, "TRUM_FAULTS": folder}).returncode
-    return run(given.count, given.seed, given.only, given.small == "yes", Path(os.environ["TRUM_FAULTS"]))
+    names = given.writer or list(COMMANDS)
+    return run(given.count, given.seed, given.only, names, given.small == "yes", Path(os.environ["TRUM_FAULTS"]))
 
 
 if __name__ == "__main__":

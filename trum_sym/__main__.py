@@ -11,7 +11,7 @@ import os
 import signal
 import sys
 from contextlib import suppress
-from types import FrameType
+from types import FrameType, TracebackType
 from typing import TYPE_CHECKING, NoReturn
 
 if TYPE_CHECKING:
@@ -32,12 +32,17 @@ class _Signals:
             if signal.getsignal(number) is not signal.SIG_IGN:  # as nohup and a shell's & leave it
                 signal.signal(number, self._take)
         sys.unraisablehook = self._lost
+        sys.excepthook = self._printed
 
     def _take(self, number: int, _: FrameType | None) -> None:
         if self.come is not None:  # while the first is tidied up after
             os._exit(128 + number)
         self.come = number
         raise KeyboardInterrupt
+
+    def _printed(self, kind: type[BaseException], error: BaseException, where: TracebackType | None) -> None:
+        if self.come is None:  # or Cython prints what it cannot pass on
+            sys.__excepthook__(kind, error, where)
 
     def _lost(self, what: UnraisableHookArgs) -> None:
         if self.come is not None and issubclass(what.exc_type, KeyboardInterrupt):

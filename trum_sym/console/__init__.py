@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import click
 
 from trum_sym.console.calibrate import calibrate
@@ -21,7 +23,18 @@ from trum_sym.text import one_line
 __all__ = ["main", "outcome"]
 
 
-@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
+class _Group(click.Group):
+    """A group that ends without click's blank line where it is interrupted."""
+
+    def invoke(self, ctx: click.Context) -> Any:  # noqa: ANN401
+        """Run the command."""
+        try:
+            return super().invoke(ctx)
+        except KeyboardInterrupt:
+            raise click.Abort from None
+
+
+@click.group(cls=_Group, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
 @click.version_option(package_name="trum-sym")
 def _cli() -> None:
     """Travelling-wave ultrasonic motors at very low speed (superimposed pulse driving).
@@ -44,6 +57,12 @@ for _command in (
     report,
 ):
     _cli.add_command(_command)
+
+
+_REFUSALS = {
+    "can't start new thread": "the system refuses a new thread",
+    "Plugin 'ipopt' is not found": "CasADi cannot load its solver IPOPT",
+}
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -96,6 +115,7 @@ def _of_surroundings(error: Exception) -> tuple[int, str]:
         return 2, f"the system refuses{where}: {error.strerror or error}"
     if isinstance(error, ImportError):
         return 2, f"a module cannot be loaded: {error}"
-    if "can't start new thread" in str(error):
-        return 2, "the system refuses a new thread"
+    for words, meaning in _REFUSALS.items():
+        if words in str(error):
+            return 2, meaning
     raise error
