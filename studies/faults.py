@@ -9,22 +9,25 @@ disk         no room: a small tmpfs where mounting is allowed, and a limit on th
 folder       the folder is not ours to write in
 SIGINT, SIGTERM, SIGHUP, SIGKILL, SLOW        at a random moment
 pipe         whoever reads the output has gone, at once or after some bytes; or the output is /dev/full, or closed
-memory       the address space ends
+memory       the address space ends (but for optimize and speed-table: IPOPT's linear algebra then waits for ever); a
+             crash in other libraries' compiled code is counted apart, and must leave the files as the others do
 files        no more files can be opened
 clock        the clock is set back in the middle, and the old file is from the future
 
 Then: the file is the old one or the new one, whole; nothing lies beside it (of SIGKILL: until the command runs again);
-there is at most one line of error, and no traceback; the process ended by itself within a minute; where the exit code
-is 0, the new file is there; and the same command without a fault makes what it would have made.
+there is at most one line of error, and no traceback; the process ended by itself within half a minute; where the exit
+code is 0, the new file is there; and the same command without a fault makes what it would have made.
 """
 
 from __future__ import annotations
 
 import argparse
 import contextlib
+import faulthandler
 import hashlib
 import os
 import random
+import re
 import resource
 import shutil
 import signal
@@ -39,7 +42,7 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[1]
-LONGEST = 60.0  # s
+LONGEST = 30.0  # s
 POINT = ("--load-torque", "0.05")
 SWEEP = ("sweep", "--prepressure", "160:200:6", "--frequency-difference", "2900:3100:4")
 SWEEP += ("--outputs", "q_average,amplitude")
@@ -128,6 +131,18 @@ def _catches(child: int, number: int) -> bool:
     return not masks or bool(int(masks[0], 16) >> (number - 1) & 1) or "\nState:\tZ" in status
 
 
+def _of_a_library(error: str) -> bool:
+    """Whether the code that a crash was in is neither ours nor called by ours at once."""
+    frames = [line for line in error.partition("most recent call first")[2].splitlines() if 'File "' in line]
+    return bool(frames) and f"{ROOT}/trum_sym" not in frames[0]
+
+
+def name_of(error: str) -> str:
+    """The innermost frame of a crash."""
+    frames = [line for line in error.splitlines() if 'File "' in line]
+    return re.sub(r'.*File "(?:.*/)?([^/"]+/[^/"]+)", line \d+', r"\1", frames[0]).strip()
+
+
 class Harness:
     """Faults on a folder of their own."""
 
@@ -136,6 +151,7 @@ class Harness:
         self.bad = Bad()
         self.count: Counter[str] = Counter()
         self.codes: Counter[str] = Counter()
+        self.libraries: Counter[str] = Counter()
         self.wanted: dict[str, str | None] = {}
         self.takes: dict[str, float] = {}
         (folder / "data.csv").write_text(DATA)
@@ -182,6 +198,7 @@ class Harness:
                     os.close(ours), os.close(theirs)
                     os.dup2(printed.fileno() if out is None else out, 1)
                     sys.argv = ["trum-sym", *self.arguments(name, target)]
+                    faulthandler.enable()  # which says in whose code a crash was
                     prepare()
                     from trum_sym.__main__ import run
 
@@ -256,8 +273,10 @@ class Harness:
         moment = self.rng.uniform(0, 1.0)
         program = "import trum_sym.__main__ as m, sys; sys.stdout.write('x'); sys.stdout.flush(); m.run()"
         command = [sys.executable, "-c", program, *self.arguments(name, target)]
+        (self.folder / "matplotlibrc").write_text("svg.hashsalt: faults\n")
+        environment = {**os.environ, "MATPLOTLIBRC": str(self.folder / "matplotlibrc")}
         with tempfile.TemporaryFile() as said:
-            process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=said)
+            process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=said, env=environment)
             process.stdout.read(1)
             time.sleep(0.001 + moment)
             process.send_signal(number)
@@ -379,10 +398,15 @@ class Harness:
             self.bad.lost.append(f"{what}: but it is not there")
         if "Traceback" in error or "Exception ignored" in error:
             self.bad.tracebacks.append(f"{what}: {error[-1500:]}")
+        if fault == "memory" and code < 0 and _of_a_library(error):
+            self.libraries[name_of(error)] += 1
+            return
         if code not in (0, 1, 2, 129, 130, 141, 143) and not killed:
             self.bad.crashes.append(f"{what}: {error[-500:]}")
         said = [line for line in error.splitlines() if line and not line.startswith("trum-sym: warning:")]
         said = [line for line in said if not line.startswith("figures") and " points (" not in line]  # progress
+        if fault == "memory":  # a library may say so in its own words first
+            said = said[-1:]
         told = code in (0, 141) or killed or "error" in what
         if len(said) > 1 or (not told and (len(said) != 1 or not said[0].startswith("trum-sym: "))):
             self.bad.lines.append(f"{what}: {said[-6:]}")
@@ -397,6 +421,8 @@ def run(count: int, seed: int, only: str | None, names: list[str], small: bool, 
     plan = [(faults[i % len(faults)], names[(i // len(faults) + i) % len(names)]) for i in range(count)]
     for fault, name in plan:
         shown = len(harness.bad.all())
+        if fault == "memory" and COMMANDS[name][0] in ("optimize", "speed-table"):
+            name = "histories.csv"  # IPOPT's linear algebra waits for ever for memory that does not come
         if fault == "SLOW" and name == "report":
             name = "histories.nc"  # the report itself, a minute long, is not run here
         harness.one(fault, name)
@@ -407,6 +433,8 @@ def run(count: int, seed: int, only: str | None, names: list[str], small: bool, 
     print(
         f"on {len(names)} writers; exit codes {dict(sorted(harness.codes.items()))}; {time.monotonic() - begin:.0f} s"
     )
+    for where, times in harness.libraries.items():
+        print(f"other libraries' code crashed as memory ended, {times} times in {where}")
     print(kinds)
     return int(bool(harness.bad.all()))
 

@@ -146,6 +146,8 @@ def test_a_signal_that_is_ignored_stays_ignored():
 
 REFUSALS = [
     (MemoryError(), 2, "not enough memory"),
+    (SystemError("error return without exception set"), 2, "not enough memory, or a library"),
+    (RuntimeError("Zstd error: b'Allocation error : not enough memory'"), 2, "not enough memory"),
     (OSError(24, "Too many open files", "a.so"), 2, "the system refuses a.so: Too many open files"),
     (ImportError("a.so: failed to map segment from shared object"), 2, "a module cannot be loaded: a.so"),
     (RuntimeError("can't start new thread"), 2, "the system refuses a new thread"),

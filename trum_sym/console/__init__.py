@@ -94,7 +94,7 @@ def outcome(arguments: list[str] | None = None) -> tuple[int, str | None]:
             return 130, "interrupted"
         except SystemExit:  # click's, where the pipe that it prints to is closed
             return 141, None
-        except (ValueError, ImportError, RuntimeError, OSError, MemoryError) as error:
+        except (ValueError, ImportError, RuntimeError, OSError, MemoryError, SystemError) as error:
             code, message = _of_surroundings(error)
             return code, one_line(message)
     return result if isinstance(result, int) else 0, None
@@ -108,8 +108,8 @@ def _of_surroundings(error: Exception) -> tuple[int, str]:
         return 1, str(error)
     if isinstance(error, ParameterError | MissingExtraError):
         return 2, str(error)
-    if isinstance(error, MemoryError):
-        return 2, "not enough memory"
+    if isinstance(error, MemoryError | SystemError) or "not enough memory" in str(error):
+        return 2, f"not enough memory, or a library's fault ({type(error).__name__}: {error})"
     if isinstance(error, OSError):
         where = f" {error.filename}" if error.filename is not None else ""
         return 2, f"the system refuses{where}: {error.strerror or error}"

@@ -244,7 +244,7 @@ def _cases(
     if samples is None:
         corners = itertools.product(*ranges.values())
         return [{}, *(dict(zip(ranges, corner, strict=True)) for corner in corners)]
-    if isinstance(samples, str | Mapping) or not 1 <= len(samples) <= _MOST_SAMPLES:
+    if not isinstance(samples, Sequence) or isinstance(samples, str) or not 1 <= len(samples) <= _MOST_SAMPLES:
         raise ParameterError("samples", samples, f"1 to {_MOST_SAMPLES} mappings of names to values")
     found: list[dict[str, float]] = [{}]
     for sample in samples:

@@ -127,7 +127,7 @@ def _make(root: Path, plan: Plan) -> None:
 def _create(store: LocalStore | MemoryStore, plan: Plan) -> zarr.Group:
     group = zarr.create_group(store, zarr_format=3, attributes=plan.attributes())
     dimensions = [axis.name for axis in plan.grid.axes]
-    codecs = [ZstdCodec(level=1), Crc32cCodec()]
+    codecs = [ZstdCodec(level=1), Crc32cCodec()] if isinstance(store, LocalStore) else []
     for axis in plan.grid.axes:
         for name, values in axis.values.items():
             group.create_array(
