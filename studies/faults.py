@@ -148,7 +148,7 @@ class Harness:
 
     def __init__(self, folder: Path, seed: int, small: bool) -> None:
         self.folder, self.rng, self.small = folder, random.Random(seed), small
-        self.bad = Bad()
+        self.bad, self.way = Bad(), ""
         self.count: Counter[str] = Counter()
         self.codes: Counter[str] = Counter()
         self.libraries: Counter[str] = Counter()
@@ -290,22 +290,22 @@ class Harness:
             return process.returncode, said.read().decode("utf-8", "replace")
 
     def pipe(self, name: str, target: Path) -> tuple[int, str]:
-        way = self.rng.choice(["gone", "some", "full", "closed", "full error", "closed error"])
-        if way in ("gone", "some"):
+        self.way = way = self.rng.choice([" gone", " some", " full", " closed", " full error", " closed error"])
+        if way in (" gone", " some"):
             ours, theirs = os.pipe()
             os.set_inheritable(theirs, True)
-            if way == "gone":
+            if way == " gone":
                 os.close(ours)
 
             def read(_: int) -> None:
                 os.close(theirs)
-                if way == "some":
+                if way == " some":
                     os.read(ours, self.rng.randrange(1, 40))
                     os.close(ours)
 
             def forget() -> None:
                 os.close(theirs)
-                if way == "some":
+                if way == " some":
                     os.close(ours)
 
             return self.forked(name, target, forget, read, out=theirs)
@@ -366,10 +366,11 @@ class Harness:
         acts: dict[str, Any] = {"disk": self.disk, "folder": self.folder_, "pipe": self.pipe, "memory": self.memory}
         acts |= {"files": self.files, "clock": self.clock, "SLOW": self.slow}
         act = acts.get(fault) or (lambda n, t: self.signalled(n, t, ENDING[fault]))
+        self.way = ""
         code, error = act(name, target)
         self.count[fault] += 1
         self.codes[f"{code}"] += 1
-        self.judge(f"{fault} on {name}, exit code {code}", code, error, fault, before, target)
+        self.judge(f"{fault}{self.way} on {name}, exit code {code}", code, error, fault, before, target)
         now_whole = contents(target) == self.wanted[name]
         if now_whole and fault not in ("disk", "SIGKILL") and not store:
             shutil.rmtree(place)
@@ -419,7 +420,9 @@ def run(count: int, seed: int, only: str | None, names: list[str], small: bool, 
     harness = Harness(folder, seed, small)
     faults = [only] if only else list(FAULTS)
     plan = [(faults[i % len(faults)], names[(i // len(faults) + i) % len(names)]) for i in range(count)]
-    for fault, name in plan:
+    for done, (fault, name) in enumerate(plan):
+        if done and done % 100 == 0:
+            print(f"{done} faults in {time.monotonic() - begin:.0f} s", flush=True)
         shown = len(harness.bad.all())
         if fault == "memory" and COMMANDS[name][0] in ("optimize", "speed-table"):
             name = "histories.csv"  # IPOPT's linear algebra waits for ever for memory that does not come

@@ -206,3 +206,24 @@ def test_plain_text_is_left_alone():
     for text in ("TRUM-60 at 180 N, ±3 µm", "a\nb", "日本語 — “x”", "\u0645\u06cc\u200c\u062e"):
         assert plain(text) == text
     assert plain("\ud800") == "\\ud800"
+
+
+def test_a_matplotlibrc_in_the_folder_runs_no_tex(tmp_path, monkeypatch):
+    """A stranger's folder may hold one; with text.usetex every label would go through TeX."""
+    import matplotlib as mpl
+    from matplotlib import texmanager
+
+    from trum_sym.plots import optimum, style, tolerance
+
+    monkeypatch.setattr(texmanager.TexManager, "make_dvi", lambda *_: pytest.fail("TeX was called"))
+    with mpl.rc_context({"text.usetex": True}):
+        found = ts.optimize(
+            ts.load_motor(),
+            ts.Drive(load_torque=0.05),
+            objective="q_volatility",
+            bounds={"prepressure": (175, 185), "frequency_difference": 3000.0},
+        )
+        optimum.draw(found, tmp_path / "box.svg")
+        assert tolerance.draw.__wrapped__
+        assert style.styled(lambda: mpl.rcParams["text.usetex"])() is False
+    assert "TRUM-60" in (tmp_path / "box.svg").read_text("utf-8")

@@ -18,6 +18,7 @@ from trum_sym.optimiser.model import functions
 from trum_sym.optimiser.result import Optimum
 from trum_sym.optimiser.solve import Problem
 from trum_sym.output.files import check_target, write_bytes
+from trum_sym.plots.style import without_tex
 from trum_sym.text import one_line
 
 __all__ = ["SUFFIXES", "draw"]
@@ -31,6 +32,7 @@ _AXES = {
 }
 
 
+@without_tex
 def draw(optimum: Optimum, target: Path, name: str = "plot") -> None:
     """Write the picture; of three variables, the plane of the first two through the optimum.
 

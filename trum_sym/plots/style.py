@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 from functools import wraps
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ParamSpec, TypeAlias
+from typing import TYPE_CHECKING, Any, ParamSpec, TypeAlias, TypeVar
 from xml.sax.saxutils import escape
 
 import numpy as np
@@ -20,10 +20,24 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["COLOURS", "GRID", "INK", "Panels", "blank", "figure_of", "legend", "panels", "save", "styled", "svg"]
+__all__ = [
+    "COLOURS",
+    "GRID",
+    "INK",
+    "Panels",
+    "blank",
+    "figure_of",
+    "legend",
+    "panels",
+    "save",
+    "styled",
+    "svg",
+    "without_tex",
+]
 
 Panels: TypeAlias = "Axes | Sequence[Axes] | None"
 P = ParamSpec("P")
+T = TypeVar("T")
 _BACKGROUND = '</title><rect width="100%" height="100%" fill="white"/>'
 
 # Okabe and Ito's colours, in an order in which neighbours also differ in lightness
@@ -54,6 +68,7 @@ _RC: dict[Any, Any] = {
     "legend.handlelength": 1.6,
     "lines.linewidth": 1.2,
     "text.color": INK,
+    "text.usetex": False,
     "xtick.color": INK,
     "ytick.color": INK,
     "svg.fonttype": "none",
@@ -77,6 +92,27 @@ def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
             return draw(*arguments, **options)
 
     return in_style
+
+
+def without_tex(draw: Callable[P, T]) -> Callable[P, T]:
+    """Draw without TeX, whatever a ``matplotlibrc`` in the folder says: a motor's name is no program.
+
+    Raises
+    ------
+    MissingExtraError
+        Without matplotlib.
+    """
+
+    @wraps(draw)
+    def drawn(*arguments: P.args, **options: P.kwargs) -> T:
+        try:
+            import matplotlib
+        except ImportError as error:
+            raise MissingExtraError("a picture", str(error.name), "report") from None
+        with matplotlib.rc_context({"text.usetex": False}):
+            return draw(*arguments, **options)
+
+    return drawn
 
 
 def _style() -> AbstractContextManager[None]:

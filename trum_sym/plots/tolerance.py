@@ -10,6 +10,7 @@ import numpy as np
 
 from trum_sym.errors import MissingExtraError
 from trum_sym.output.files import check_target, write_bytes
+from trum_sym.plots.style import without_tex
 from trum_sym.quantities import QUANTITIES
 from trum_sym.text import one_line
 from trum_sym.uncertainty.propagation import CONFIDENCE, Estimate, Indices
@@ -41,6 +42,7 @@ def check_picture(name: str, target: Path) -> None:
         raise MissingExtraError("a picture", "matplotlib", "report") from None
 
 
+@without_tex
 def draw(name: str, study: Study, target: Path) -> None:
     """Write the picture, whole or not at all.
 
