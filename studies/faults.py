@@ -103,9 +103,16 @@ def preload() -> None:
     import tomlkit  # noqa: F401
     import xarray  # noqa: F401
 
+    import trum_sym.calibration.calibrate
     import trum_sym.console
+    import trum_sym.inputs.motor_writer
+    import trum_sym.model.histories
+    import trum_sym.plots.optimum
+    import trum_sym.plots.tolerance
     import trum_sym.report.output
+    import trum_sym.studies.speed_table_text
     import trum_sym.sweeps.store
+    import trum_sym.uncertainty.study
 
     os.environ["SOURCE_DATE_EPOCH"] = "0"  # so that a picture's bytes do not depend on the day
     mpl.rcParams["svg.hashsalt"] = "faults"
