@@ -390,20 +390,8 @@ class Harness:
 
     def judge(self, what: str, code: int, error: str, fault: str, before: str | None, target: Path) -> None:
         """Whether all is as it should be after a fault."""
-        now, wanted = contents(target), self.wanted[target.name]
-        store = target.suffix == ".zarr" or target.name == "report"
-        if not store and now not in (before, wanted):
-            (self.bad.lost if now is None else self.bad.half_written).append(f"{what}: {now}")
-        if target.name == "report" and target.is_dir():
-            ledger, index = (target / part for part in ("ledger.html", "index.html"))
-            if any(part.exists() and repr(contents(part)) not in wanted for part in (ledger, index)):
-                self.bad.half_written.append(f"{what}: a part of the report")
-        beside = [path.name for path in target.parent.iterdir() if path.name != target.name]
         killed = fault == "SIGKILL" and code == -signal.SIGKILL
-        if beside and not killed:
-            self.bad.half_written.append(f"{what}: beside it {beside}")
-        if code == 0 and now != wanted and "error" not in what:
-            self.bad.lost.append(f"{what}: but it is not there")
+        self.look_at_files(what, code, before, target, killed)
         if "Traceback" in error or "Exception ignored" in error:
             self.bad.tracebacks.append(f"{what}: {error[-1500:]}")
         if fault == "memory" and code < 0 and _of_a_library(error):
@@ -415,9 +403,28 @@ class Harness:
         said = [line for line in said if not line.startswith("figures") and " points (" not in line]  # progress
         if fault == "memory":  # a library may say so in its own words first
             said = said[-1:]
-        told = code in (0, 141) or killed or "error" in what
-        if len(said) > 1 or (not told and (len(said) != 1 or not said[0].startswith("trum-sym: "))):
+        if killed or code in (0, 141) or "error" in what:  # nothing to tell, or nobody to tell it to
+            good = len(said) <= 1
+        else:
+            good = len(said) == 1 and said[0].startswith("trum-sym: ")
+        if not good:
             self.bad.lines.append(f"{what}: {said[-6:]}")
+
+    def look_at_files(self, what: str, code: int, before: str | None, target: Path, killed: bool) -> None:
+        """Whether the file is the old one or the new one, and alone."""
+        now, wanted = contents(target), self.wanted[target.name]
+        store = target.suffix == ".zarr" or target.name == "report"
+        if not store and now not in (before, wanted):
+            (self.bad.lost if now is None else self.bad.half_written).append(f"{what}: {now}")
+        if target.name == "report" and target.is_dir():
+            parts = [target / part for part in ("ledger.html", "index.html")]
+            if any(part.exists() and repr(contents(part)) not in str(wanted) for part in parts):
+                self.bad.half_written.append(f"{what}: a part of the report")
+        beside = [path.name for path in target.parent.iterdir() if path.name != target.name]
+        if beside and not killed:
+            self.bad.half_written.append(f"{what}: beside it {beside}")
+        if code == 0 and now != wanted and "error" not in what:
+            self.bad.lost.append(f"{what}: but it is not there")
 
 
 def run(count: int, seed: int, only: str | None, names: list[str], small: bool, folder: Path) -> int:
