@@ -138,6 +138,13 @@ def _catches(child: int, number: int) -> bool:
     return not masks or bool(int(masks[0], 16) >> (number - 1) & 1) or "\nState:\tZ" in status
 
 
+def _said(error: str, fault: str) -> list[str]:
+    """The lines of error, without warnings and progress; as memory ends a library may say so in its own words first."""
+    lines = [line for line in error.splitlines() if line and not line.startswith(("trum-sym: warning:", "figures"))]
+    lines = [line for line in lines if " points (" not in line]
+    return lines[-1:] if fault == "memory" else lines
+
+
 def _of_a_library(error: str) -> bool:
     """Whether the code that a crash was in is neither ours nor called by ours at once."""
     frames = [line for line in error.partition("most recent call first")[2].splitlines() if 'File "' in line]
@@ -399,15 +406,9 @@ class Harness:
             return
         if code not in (0, 1, 2, 129, 130, 141, 143) and not killed:
             self.bad.crashes.append(f"{what}: {error[-500:]}")
-        said = [line for line in error.splitlines() if line and not line.startswith("trum-sym: warning:")]
-        said = [line for line in said if not line.startswith("figures") and " points (" not in line]  # progress
-        if fault == "memory":  # a library may say so in its own words first
-            said = said[-1:]
-        if killed or code in (0, 141) or "error" in what:  # nothing to tell, or nobody to tell it to
-            good = len(said) <= 1
-        else:
-            good = len(said) == 1 and said[0].startswith("trum-sym: ")
-        if not good:
+        said = _said(error, fault)
+        silent = killed or code in (0, 141) or "error" in what  # nothing to tell, or nobody to tell it to
+        if not (silent and not said) and not (len(said) == 1 and said[0].startswith("trum-sym: ")):
             self.bad.lines.append(f"{what}: {said[-6:]}")
 
     def look_at_files(self, what: str, code: int, before: str | None, target: Path, killed: bool) -> None:

@@ -26,9 +26,7 @@ SAMPLE = (
     "tests/output",
     "tests/inputs/test_reading.py",
     "tests/sweeps/test_sweep.py",
-    "tests/uncertainty/test_tolerance_console.py",
     "tests/optimiser/test_bad_optimise.py",
-    "tests/sweeps/test_sweep_durability.py",
 )
 
 

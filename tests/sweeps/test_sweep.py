@@ -410,7 +410,8 @@ def test_small_results_are_files_too(trum60, tmp_path, suffix, capsys):
 
     table = pd.read_csv(out) if suffix == ".csv" else pd.read_parquet(out)
     assert list(table["prepressure [N]"]) == [150, 150, 180, 180, 210, 210]
-    assert np.array_equal(table["mean_speed [rad/s]"], ours.mean_speed.values.ravel())
+    close = {"rtol": 4e-16 if suffix == ".csv" else 0.0, "atol": 0.0}  # old pandas read the last bit as it comes
+    assert np.allclose(table["mean_speed [rad/s]"], ours.mean_speed.values.ravel(), **close)
     assert suffix == ".csv" or table.attrs == ours.attrs
 
 
