@@ -168,6 +168,12 @@ def test_what_the_system_refuses_is_one_line(monkeypatch, capsys, error, code, w
     assert err.count("\n") == 1
 
 
+@pytest.mark.parametrize("path", ["\0.nc", "\ud800.nc", "\0.zarr", "\ud800.zarr"])
+def test_a_path_that_no_system_takes_is_one_line(console_refuses, path):
+    console_refuses("sweep", "--prepressure", "170:190:2", "--out", path, naming=("trum-sym: ",))
+    console_refuses("calibrate", path, naming=("trum-sym: ",))
+
+
 def test_a_fault_of_our_own_is_not_hidden(monkeypatch):
     def fails(*_, **__):
         raise RuntimeError("a bug")

@@ -115,6 +115,8 @@ def _of_surroundings(error: Exception) -> tuple[int, str]:
         return 2, f"the system refuses{where}: {error.strerror or error}"
     if isinstance(error, ImportError):
         return 2, f"a module cannot be loaded: {error}"
+    if isinstance(error, UnicodeEncodeError) or "embedded null" in str(error):
+        return 2, f"a path that the system does not take: {error}"
     for words, meaning in _REFUSALS.items():
         if words in str(error):
             return 2, meaning
