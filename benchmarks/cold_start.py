@@ -16,8 +16,8 @@ from benchmarks.rows import Row
 __all__ = ["rows"]
 
 COMMANDS = {
-    "trum-sym evaluate": ["-m", "trum_sym.console", "evaluate"],
-    "trum-sym evaluate --json": ["-m", "trum_sym.console", "evaluate", "--json"],
+    "trum-sym evaluate": ["-m", "trum_sym", "evaluate"],
+    "trum-sym evaluate --json": ["-m", "trum_sym", "evaluate", "--json"],
     "import numpy": ["-c", "import numpy"],
     "import sympy, casadi": ["-c", "import sympy, casadi"],
 }

@@ -2,6 +2,10 @@
 #ifndef TRUM_KERNELS_H
 #define TRUM_KERNELS_H
 
+#if defined(__FAST_MATH__) || defined(_M_FP_FAST) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "trum: -Ofast, -ffast-math, -ffinite-math-only drop the tests for NaN that refuse input and end searches"
+#endif
+
 /* the numbers of kernels outside lanes: double, or casadi_real where the compiler is told one */
 #ifdef casadi_real
 typedef casadi_real trum_real;

@@ -88,7 +88,7 @@ def refusal(*fragments):
 
 
 def run_console(*arguments):
-    command = [sys.executable, "-m", "trum_sym.console", *arguments]
+    command = [sys.executable, "-m", "trum_sym", *arguments]
     return subprocess.run(command, capture_output=True, timeout=8, check=False)
 
 

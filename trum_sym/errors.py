@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from trum_sym.text import one_line
+
 __all__ = [
     "ConvergenceError",
     "ImplausibleWarning",
@@ -13,14 +15,10 @@ __all__ = [
 ]
 
 
-def _one_line(text: str) -> str:
-    return " ".join(text.split())
-
-
 def shorten(value: object) -> str:
     """What was given, on one line of at most 80 characters."""
     try:
-        text = " ".join((value if isinstance(value, str) else repr(value)).split())
+        text = one_line(value if isinstance(value, str) else repr(value))
     except ValueError:  # Python does not print integers of more than 4300 digits
         text = "a number of too many digits"
     except Exception:  # what a stranger's object raises instead of printing itself
@@ -46,9 +44,15 @@ class ParameterError(ValueError):
         self.name = name
         self.got = got
         self.allowed = allowed
-        super().__init__(f"{_one_line(name)}: got {shorten(got)}, need {_one_line(allowed)}")
+        super().__init__(f"{one_line(name)}: got {shorten(got)}, need {one_line(allowed)}")
 
     def __reduce__(self) -> tuple[type[ParameterError], tuple[str, object, str]]:
+        import pickle
+
+        try:
+            pickle.dumps(self.got)
+        except Exception:  # whatever was given may raise anything
+            return type(self), (self.name, shorten(self.got), self.allowed)
         return type(self), (self.name, self.got, self.allowed)
 
 
@@ -64,7 +68,11 @@ class MissingExtraError(ImportError):
     """A package that the default install does not bring; names what needs it and how to get it."""
 
     def __init__(self, what: str, package: str, extra: str) -> None:
+        self.what, self.package, self.extra = what, package, extra
         super().__init__(f"{what} needs {package}: pip install 'trum-sym[{extra}]'", name=package)
+
+    def __reduce__(self) -> tuple[type[MissingExtraError], tuple[str, str, str]]:
+        return type(self), (self.what, self.package, self.extra)
 
 
 class ValidityWarning(UserWarning):

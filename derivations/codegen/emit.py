@@ -24,6 +24,7 @@ from derivations.dimensions import DimensionError, dimension
 from derivations.nomenclature import CONSTANTS, NOMENCLATURE, sym
 from derivations.phases import GATES, PHASES, REGIONS
 from trum_sym.inputs.units import parse_unit
+from trum_sym.output.c_text import EXACT_ARITHMETIC
 
 __all__ = ["GENERATED", "render", "stale", "write"]
 
@@ -131,7 +132,7 @@ def _source_hash(kernel: Kernel) -> str:
 def _header() -> str:
     """Prototypes, the position of every argument and result by name, one list of all kernels, the gates."""
     signature = "const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem"
-    lines = [f"/* {_NOTE} */", "#ifndef TRUM_KERNELS_H", "#define TRUM_KERNELS_H", ""]
+    lines = [f"/* {_NOTE} */", "#ifndef TRUM_KERNELS_H", "#define TRUM_KERNELS_H", "", *EXACT_ARITHMETIC, ""]
     lines += ["/* the numbers of kernels outside lanes: double, or casadi_real where the compiler is told one */"]
     lines += [
         "#ifdef casadi_real",

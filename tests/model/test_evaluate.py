@@ -145,8 +145,6 @@ def test_evaluate_imports_neither_sympy_nor_casadi_nor_scipy():
 
 
 def test_module_runs_as_a_program():
-    done = subprocess.run(
-        [sys.executable, "-m", "trum_sym.console", "evaluate", "--json"], capture_output=True, text=True
-    )
+    done = subprocess.run([sys.executable, "-m", "trum_sym", "evaluate", "--json"], capture_output=True, text=True)
     assert done.returncode == 0
     assert json.loads(done.stdout)["motor"] == "TRUM-60"

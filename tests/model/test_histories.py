@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 
@@ -191,11 +192,10 @@ def test_a_file_that_cannot_be_written_is_refused_before_any_work(console_refuse
 
 
 def test_a_write_that_fails_leaves_the_old_file_and_nothing_else(console_refuses, tmp_path, monkeypatch):
-    def fails(_self, path, **_):
-        path.write_text("half")
+    def fails(_handle):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(xr.Dataset, "to_netcdf", fails)
+    monkeypatch.setattr(os, "fsync", fails)
     (tmp_path / "histories.nc").write_text("old")
     console_refuses("simulate", "--out", str(tmp_path / "histories.nc"), naming=("--out", "No space left on device"))
     assert [path.name for path in tmp_path.iterdir()] == ["histories.nc"]

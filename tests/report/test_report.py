@@ -92,7 +92,7 @@ def test_every_claim_is_shown_with_its_verdict_and_linked_from_what_shows_it(tex
 def test_the_page_is_the_same_in_another_process(folder, tmp_path):
     environment = {**os.environ, "PYTHONHASHSEED": "4711", "TZ": "Asia/Tokyo", "SOURCE_DATE_EPOCH": "0"}
     subprocess.run(
-        [sys.executable, "-m", "trum_sym.console", "report", tmp_path], env=environment, check=True, capture_output=True
+        [sys.executable, "-m", "trum_sym", "report", tmp_path], env=environment, check=True, capture_output=True
     )
     assert (tmp_path / "index.html").read_bytes() == (folder / "index.html").read_bytes()
 

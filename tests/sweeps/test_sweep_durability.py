@@ -169,7 +169,7 @@ def test_an_interruption_is_one_line_and_leaves_what_is_done(tmp_path, capsys, w
             address, _ = cluster.enter_context(scheduler(tmp_path))
             cluster.enter_context(worker(tmp_path, address, "one"))
             there = ["--scheduler", address]
-        interrupted(tmp_path, out, [sys.executable, "-m", "trum_sym.console", *command, *there])
+        interrupted(tmp_path, out, [sys.executable, "-m", "trum_sym", *command, *there])
     assert not list(out.rglob("*.partial"))
     speeds, done = ({file.name for file in (out / name / "c").iterdir()} for name in ("mean_speed", "status"))
     assert done <= speeds

@@ -14,6 +14,8 @@
  * One concern a header, in the order in which they need each other; orbit/types.h has a glossary. */
 #ifndef TRUM_ORBIT_H
 #define TRUM_ORBIT_H
+#include "trum_kernels.h" /* which refuses arithmetic without NaN */
+
 #include "orbit/number.h"
 #include "orbit/types.h"
 #include "orbit/constants.h"

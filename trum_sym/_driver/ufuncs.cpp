@@ -3,7 +3,6 @@
 #include <Python.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstring>
 #include <iterator>
@@ -22,12 +21,17 @@ using Kernel = int (*)(const double**, double**, long long int*, double*, int);
 
 template <Kernel kernel, int n_in, int n_out>
 void kernel_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
+  // A kernel writes its first result before it has read its last argument, and with out= both may lie in one place:
+  // NumPy makes a copy only where they overlap out of step.
+  double in[n_in], out[n_out];
   const double* arg[n_in];
   double* res[n_out];
+  for (int j = 0; j < n_in; ++j) arg[j] = &in[j];
+  for (int j = 0; j < n_out; ++j) res[j] = &out[j];
   for (npy_intp i = 0; i < dimensions[0]; ++i) {
-    for (int j = 0; j < n_in; ++j) arg[j] = reinterpret_cast<const double*>(args[j] + i * steps[j]);
-    for (int j = 0; j < n_out; ++j) res[j] = reinterpret_cast<double*>(args[n_in + j] + i * steps[n_in + j]);
+    for (int j = 0; j < n_in; ++j) in[j] = *reinterpret_cast<const double*>(args[j] + i * steps[j]);
     kernel(arg, res, nullptr, nullptr, 0);
+    for (int j = 0; j < n_out; ++j) *reinterpret_cast<double*>(args[n_in + j] + i * steps[n_in + j]) = out[j];
   }
 }
 
@@ -112,15 +116,15 @@ constexpr int n_orbit_in = COUNT(TRUM_ORBIT_IN), n_orbit_out = COUNT(TRUM_ORBIT_
 void rotor_orbit_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
   const Unlocked unlocked;
   constexpr npy_intp most = 256;
-  std::array<trum_orbit_in, most> in;
-  std::array<trum_orbit_out, most> out;
+  trum_orbit_in in[most];
+  trum_orbit_out out[most];
   for (npy_intp i = 0; i < dimensions[0];) {
     npy_intp count = 0;
     for (; i + count < dimensions[0] && count < most; ++count) {
-      read(&in[count], args, steps, i + count);
+      read(in + count, args, steps, i + count);
       if (in[count].hertz != in[0].hertz) break;
     }
-    orbit_code->orbits(in.data(), out.data(), nullptr, nullptr, static_cast<long>(count));
+    orbit_code->orbits(in, out, nullptr, nullptr, static_cast<long>(count));
     for (npy_intp k = 0; k < count; ++k) write(out[k], args + n_orbit_in, steps + n_orbit_in, i + k);
     i += count;
   }
@@ -130,12 +134,12 @@ constexpr int n_sums_in = COUNT(TRUM_CYCLE_SUMS_IN);
 void cycle_sums_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
   const Unlocked unlocked;
   constexpr npy_intp most = 512;
-  std::array<trum_cycle_sums_in, most> in;
-  std::array<trum_cycle_sums_out, most> out;
+  trum_cycle_sums_in in[most];
+  trum_cycle_sums_out out[most];
   for (npy_intp i = 0; i < dimensions[0]; i += most) {
     const npy_intp count = std::min(most, dimensions[0] - i);
-    for (npy_intp k = 0; k < count; ++k) read(&in[k], args, steps, i + k);
-    orbit_code->sums(in.data(), out.data(), static_cast<long>(count));
+    for (npy_intp k = 0; k < count; ++k) read(in + k, args, steps, i + k);
+    orbit_code->sums(in, out, static_cast<long>(count));
     for (npy_intp k = 0; k < count; ++k) write(out[k], args + n_sums_in, steps + n_sums_in, i + k);
   }
 }
@@ -145,19 +149,19 @@ constexpr int n_slopes_in = n_orbit_in + COUNT(TRUM_SLOPES_IN), n_slopes_out = n
 void rotor_slopes_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
   const Unlocked unlocked;
   constexpr npy_intp most = 64;
-  std::array<trum_orbit_in, most> in;
-  std::array<trum_slopes_in, most> with;
-  std::array<trum_orbit_out, most> out;
-  std::array<trum_slopes_out, most> slopes;
+  trum_orbit_in in[most];
+  trum_slopes_in with[most];
+  trum_orbit_out out[most];
+  trum_slopes_out slopes[most];
   const npy_intp* core = steps + n_slopes_in + n_slopes_out;  // strides of rows and columns
   for (npy_intp i = 0; i < dimensions[0];) {
     npy_intp count = 0;
     for (; i + count < dimensions[0] && count < most; ++count) {
-      read(&in[count], args, steps, i + count);
-      read(&with[count], args + n_orbit_in, steps + n_orbit_in, i + count);
+      read(in + count, args, steps, i + count);
+      read(with + count, args + n_orbit_in, steps + n_orbit_in, i + count);
       if (in[count].hertz != in[0].hertz) break;
     }
-    orbit_code->orbits(in.data(), out.data(), with.data(), slopes.data(), static_cast<long>(count));
+    orbit_code->orbits(in, out, with, slopes, static_cast<long>(count));
     for (npy_intp k = 0; k < count; ++k) {
       write(out[k], args + n_slopes_in, steps + n_slopes_in, i + k);
       char* to = args[n_slopes_in + n_orbit_out] + (i + k) * steps[n_slopes_in + n_orbit_out];
@@ -175,13 +179,14 @@ void rotor_history_loop(char** args, const npy_intp* dimensions, const npy_intp*
   const Unlocked unlocked;
   const npy_intp k = dimensions[1];
   const npy_intp* core = steps + n_history_in + n_history_out;  // strides of times, speed, distance
-  std::vector<double> out(static_cast<std::size_t>(n_history_out * k));
+  std::vector<double> held(static_cast<std::size_t>(n_history_out * k));
+  double* const out = held.data();
   for (npy_intp i = 0; i < dimensions[0]; ++i) {
     trum_orbit_in point;
     trum_orbit_out orbit = {};
     read(&point, args, steps, i);
     read_orbit(&orbit, args + n_orbit_in, steps + n_orbit_in, i);
-    orbit_code->history(&point, &orbit, out.data(), out.data() + k, k);
+    orbit_code->history(&point, &orbit, out, out + k, k);
     for (int o = 0; o < n_history_out; ++o) {
       char* to = args[n_history_in + o] + i * steps[n_history_in + o];
       for (npy_intp j = 0; j < k; ++j) *reinterpret_cast<double*>(to + j * core[1 + o]) = out[o * k + j];
@@ -286,6 +291,11 @@ PyMODINIT_FUNC PyInit__kernels() {
   PyObject* module = PyModule_Create(&definition);
   PyObject* signatures = PyDict_New();
   if (module == nullptr || signatures == nullptr) return nullptr;
+#ifdef Py_GIL_DISABLED
+  // The loops share nothing that is written but which instruction set the orbits run on, which `use` sets for tests;
+  // but no interpreter without the lock has run the tests yet, so the lock stays on.
+  PyUnstable_Module_SetGIL(module, Py_MOD_GIL_USED);
+#endif
 #define ADD(name, n_in, n_out, inputs, outputs) \
   if (!add(module, signatures, #name, loop_##name, n_in, n_out, inputs, outputs)) return nullptr;
   TRUM_KERNELS(ADD)

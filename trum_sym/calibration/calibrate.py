@@ -24,6 +24,7 @@ from trum_sym.inputs.plausible import doubts, outside_range, unquestioned
 from trum_sym.inputs.points import check_single, one_number, period_of
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.quantities import QUANTITIES
+from trum_sym.values import Value
 
 __all__ = ["ERRORS", "Calibration", "FittedParameter", "calibrate"]
 
@@ -39,8 +40,8 @@ _USUAL_OTHERWISE = ("friction_coefficient", "contact_radius")
 _LAW = ("amplitude_factor", "amplitude_exponent")
 
 
-@dataclass(frozen=True)
-class FittedParameter:
+@dataclass(frozen=True, eq=False)
+class FittedParameter(Value):
     """One fitted parameter, in SI.
 
     Attributes
@@ -67,8 +68,8 @@ class FittedParameter:
     exact_slopes: bool
 
 
-@dataclass(frozen=True)
-class Calibration:
+@dataclass(frozen=True, eq=False)
+class Calibration(Value):
     """What the data say about the motor.
 
     Attributes

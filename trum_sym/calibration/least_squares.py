@@ -9,14 +9,15 @@ import numpy as np
 
 from trum_sym.errors import ConvergenceError, MissingExtraError
 from trum_sym.inputs.checks import Array
+from trum_sym.values import Value
 
 __all__ = ["Fit", "Residuals", "Separation", "fit", "interval_factor"]
 
 _DETERMINED = 1.0  # largest half-width of an interval, over the value, of which data may be said to fix the value
 
 
-@dataclass(frozen=True)
-class Residuals:
+@dataclass(frozen=True, eq=False)
+class Residuals(Value):
     """What the fit leaves of the data.
 
     Attributes
@@ -42,8 +43,8 @@ class Residuals:
     lag_correlation: float
 
 
-@dataclass(frozen=True)
-class Separation:
+@dataclass(frozen=True, eq=False)
+class Separation(Value):
     """Which combinations of parameters the data see.
 
     Attributes

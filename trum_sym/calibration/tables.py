@@ -9,6 +9,7 @@ import numpy as np
 from trum_sym.calibration.calibrate import Calibration, FittedParameter
 from trum_sym.inputs.motor import Motor
 from trum_sym.output.json_text import json_text
+from trum_sym.text import one_line
 
 __all__ = ["calibration_json", "calibration_table"]
 
@@ -72,7 +73,7 @@ def calibration_table(found: Calibration, motor: Motor) -> str:
     rows = []
     for e in found.estimates:
         parameter = getattr(motor, e.name) if e.in_motor else None
-        source = parameter.source if parameter is not None else "modelled" if e.in_motor else "of the record"
+        source = one_line(parameter.source) if parameter is not None else "modelled" if e.in_motor else "of the record"
         before = f"{e.before:.6g}" if math.isfinite(e.before) else ""
         ends = f"{e.low:.6g} to {e.high:.6g}" if math.isfinite(e.standard_error) else "open"
         value = f"{e.value:.6g}" if math.isfinite(e.standard_error) else "open"
@@ -88,7 +89,8 @@ def calibration_table(found: Calibration, motor: Motor) -> str:
     unit = "" if found.residual_unit == "1" else f" {found.residual_unit}"
     count = left.count // len(found.observed)
     lines = [
-        f"{motor.name} fitted to {found.data}: {count} rows of {' and '.join(found.observed)}, {found.errors} errors",
+        f"{one_line(motor.name)} fitted to {one_line(found.data)}: "
+        f"{count} rows of {' and '.join(found.observed)}, {found.errors} errors",
         "",
         table,
         "",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import click
 
 from trum_sym.console.calibrate import calibrate
@@ -11,21 +13,34 @@ from trum_sym.console.optimize import optimize
 from trum_sym.console.pareto import pareto
 from trum_sym.console.report import report
 from trum_sym.console.robust import robust
+from trum_sym.console.say import say
 from trum_sym.console.simulate import simulate
 from trum_sym.console.speed_table import speed_table
 from trum_sym.console.streams import spelling_streams
 from trum_sym.console.sweep import sweep
 from trum_sym.console.tolerance import tolerance
+from trum_sym.text import one_line
 
-__all__ = ["main"]
+__all__ = ["main", "outcome"]
 
 
-@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
+class _Group(click.Group):
+    """A group that ends without click's blank line where it is interrupted."""
+
+    def invoke(self, ctx: click.Context) -> Any:  # noqa: ANN401
+        """Run the command."""
+        try:
+            return super().invoke(ctx)
+        except KeyboardInterrupt:
+            raise click.Abort from None
+
+
+@click.group(cls=_Group, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
 @click.version_option(package_name="trum-sym")
 def _cli() -> None:
     """Travelling-wave ultrasonic motors at very low speed (superimposed pulse driving).
 
-    Exit codes: 0 done; 1 the work was done and its answer is no; 2 bad input.
+    Exit codes: 0 done; 1 the work was done and its answer is no; 2 bad input, or no room for the result.
     """
 
 
@@ -45,21 +60,31 @@ for _command in (
     _cli.add_command(_command)
 
 
-def _one_line(message: str) -> str:
-    return " ".join(message.split())
+_REFUSALS = {
+    "can't start new thread": "the system refuses a new thread",
+    "Plugin 'ipopt' is not found": "CasADi cannot load its solver IPOPT",
+}
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run the console; returns the exit code and never lets a traceback through for bad input."""
+    """Run the console; returns the exit code and never lets a traceback through for bad input or surroundings."""
+    code, message = outcome(arguments)
+    if message is not None:
+        say(f"trum-sym: {message}", err=True)
+    return code
+
+
+def outcome(arguments: list[str] | None = None) -> tuple[int, str | None]:
+    """Run the console; returns the exit code, and on one line why it is not 0 where that is not printed yet."""
     import warnings
 
     shown = set()
 
     def show(message: Warning | str, *_: object, **__: object) -> None:
-        text = _one_line(str(message))
+        text = one_line(str(message))
         if text not in shown:
             shown.add(text)
-            click.echo(f"trum-sym: warning: {text}", err=True)
+            say(f"trum-sym: warning: {text}", err=True)
 
     with spelling_streams(), warnings.catch_warnings():
         warnings.simplefilter("always")
@@ -67,33 +92,38 @@ def main(arguments: list[str] | None = None) -> int:
         try:
             result = _cli.main(args=arguments, prog_name="trum-sym", standalone_mode=False)
         except click.exceptions.NoArgsIsHelpError as help_shown:
-            click.echo(help_shown.format_message())
-            return 2
+            say(help_shown.format_message())
+            return 2, None
         except click.ClickException as error:
-            click.echo(f"trum-sym: {_one_line(error.format_message())}", err=True)
-            return 2
+            return 2, one_line(error.format_message())
         except click.Abort:
-            click.echo("trum-sym: interrupted", err=True)
-            return 130
-        except ValueError as error:
-            from trum_sym.errors import ParameterError
+            return 130, "interrupted"
+        except SystemExit:  # click's, where the pipe that it prints to is closed
+            return 141, None
+        except (ValueError, ImportError, RuntimeError, OSError, MemoryError, SystemError) as error:
+            code, message = _of_surroundings(error)
+            return code, one_line(message)
+    return result if isinstance(result, int) else 0, None
 
-            if not isinstance(error, ParameterError):
-                raise
-            click.echo(f"trum-sym: {error}", err=True)
-            return 2
-        except ImportError as error:
-            from trum_sym.errors import MissingExtraError
 
-            if not isinstance(error, MissingExtraError):
-                raise
-            click.echo(f"trum-sym: {error}", err=True)
-            return 2
-        except RuntimeError as error:
-            from trum_sym.errors import ConvergenceError, UnfinishedError
+def _of_surroundings(error: Exception) -> tuple[int, str]:
+    """Exit code and message of what is no fault of this program; raises the rest."""
+    from trum_sym.errors import ConvergenceError, MissingExtraError, ParameterError, UnfinishedError
 
-            if not isinstance(error, ConvergenceError | UnfinishedError):
-                raise
-            click.echo(f"trum-sym: {error}", err=True)
-            return 1
-    return result if isinstance(result, int) else 0
+    if isinstance(error, ConvergenceError | UnfinishedError):
+        return 1, str(error)
+    if isinstance(error, ParameterError | MissingExtraError):
+        return 2, str(error)
+    if isinstance(error, MemoryError | SystemError) or "not enough memory" in str(error):
+        return 2, f"not enough memory, or a library's fault ({type(error).__name__}: {error})"
+    if isinstance(error, OSError):
+        where = f" {error.filename}" if error.filename is not None else ""
+        return 2, f"the system refuses{where}: {error.strerror or error}"
+    if isinstance(error, ImportError):
+        return 2, f"a module cannot be loaded: {error}"
+    if isinstance(error, UnicodeEncodeError) or "embedded null" in str(error):
+        return 2, f"a path that the system does not take: {error}"
+    for words, meaning in _REFUSALS.items():
+        if words in str(error):
+            return 2, meaning
+    raise error

@@ -9,6 +9,7 @@ from typing import Any
 import click
 
 from trum_sym.console.options import chosen_drive, chosen_levels, chosen_motor, number_option, point_options
+from trum_sym.console.say import say
 
 __all__ = ["calibrate"]
 
@@ -74,7 +75,7 @@ def calibrate(
         sampling_period=options["sampling_period"],
         **chosen_levels(options),
     )
-    click.echo(calibration_json(found) if as_json else calibration_table(found, machine))
+    say(calibration_json(found) if as_json else calibration_table(found, machine))
     if found.status != "solved":
         return 1
     if out is not None:
@@ -82,5 +83,5 @@ def calibrate(
 
         write_motor(found.motor, motor, out, "--out")
         if not as_json:
-            click.echo(f"\n{out}: {', '.join(e.name for e in found.estimates if e.in_motor)} calibrated")
+            say(f"\n{out}: {', '.join(e.name for e in found.estimates if e.in_motor)} calibrated")
     return 0

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import click
 
+from trum_sym.console.say import say
+
 __all__ = ["equations"]
 
 
@@ -23,9 +25,9 @@ def equations(equation: str | None, verdict: str | None, severity: str | None, a
     if as_json:
         import json
 
-        click.echo(json.dumps(chosen, indent=1))
+        say(json.dumps(chosen, indent=1))
     elif equation is not None:
-        click.echo(written_out(chosen[0]))
+        say(written_out(chosen[0]))
     else:
-        click.echo(table(chosen))
-        click.echo(f"\n{counted(chosen)}")
+        say(table(chosen))
+        say(f"\n{counted(chosen)}")

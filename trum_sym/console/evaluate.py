@@ -7,6 +7,7 @@ from typing import Any
 import click
 
 from trum_sym.console.options import chosen_drive, chosen_levels, chosen_motor, point_options, tolerance_option
+from trum_sym.console.say import say
 
 __all__ = ["evaluate"]
 
@@ -35,9 +36,9 @@ def evaluate(
     if as_json:
         from trum_sym.console.tables import as_json_text
 
-        click.echo(as_json_text(point))
+        say(as_json_text(point))
     else:
         from trum_sym.console.tables import as_table
 
-        click.echo(as_table(machine, drive, point, {**levels, "sampling_period": period}))
+        say(as_table(machine, drive, point, {**levels, "sampling_period": period}))
     return 0 if point.converged else 1

@@ -8,6 +8,8 @@ from typing import Any
 import click
 
 from trum_sym.console.options import chosen_drive, chosen_levels, chosen_motor, point_options, refuse_sampling_period
+from trum_sym.console.say import say
+from trum_sym.text import one_line
 
 __all__ = ["optimize", "ranges_of"]
 
@@ -78,8 +80,8 @@ def optimize(
         constraints=constraints,
         **chosen_levels(options),
     )
-    title = f"{machine.name}: least {objective}" + (f" at {target_speed}" if target_speed else "")
-    click.echo(as_json_text(found) if as_json else as_table(found, f"{title}, load {drive.load_torque:g} N m"))
+    title = f"{one_line(machine.name)}: least {objective}" + (f" at {target_speed}" if target_speed else "")
+    say(as_json_text(found) if as_json else as_table(found, f"{title}, load {drive.load_torque:g} N m"))
     if plot is not None:
         draw(found, plot, "--plot")
     return 0 if found.status == "solved" else 1

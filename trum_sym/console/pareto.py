@@ -15,6 +15,8 @@ from trum_sym.console.options import (
     point_options,
     refuse_sampling_period,
 )
+from trum_sym.console.say import say
+from trum_sym.text import one_line
 
 __all__ = ["pareto"]
 
@@ -73,6 +75,6 @@ def pareto(
         progress=sys.stderr.isatty(),
         **chosen_levels(options),
     )
-    title = f"{machine.name}: {objective} against {against}" + (f" at {target_speed}" if target_speed else "")
-    click.echo(front.as_json_text() if as_json else front.as_table(f"{title}, load {drive.load_torque:g} N m"))
+    title = f"{one_line(machine.name)}: {objective} against {against}" + (f" at {target_speed}" if target_speed else "")
+    say(front.as_json_text() if as_json else front.as_table(f"{title}, load {drive.load_torque:g} N m"))
     return 0 if front.status == "solved" else 1

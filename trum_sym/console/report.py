@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from trum_sym.console.options import chosen_motor
+from trum_sym.console.say import say
 
 __all__ = ["report"]
 
@@ -25,4 +26,4 @@ def report(folder: Path, motor: str, overrides: tuple[str, ...]) -> None:
 
     check_folder("DIR", folder)
     path = write_report(machine, folder, progress=True)
-    click.echo(f"{path}: {path.stat().st_size / 1e6:.1f} MB, the ledger beside it")
+    say(f"{path}: {path.stat().st_size / 1e6:.1f} MB, the ledger beside it")

@@ -9,6 +9,8 @@ from typing import Any
 import click
 
 from trum_sym.console.options import chosen_drive, chosen_levels, chosen_motor, point_options, refuse_sampling_period
+from trum_sym.console.say import say
+from trum_sym.text import one_line
 
 __all__ = ["robust"]
 
@@ -83,6 +85,6 @@ def robust(
         progress=sys.stderr.isatty(),
         **chosen_levels(options),
     )
-    title = f"{machine.name}: least worst {objective}" + (f" at {target_speed}" if target_speed else "")
-    click.echo(found.as_json_text() if as_json else found.as_table(f"{title}, load {drive.load_torque:g} N m"))
+    title = f"{one_line(machine.name)}: least worst {objective}" + (f" at {target_speed}" if target_speed else "")
+    say(found.as_json_text() if as_json else found.as_table(f"{title}, load {drive.load_torque:g} N m"))
     return 0 if found.status == "solved" else 1

@@ -15,6 +15,7 @@ from trum_sym.console.options import (
     point_options,
     tolerance_option,
 )
+from trum_sym.console.say import say
 
 __all__ = ["simulate"]
 
@@ -60,9 +61,9 @@ def simulate(
     )
     if out is not None:
         write("--out", histories, out)
-        click.echo(f"{out}: {histories.sizes['time']} times of {len(histories.data_vars)} histories")
+        say(f"{out}: {histories.sizes['time']} times of {len(histories.data_vars)} histories")
     else:
         from trum_sym.console.tables import histories_table
 
-        click.echo(histories_table(histories))
+        say(histories_table(histories))
     return 0 if histories.attrs["converged"] else 1

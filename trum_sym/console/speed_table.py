@@ -16,6 +16,7 @@ from trum_sym.console.options import (
     point_options,
     refuse_sampling_period,
 )
+from trum_sym.console.say import say
 
 __all__ = ["speed_table"]
 
@@ -90,11 +91,11 @@ def speed_table(
         progress=sys.stderr.isatty(),
         **chosen_levels(options),
     )
-    click.echo(as_json_text(table) if as_json else as_text(table))
+    say(as_json_text(table) if as_json else as_text(table))
     if not table.segments:
         return 1
     if out is not None:
         table.save(out, "--out")
         if not as_json:
-            click.echo(f"\n{out}: {len(table)} entries")
+            say(f"\n{out}: {len(table)} entries")
     return 0

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from trum_sym.console.options import QuantityType, chosen_levels, chosen_motor, number_option, point_options
+from trum_sym.console.say import say
 
 if TYPE_CHECKING:
     from trum_sym.sweeps.plan import Plan
@@ -88,10 +89,10 @@ def sweep(
         chosen_motor(motor, fixed), Drive(start=options["start"]), levels, None, tolerance, names, chunk, ranges
     )
     if dry_run:
-        click.echo(_estimate(estimate("--out", plan, out, scheduler, chunk is not None), out))
+        say(_estimate(estimate("--out", plan, out, scheduler, chunk is not None), out))
         return
     summary = run("--out", plan, out, scheduler, chunk is not None, sys.stderr)[1]
-    click.echo(f"{out}: {_summary(plan, summary)}")
+    say(f"{out}: {_summary(plan, summary)}")
 
 
 def _is_range(override: str) -> bool:

@@ -14,6 +14,7 @@ from trum_sym.model.operating_point import OperatingPoint
 from trum_sym.output.digits import with_error
 from trum_sym.output.json_text import json_text
 from trum_sym.quantities import QUANTITIES
+from trum_sym.text import one_line
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -87,7 +88,7 @@ def as_table(motor: Motor, drive: Drive, point: OperatingPoint, levels: Mapping[
         paper = difference = source = ""
         if entry is not None:
             theirs = _convert(entry.value, entry.unit, shown)
-            paper, source = f"{theirs:.6g}", entry.source
+            paper, source = f"{theirs:.6g}", one_line(entry.source)
             if np.isfinite(value) and theirs:
                 difference = f"{100 * (_convert(value, unit, shown) / theirs - 1):+.2f} %"
         rows.append((label, ours, error, "" if shown == "1" else shown, paper, difference, source))
@@ -98,7 +99,8 @@ def as_table(motor: Motor, drive: Drive, point: OperatingPoint, levels: Mapping[
         colalign=("left", "right", "left", "left", "right", "right", "left"),
     )
     title = (
-        f"{motor.name} at {drive.prepressure:g} N, {drive.frequency_difference:+g} Hz, {drive.on_periods:g} of "
+        f"{one_line(motor.name)} at "
+        f"{drive.prepressure:g} N, {drive.frequency_difference:+g} Hz, {drive.on_periods:g} of "
         f"{drive.periods:g} periods on, load {drive.load_torque:g} N m\n"
         f"start {point.start}, phase lead {drive.phase_lead:+g}, switching phase {drive.switching_phase:g} rad\n"
         + ", ".join(f"{name} {level}" for name, level in levels.items() if level is not None)

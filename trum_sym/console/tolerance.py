@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from trum_sym.console.options import chosen_drive, chosen_levels, chosen_motor, number_option, point_options
+from trum_sym.console.say import say
 
 if TYPE_CHECKING:
     from trum_sym.model.operating_point import OperatingPoint
 
 __all__ = ["tolerance"]
 
+_MAX_BYTES = 10_000_000  # of an optimiser's point
 _OF_POINT = ("prepressure", "frequency_difference", "periods", "on_periods")
 
 
@@ -112,7 +114,7 @@ def tolerance(
         draw("--plot", study, plot)
     from trum_sym.uncertainty.tables import as_json_text, as_text
 
-    click.echo(as_json_text(study) if as_json else as_text(study))
+    say(as_json_text(study) if as_json else as_text(study))
 
 
 def _chosen(vary: tuple[str, ...]) -> dict[str, str | None]:
@@ -137,13 +139,14 @@ def _take_point(path: Path, options: dict[str, Any]) -> float | None:
     from trum_sym.errors import ParameterError
     from trum_sym.inputs.checks import number
     from trum_sym.inputs.domain import Domain
+    from trum_sym.inputs.reading import read_text
 
     context = click.get_current_context()
     for name in _OF_POINT:
         if context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE:
             raise ParameterError(f"--{name.replace('_', '-')}", options[name], "no value here: --point FILE gives it")
     try:
-        found = json.loads(path.read_text("utf-8"))
+        found = json.loads(read_text(path, _MAX_BYTES))
     except (OSError, ValueError, RecursionError) as error:
         reason = error.strerror if isinstance(error, OSError) else "not JSON"
         raise ParameterError("--point", str(path), f"a file that trum-sym optimize --json wrote ({reason})") from None

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from trum_sym.errors import ParameterError
+from trum_sym.inputs.reading import opened
 
 __all__ = ["Table", "plain_number", "read_table", "read_text"]
 
@@ -49,7 +50,7 @@ def read_text(name: str, path: Path, what: str, limit: int = _MAX_BYTES) -> str:
         If it cannot be read, is larger or not UTF-8.
     """
     try:
-        with path.open("rb") as file:
+        with opened(path) as file:
             content = file.read(limit + 1)
     except FileNotFoundError:
         raise

@@ -13,6 +13,7 @@ from trum_sym.inputs.checks import Array, number
 from trum_sym.inputs.domain import Domain, Spec
 from trum_sym.inputs.units import parse_quantity
 from trum_sym.output.json_text import finite
+from trum_sym.values import Value
 
 __all__ = ["KINDS", "Distribution", "checked", "from_text"]
 
@@ -29,8 +30,8 @@ _LONGEST = 1000  # characters of a text
 _LEAST = 2.0**-53  # the lowest level that is drawn, and the distance of the highest from 1
 
 
-@dataclass(frozen=True)
-class Distribution:
+@dataclass(frozen=True, eq=False)
+class Distribution(Value):
     """The distribution of one uncertain parameter, in its SI unit.
 
     Attributes

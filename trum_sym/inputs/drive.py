@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 from trum_sym.errors import ParameterError
 from trum_sym.inputs.choices import choice
 from trum_sym.inputs.domain import Domain
+from trum_sym.values import Value
 
 if TYPE_CHECKING:
     from trum_sym.inputs.checks import ArrayLike
@@ -29,8 +30,8 @@ def _quantity(default: float, unit: str, domain: Domain, text: str, metavar: str
     return field(default=default, metadata=about)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Drive:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Drive(Value):
     """One drive of the superimposed pulse method; numbers broadcast against each other.
 
     The defaults are the paper's Table 3.

@@ -18,6 +18,7 @@ from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import DRIVE_DOMAINS, LEAD
 from trum_sym.inputs.units import Unit, parse_unit, unit_for
 from trum_sym.quantities import QUANTITIES
+from trum_sym.values import Value
 
 __all__ = ["INPUTS", "SIGNALS", "UNCERTAINTY", "Measurements", "from_columns", "read_measurements", "table_of"]
 
@@ -36,8 +37,8 @@ _POSITIVE = (
 )
 
 
-@dataclass(frozen=True)
-class Measurements:
+@dataclass(frozen=True, eq=False)
+class Measurements(Value):
     """Columns of one length, in SI units, by name.
 
     Attributes
@@ -109,7 +110,7 @@ def from_columns(name: str, columns: Mapping[str, object], units: Mapping[str, s
         if length != next(iter(lengths.values())):
             first = next(iter(lengths))
             raise ParameterError(column, f"{length} rows", f"as many as {first}, {lengths[first]}")
-    data = Measurements(name, MappingProxyType(checked), MappingProxyType(dict(units)), synthetic)
+    data = Measurements(name, checked, units, synthetic)
     _check_columns(data)
     return data
 

@@ -15,6 +15,7 @@ from trum_sym.inputs.distributions import Distribution
 from trum_sym.inputs.domain import Domain, Spec
 from trum_sym.inputs.plausible import warn_implausible, warn_outside_range
 from trum_sym.inputs.units import parse_quantity
+from trum_sym.values import Value
 
 __all__ = ["SPECS", "Motor", "Parameter", "Published", "spec"]
 
@@ -27,8 +28,8 @@ _POISSON = Domain(low=-1.0, high=0.5, high_open=False)
 _REAL = Domain()
 
 
-@dataclass(frozen=True)
-class Parameter:
+@dataclass(frozen=True, eq=False)
+class Parameter(Value):
     """One value of a motor file.
 
     Attributes
@@ -78,8 +79,8 @@ def _optional(unit: str, symbol: str, domain: Domain = _POSITIVE) -> Any:  # noq
     return field(default=None, metadata={"spec": Spec(unit, symbol, domain, required=False)})
 
 
-@dataclass(frozen=True)
-class Published:
+@dataclass(frozen=True, eq=False)
+class Published(Value):
     """A figure that a publication states for one drive, to be shown beside ours."""
 
     output: str
@@ -89,8 +90,8 @@ class Published:
     drive: Mapping[str, float]
 
 
-@dataclass(frozen=True, kw_only=True)
-class Motor:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Motor(Value):
     """A travelling-wave rotary ultrasonic motor: every number with unit and source.
 
     The names are those of the motor file and of ``--set``.  The last five are optional: a measured

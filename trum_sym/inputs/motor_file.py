@@ -5,7 +5,6 @@ from __future__ import annotations
 import tomllib
 from os import PathLike
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 
 from trum_sym.errors import ParameterError
@@ -21,6 +20,7 @@ from trum_sym.quantities import QUANTITIES
 
 __all__ = ["load_motor", "motor_text"]
 
+_MAX_BYTES = 1_000_000  # of a motor file: two hundred times the shipped one
 _KEYS = (
     "value",
     "unit",
@@ -166,7 +166,7 @@ def _read_published(entry: object) -> Published:
         domain, drive_unit = DRIVE_DOMAINS[name]
         bare = _in_si(f"published.drive.{name}", value, parse_unit(drive_unit), drive_unit)
         number(f"published.drive.{name}", bare, domain, drive_unit)
-    return Published(**{**entry, "drive": MappingProxyType(entry["drive"])})
+    return Published(**entry)
 
 
 def motor_text(source: str | PathLike[str]) -> str:

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import warnings
+
 import numpy as np
 
-from trum_sym.errors import ParameterError
+from trum_sym.errors import ParameterError, ValidityWarning
 from trum_sym.inputs.checks import ArrayLike
 from trum_sym.inputs.drive import Drive
 from trum_sym.model.batch import call_in_blocks
 from trum_sym.model.kernels import call
 
-__all__ = ["check_steady_state", "cycle_sums", "modal_values", "response", "scaled"]
+__all__ = ["check_steady_state", "cycle_sums", "modal_values", "response", "scaled", "warn_next_to_resonance"]
 
 _MIN_REPETITION = 1e-9
+_FREE = 10.0  # times the forced amplitude: the free vibration of TRUM-60 is at most twice that
+_BEAT = 1e-2  # of a beat in a cycle: the drive is at the resonance as far as the cycle can tell
 PANELS_PER_PERIOD = 2
 
 
@@ -57,6 +61,29 @@ def modal_values(
             "more damping, another frequency_difference or periods, or start = steady or rest",
         )
     return {**values, **start}
+
+
+def warn_next_to_resonance(values: dict[str, ArrayLike]) -> None:
+    """Warn where a lack of damping, not the motor, makes the figures; ``values`` are those of :func:`modal_values`.
+
+    That is without damping less than a hundredth of a beat from the resonance, where a cycle has no steady state, and
+    where a cycle repeats its own free vibration so nearly that it grows to ten times the forced one.
+    """
+    omega, difference, damping = (np.asarray(values[name]) for name in ("omega_n", "Delta_omega", "xi"))
+    with np.errstate(all="ignore"):
+        beats = np.abs(difference) * np.asarray(values["m"]) / (omega + difference)
+        free = [np.hypot(values[f"a_{phase}"], values[f"b_{phase}"] / omega) for phase in ("A", "B")]
+        times = np.maximum(*free) / np.asarray(values["W"])
+    if np.any((damping == 0) & (beats < _BEAT)):
+        message = "damping_ratio: 0 so near the resonance, where an undamped drive has no steady state"
+    elif np.any(times > _FREE):
+        message = (
+            f"damping_ratio: so little that the free vibration is {np.max(times):.3g} times the forced one, for a "
+            "cycle repeats it nearly in phase"
+        )
+    else:
+        return
+    warnings.warn(f"{message}; the figures are the lack of damping's, not a motor's", ValidityWarning, stacklevel=4)
 
 
 def scaled(values: dict[str, ArrayLike], amplitude: ArrayLike) -> dict[str, ArrayLike]:

@@ -19,6 +19,7 @@ from trum_sym.model.kernels import call
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.model.operating_point import Case, OperatingPoint, settle
 from trum_sym.model.rotor import RUNAWAY, history, solve_orbit
+from trum_sym.text import one_line, plain
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -181,9 +182,9 @@ def _attributes(
     motor, drive, levels = case.motor, case.drive, case.levels
     figures = {name: value for name, value in point.as_dict().items() if name not in ("motor", "converged")}
     attributes = {
-        "title": f"{motor.name}: time histories on the periodic orbit",
+        "title": f"{one_line(motor.name)}: time histories on the periodic orbit",
         "source": f"trum-sym {version('trum-sym')}",
-        "motor": motor.name,
+        "motor": plain(motor.name),
         **drive.numbers(),
         "start": drive.start,
         "contact": levels.contact,
@@ -196,5 +197,5 @@ def _attributes(
         "runaway": int(point.reason == RUNAWAY),
     }
     for name, parameter in motor.parameters():
-        attributes[f"motor_{name}"] = f"{float(parameter.value):.12g} {parameter.unit} ({parameter.source})"
+        attributes[f"motor_{name}"] = f"{float(parameter.value):.12g} {parameter.unit} ({plain(parameter.source)})"
     return {name: value if isinstance(value, str | int) else float(value) for name, value in attributes.items()}  # type: ignore[arg-type]

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, fields
 from typing import Any, Literal, TypedDict, get_args
 
 from trum_sym.inputs.choices import choice
+from trum_sym.values import Value
 
 __all__ = ["AMPLITUDES", "CONTACTS", "FOUNDATIONS", "LEVEL_NAMES", "RESONANCES", "LevelChoice", "Levels"]
 
@@ -36,8 +37,8 @@ def _level(words: tuple[str, ...], text: str) -> Any:  # noqa: ANN401
     return field(default=words[0], metadata={"words": words, "text": text})
 
 
-@dataclass(frozen=True)
-class Levels:
+@dataclass(frozen=True, eq=False)
+class Levels(Value):
     """Which level of each part of the model to use; the first word of each is its default.
 
     Attributes

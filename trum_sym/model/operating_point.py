@@ -13,11 +13,12 @@ from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
 from trum_sym.inputs.points import check_point, numbers_of, one_number, period_of
-from trum_sym.model.cycle import check_steady_state, cycle_sums, modal_values, scaled
+from trum_sym.model.cycle import check_steady_state, cycle_sums, modal_values, scaled, warn_next_to_resonance
 from trum_sym.model.kernels import call
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.model.rotor import Orbit, encoder_deviation, history, orbit_values, reasons, solve_orbit
 from trum_sym.model.stator import Stator, solve_stator
+from trum_sym.values import Value
 
 __all__ = [
     "OF_CYCLE",
@@ -63,8 +64,8 @@ TOLERANCES = Domain(low=1e-9, low_open=False, high=1e-2, high_open=False)
 _ENCODER_SAMPLES = 64  # per drive period, of the path that the encoder differences
 
 
-@dataclass(frozen=True, kw_only=True)
-class OperatingPoint:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class OperatingPoint(Value):
     """What the motor does at a drive; SI units, frequencies in Hz, speeds in rad/s.
 
     Every number is a float, or an array of the inputs' common shape.
@@ -249,6 +250,8 @@ def prepare(
     check_steady_state(motor.damping_ratio.value, drive)
     stator = solve_stator(motor, drive, levels, warn=warn)
     values = modal_values(stator.omega_n, motor.damping_ratio.value, drive)
+    if warn:
+        warn_next_to_resonance(values)
     symbols = {**motor.symbols(), **stator.values, **drive.symbols()}
     arguments = orbit_values(scaled(values, stator.W), symbols, levels.contact, tolerance)
     return Case(motor, drive, levels, shape, stator, values, symbols, arguments, sampling_period)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import ast
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from difflib import get_close_matches
 from fractions import Fraction
 from types import MappingProxyType
@@ -20,6 +20,7 @@ from trum_sym.errors import ParameterError, shorten
 from trum_sym.inputs.units import Dimension, Kind, parse_quantity, parse_unit
 from trum_sym.optimiser.extra import casadi
 from trum_sym.quantities import QUANTITIES
+from trum_sym.values import Value
 
 __all__ = ["VARIABLES", "Constraint", "Expression", "parse_constraint", "parse_expression"]
 
@@ -44,8 +45,8 @@ _LONGEST = 500
 _DEEPEST = 50
 
 
-@dataclass(frozen=True)
-class Expression:
+@dataclass(frozen=True, eq=False)
+class Expression(Value):
     """Arithmetic on figures.
 
     Attributes
@@ -61,13 +62,18 @@ class Expression:
     """
 
     text: str
-    graph: Any
+    graph: Any = field(repr=False, compare=False)
     names: frozenset[str]
     unit: str
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        names = sorted(self.names)
+        symbols = [_SYMBOLS[name] for name in names]
+        return _expression, (self.text, casadi.Function("graph", symbols, [self.graph]).serialize(), names, self.unit)
 
-@dataclass(frozen=True)
-class Constraint:
+
+@dataclass(frozen=True, eq=False)
+class Constraint(Value):
     """An expression with bounds in its SI unit; equal ones ask for a value."""
 
     expression: Expression
@@ -84,6 +90,12 @@ class Constraint:
 
 
 _SYMBOLS = {name: casadi.SX.sym(name) for name in VARIABLES}
+
+
+def _expression(text: str, graph: str, names: list[str], unit: str) -> Expression:
+    """An expression out of a pickle or a copy, in the symbols of this process."""
+    found = casadi.Function.deserialize(graph)(*(_SYMBOLS[name] for name in names))
+    return Expression(text, found, frozenset(names), unit)
 
 
 def symbol(name: str) -> Any:  # noqa: ANN401

@@ -22,6 +22,7 @@ from trum_sym.model.rotor import Orbit, solve_orbit
 from trum_sym.model.sensitivities import orbit_with_slopes
 from trum_sym.optimiser.expressions import Expression, symbol
 from trum_sym.optimiser.extra import casadi
+from trum_sym.values import Value
 
 __all__ = ["Box", "Functions", "Model", "functions"]
 
@@ -35,8 +36,8 @@ _PHASE_STEP = 4e-3  # of orbits', rad
 _FINEST = 1e-9
 
 
-@dataclass(frozen=True)
-class Box:
+@dataclass(frozen=True, eq=False)
+class Box(Value):
     """Where the variables may be; each an entry of :class:`trum_sym.Drive`."""
 
     names: tuple[str, ...]

@@ -10,6 +10,7 @@ from trum_sym.inputs.units import parse_unit
 from trum_sym.output.digits import with_error
 from trum_sym.output.json_text import finite, json_text
 from trum_sym.quantities import QUANTITIES
+from trum_sym.values import Value
 
 if TYPE_CHECKING:
     from trum_sym.optimiser.solve import Problem
@@ -17,8 +18,8 @@ if TYPE_CHECKING:
 __all__ = ["Evidence", "Optimum", "as_json_text", "as_table"]
 
 
-@dataclass(frozen=True, kw_only=True)
-class Evidence:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Evidence(Value):
     """Why the answer is to be believed.
 
     Attributes
@@ -55,8 +56,8 @@ class Evidence:
     reachable_speed: tuple[float, float] | None
 
 
-@dataclass(frozen=True, kw_only=True)
-class Optimum:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Optimum(Value):
     """An operating point under constraints; SI units, frequencies in Hz, speeds in rad/s.
 
     Attributes

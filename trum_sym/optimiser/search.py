@@ -349,7 +349,7 @@ def _optimum(
         evaluations=evaluations,
         message=_message(status, objective, target, answer, reachable),
         evidence=evidence,
-        figures=MappingProxyType(dict(figures)),
+        figures=figures,
         problem=problem,
     )
 

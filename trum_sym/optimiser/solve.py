@@ -18,6 +18,7 @@ from trum_sym.optimiser.extra import casadi
 from trum_sym.optimiser.finish import ALLOWED, Bounds, Finished, checked, finish
 from trum_sym.optimiser.kinks import compass, stationarity
 from trum_sym.optimiser.model import Box, Functions, Model, functions
+from trum_sym.values import Value
 
 __all__ = ["Answer", "Problem", "solve"]
 
@@ -28,8 +29,8 @@ _STEPS = 60  # of a bisection
 _STATIONARY = 3e-3  # slope of the scaled objective across the box that is left to a minimum
 
 
-@dataclass(frozen=True)
-class Problem:
+@dataclass(frozen=True, eq=False)
+class Problem(Value):
     """Least objective in a box under constraints, for a motor and what of its drive does not vary."""
 
     motor: Motor

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
 from typing import TextIO, TypeVar
 
 __all__ = ["Progress", "duration", "said", "shown"]
@@ -87,13 +88,16 @@ class Progress:
         """Show where things are, if it is time to."""
         if self._stream and time.monotonic() - self._shown >= (_TERMINAL if self._terminal else _LOG):
             self._shown = time.monotonic()
-            end = "" if self._terminal else "\n"
-            print(("\r\x1b[K" if self._terminal else "") + self.line(), end=end, file=self._stream, flush=True)
+            self._print("" if self._terminal else "\n")
 
     def close(self) -> None:
         """The last line."""
         if self._stream:
-            print(("\r\x1b[K" if self._terminal else "") + self.line(), file=self._stream, flush=True)
+            self._print("\n")
+
+    def _print(self, end: str) -> None:
+        with suppress(OSError):  # what cannot be told does not stop the work
+            print(("\r\x1b[K" if self._terminal else "") + self.line(), end=end, file=self._stream, flush=True)
 
     def line(self) -> str:
         """Where things are, in words."""

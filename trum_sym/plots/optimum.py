@@ -18,6 +18,8 @@ from trum_sym.optimiser.model import functions
 from trum_sym.optimiser.result import Optimum
 from trum_sym.optimiser.solve import Problem
 from trum_sym.output.files import check_target, write_bytes
+from trum_sym.plots.style import without_tex
+from trum_sym.text import one_line
 
 __all__ = ["SUFFIXES", "draw"]
 
@@ -30,6 +32,7 @@ _AXES = {
 }
 
 
+@without_tex
 def draw(optimum: Optimum, target: Path, name: str = "plot") -> None:
     """Write the picture; of three variables, the plane of the first two through the optimum.
 
@@ -66,8 +69,10 @@ def draw(optimum: Optimum, target: Path, name: str = "plot") -> None:
     _optima(axes, optimum, problem)
     drive = problem.drive
     pulses = f"{drive.on_periods:g} of {drive.periods:g} periods on"
-    title = f"{problem.motor.name}, load {drive.load_torque:g} N m, {pulses}\n{optimum.status}: {optimum.message}"
-    axes.set_title(title, fontsize=9, wrap=True)
+    title = (
+        f"{one_line(problem.motor.name)}, load {drive.load_torque:g} N m, {pulses}\n{optimum.status}: {optimum.message}"
+    )
+    axes.set_title(title, fontsize=9, wrap=True, parse_math=False)
     figure.legend(loc="outside lower center", ncols=2, fontsize=8, frameon=False)
     content = BytesIO()
     figure.savefig(content, format=target.suffix[1:], dpi=150)

@@ -8,20 +8,36 @@ from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 from functools import wraps
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ParamSpec, TypeAlias
+from typing import TYPE_CHECKING, Any, ParamSpec, TypeAlias, TypeVar
+from xml.sax.saxutils import escape
 
 import numpy as np
 
 from trum_sym.errors import MissingExtraError, ParameterError
+from trum_sym.output.files import write_bytes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["COLOURS", "GRID", "INK", "Panels", "blank", "figure_of", "legend", "panels", "save", "styled", "svg"]
+__all__ = [
+    "COLOURS",
+    "GRID",
+    "INK",
+    "Panels",
+    "blank",
+    "figure_of",
+    "legend",
+    "panels",
+    "save",
+    "styled",
+    "svg",
+    "without_tex",
+]
 
 Panels: TypeAlias = "Axes | Sequence[Axes] | None"
 P = ParamSpec("P")
+T = TypeVar("T")
 _BACKGROUND = '</title><rect width="100%" height="100%" fill="white"/>'
 
 # Okabe and Ito's colours, in an order in which neighbours also differ in lightness
@@ -52,6 +68,7 @@ _RC: dict[Any, Any] = {
     "legend.handlelength": 1.6,
     "lines.linewidth": 1.2,
     "text.color": INK,
+    "text.usetex": False,
     "xtick.color": INK,
     "ytick.color": INK,
     "svg.fonttype": "none",
@@ -75,6 +92,27 @@ def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
             return draw(*arguments, **options)
 
     return in_style
+
+
+def without_tex(draw: Callable[P, T]) -> Callable[P, T]:
+    """Draw without TeX, whatever a ``matplotlibrc`` in the folder says: a motor's name is no program.
+
+    Raises
+    ------
+    MissingExtraError
+        Without matplotlib.
+    """
+
+    @wraps(draw)
+    def drawn(*arguments: P.args, **options: P.kwargs) -> T:
+        try:
+            import matplotlib
+        except ImportError as error:
+            raise MissingExtraError("a picture", str(error.name), "report") from None
+        with matplotlib.rc_context({"text.usetex": False}):
+            return draw(*arguments, **options)
+
+    return drawn
 
 
 def _style() -> AbstractContextManager[None]:
@@ -169,7 +207,7 @@ def save(figure: Figure, target: Path) -> None:
     element = svg(figure, target.stem, target.stem)
     space = ' xmlns="http://www.w3.org/2000/svg"'
     opened = element.replace("<svg", f"<svg{space}", 1).replace("</title>", _BACKGROUND, 1)
-    target.write_text(opened + "\n", encoding="utf-8", newline="\n")
+    write_bytes("picture", f"{opened}\n".encode(), target)
 
 
 def svg(figure: Figure, salt: str, title: str) -> str:
@@ -200,5 +238,6 @@ def svg(figure: Figure, salt: str, title: str) -> str:
     element = re.sub(
         r'width="[^"]+pt" height="[^"]+pt" ', "", re.sub(r"<!--.*?-->\s*", "", element, flags=re.S), count=1
     )
-    label = title.replace("&", "&amp;").replace("<", "&lt;")
-    return re.sub(r"<svg([^>]*)>", rf'<svg\1 role="img"><title>{label}</title>', element, count=1).strip()
+    opened = re.search(r"<svg[^>]*", element)
+    assert opened is not None
+    return f'{opened[0]} role="img"><title>{escape(title)}</title>{element[opened.end() + 1 :]}'.strip()

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from trum_sym.errors import MissingExtraError
-from trum_sym.output.files import check_target, replaced
+from trum_sym.output.files import check_target, write_bytes
+from trum_sym.plots.style import without_tex
 from trum_sym.quantities import QUANTITIES
+from trum_sym.text import one_line
 from trum_sym.uncertainty.propagation import CONFIDENCE, Estimate, Indices
 from trum_sym.uncertainty.result import BALANCED, MISSED, Study
 from trum_sym.uncertainty.tables import label, shown
@@ -39,6 +42,7 @@ def check_picture(name: str, target: Path) -> None:
         raise MissingExtraError("a picture", "matplotlib", "report") from None
 
 
+@without_tex
 def draw(name: str, study: Study, target: Path) -> None:
     """Write the picture, whole or not at all.
 
@@ -69,11 +73,14 @@ def draw(name: str, study: Study, target: Path) -> None:
     rows[-1][1].set_xlabel(f"Sobol index, interval at {100 * CONFIDENCE:g} %")
     drive = study.drive
     figure.suptitle(
-        f"{study.motor.name}, {drive.prepressure:g} N, {drive.frequency_difference:+g} Hz, {drive.on_periods:g} of "
-        f"{drive.periods:g} periods on, load {drive.load_torque:g} N m; {study.samples} samples, seed {study.seed}"
+        f"{one_line(study.motor.name)}, "
+        f"{drive.prepressure:g} N, {drive.frequency_difference:+g} Hz, {drive.on_periods:g} of "
+        f"{drive.periods:g} periods on, load {drive.load_torque:g} N m; {study.samples} samples, seed {study.seed}",
+        parse_math=False,
     )
-    with replaced(name, target) as beside:
-        figure.savefig(beside, dpi=120)
+    content = BytesIO()
+    figure.savefig(content, format=target.suffix[1:], dpi=120)
+    write_bytes(name, content.getvalue(), target)
 
 
 def _title(study: Study, output: str) -> str:

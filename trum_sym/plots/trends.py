@@ -16,6 +16,7 @@ from trum_sym.model.operating_point import OperatingPoint, evaluate
 from trum_sym.paper.cycle import READINGS, solve
 from trum_sym.paper.published import BOX, ENCODER, TABLE_5
 from trum_sym.plots.style import COLOURS, INK, Panels, figure_of, panels, styled
+from trum_sym.text import one_line
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -183,4 +184,11 @@ def _print_marks(axes: Axes, motor: Motor | None, drive: Drive, variable: Variab
         same = all(settings[name] == value for name, value in entry.drive.items() if name != variable)
         if entry.output == measure.name and variable in entry.drive and same:
             size = parse_unit(entry.unit).to_si(entry.value) / measure.unit
-            axes.plot([entry.drive[variable]], [size], "*", color=INK, markersize=8, label=entry.source)
+            axes.plot(
+                [entry.drive[variable]],
+                [size],
+                "*",
+                color=INK,
+                markersize=8,
+                label=one_line(entry.source).replace("$", r"\$"),
+            )

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import stat
 import tempfile
 from pathlib import Path
 
 from trum_sym.errors import ParameterError
 from trum_sym.inputs.motor import Motor
-from trum_sym.output.files import write_bytes
+from trum_sym.output.files import found, write_bytes
 from trum_sym.paper.ledger import ledger_page
 from trum_sym.report.page import page
 
@@ -22,7 +23,8 @@ def check_folder(name: str, folder: Path) -> None:
     ParameterError
         For a file, or a folder that is not ours to write in.
     """
-    if folder.exists() and not folder.is_dir():
+    there = found(name, folder)
+    if there is not None and not stat.S_ISDIR(there.st_mode):
         raise ParameterError(name, str(folder), "a folder; this is a file")
     try:
         folder.mkdir(parents=True, exist_ok=True)

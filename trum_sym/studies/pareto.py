@@ -25,6 +25,7 @@ from trum_sym.optimiser.solve import Answer, Problem, solve
 from trum_sym.output.json_text import json_text
 from trum_sym.output.progress import shown
 from trum_sym.studies.posed import Bound, posed
+from trum_sym.values import Value
 
 __all__ = ["AGAINST", "ParetoFront", "ParetoPoint", "pareto"]
 
@@ -33,8 +34,8 @@ _COUNT = Domain(low=3, low_open=False, high=201, high_open=False, integer=True)
 _SAME = 1e-6  # points whose two figures agree to this share of the front are one
 
 
-@dataclass(frozen=True, kw_only=True)
-class ParetoPoint:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ParetoPoint(Value):
     """A point of a front that no other point of it beats in both figures; SI units.
 
     ``objective`` and ``against`` are the two figures; ``figures`` has all of the point.
@@ -51,8 +52,8 @@ class ParetoPoint:
     figures: Mapping[str, float]
 
 
-@dataclass(frozen=True, kw_only=True)
-class ParetoFront:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ParetoFront(Value):
     """A front, from the least ``objective`` to the best ``against``.
 
     Attributes

@@ -25,6 +25,7 @@ from trum_sym.output.json_text import json_text
 from trum_sym.output.progress import shown
 from trum_sym.studies.minimax import Minimax, Outcome
 from trum_sym.studies.posed import Bound, posed
+from trum_sym.values import Value
 
 __all__ = ["RobustCase", "RobustPoint", "robust"]
 
@@ -35,8 +36,8 @@ Tolerance = float | str | tuple[float | str, float | str]
 _T = TypeVar("_T")
 
 
-@dataclass(frozen=True, kw_only=True)
-class RobustCase:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class RobustCase(Value):
     """One case at the robust point: what differs from the nominal case, and its figures, SI units."""
 
     changed: Mapping[str, float]
@@ -47,8 +48,8 @@ class RobustCase:
     violation: float
 
 
-@dataclass(frozen=True, kw_only=True)
-class RobustPoint:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class RobustPoint(Value):
     """The point of a box whose worst case is the best.
 
     Attributes
@@ -241,7 +242,7 @@ def _cases(
     if samples is None:
         corners = itertools.product(*ranges.values())
         return [{}, *(dict(zip(ranges, corner, strict=True)) for corner in corners)]
-    if isinstance(samples, str | Mapping) or not 1 <= len(samples) <= _MOST_SAMPLES:
+    if not isinstance(samples, Sequence) or isinstance(samples, str) or not 1 <= len(samples) <= _MOST_SAMPLES:
         raise ParameterError("samples", samples, f"1 to {_MOST_SAMPLES} mappings of names to values")
     found: list[dict[str, float]] = [{}]
     for sample in samples:

@@ -14,14 +14,16 @@ from trum_sym.inputs.choices import path_of
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.points import one_number
 from trum_sym.inputs.units import ARCSEC
+from trum_sym.text import one_line
+from trum_sym.values import Value
 
 __all__ = ["Gap", "Segment", "SpeedTable"]
 
 _ALWAYS = {"prepressure": "N", "frequency_difference": "Hz", "drive_frequency": "Hz"}
 
 
-@dataclass(frozen=True, kw_only=True)
-class Segment:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Segment(Value):
     """A stretch of speeds along which the drive varies continuously; arrays of one length, speeds rising.
 
     Speeds and their standard deviation in rad/s, drive frequency in Hz; ``drive`` has what varies, in SI units.
@@ -33,8 +35,8 @@ class Segment:
     drive: Mapping[str, Array]
 
 
-@dataclass(frozen=True)
-class Gap:
+@dataclass(frozen=True, eq=False)
+class Gap(Value):
     """Speeds that the table does not have, rad/s, and why."""
 
     low: float
@@ -42,8 +44,8 @@ class Gap:
     reason: str
 
 
-@dataclass(frozen=True, kw_only=True)
-class SpeedTable:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class SpeedTable(Value):
     """The drive against the mean speed.
 
     Attributes
@@ -121,7 +123,7 @@ class SpeedTable:
         held = "" if len(self.variables) == 2 else f"{self.held()}, "
         phase = "" if "switching_phase" in self.variables else f", switching phase {drive.switching_phase:g} rad"
         lines = [
-            f"speed table of {self.motor}: {held}load {drive.load_torque:g} N m, {drive.on_periods:g} of "
+            f"speed table of {one_line(self.motor)}: {held}load {drive.load_torque:g} N m, {drive.on_periods:g} of "
             f"{drive.periods:g} periods on, start {drive.start}, phase lead {drive.phase_lead:+g}" + phase,
             f"linear interpolation between entries meets the speed within {100 * self.error:g} % "
             f"(of {self.floor / ARCSEC:.6g} arcsec/s where it is slower); largest error seen "

@@ -10,8 +10,15 @@ import numpy as np
 
 from trum_sym.inputs.checks import Array
 from trum_sym.inputs.units import ARCSEC
+from trum_sym.output.c_text import EXACT_ARITHMETIC, as_comment
+from trum_sym.text import one_line
 
 __all__ = ["Rows", "as_c", "as_csv"]
+
+
+def _as_text(line: str) -> str:
+    """A comment that no spreadsheet reads a formula or a quoted cell in: a blank follows every separator."""
+    return re.sub(r"([,;])(?=\S)", r"\1 ", one_line(line)).replace('"', "'")
 
 
 class Rows(NamedTuple):
@@ -36,7 +43,7 @@ def as_csv(about: Sequence[str], columns: Mapping[str, str], segments: Sequence[
     """
     names = (f"{name} [{unit}]" for name, unit in columns.items())
     header = ["segment", "mean_speed [arcsec/s]", *names, "speed_deviation [arcsec/s]"]
-    lines = [*(f"# {line}" for line in about), ",".join(header)]
+    lines = [*(f"# {_as_text(line)}" for line in about), ",".join(header)]
     for number, segment in enumerate(segments, 1):
         entries = [segment.speed / ARCSEC, *segment.values, segment.deviation / ARCSEC]
         lines += [",".join([str(number), *(f"{value:.15g}" for value in row)]) for row in zip(*entries, strict=True)]
@@ -59,10 +66,11 @@ def as_c(name: str, about: Sequence[str], columns: Mapping[str, str], segments: 
     begins = np.cumsum([0, *(segment.speed.size for segment in segments)])
     speeds = [value for segment in segments for value in segment.speed]
     rows = [row for segment in segments for row in zip(*segment.values, strict=True)]
-    comment = "\n".join(f" * {line}" for line in about).replace("*/", "* /")
+    comment = "\n".join(f" * {as_comment(line)}" for line in about)
     places = (f"#define {upper}_{column.upper()} {k} /* {unit} */" for k, (column, unit) in enumerate(columns.items()))
     return _C_TEXT.format(
         about=comment,
+        exact="\n".join(EXACT_ARITHMETIC),
         name=name,
         upper=upper,
         places="\n".join(places),
@@ -81,6 +89,8 @@ _C_TEXT = """\
  */
 #ifndef {upper}_H
 #define {upper}_H
+
+{exact}
 
 {places}
 #define {upper}_COLUMNS {columns}

@@ -24,6 +24,7 @@ from trum_sym.model.stator import warn_outside_fit
 from trum_sym.quantities import ERRORS, QUANTITIES
 from trum_sym.sweeps.grid import PARAMETERS, Grid, chunk_shape, read_ranges
 from trum_sym.sweeps.task import STATUS, Settings, Task, identity, sort_out
+from trum_sym.text import one_line, plain
 
 __all__ = ["Plan", "make_plan"]
 
@@ -103,9 +104,9 @@ class Plan:
         period = settings.sampling_period
         numbers: dict[str, Any] = {**settings.numbers, "sampling_period": "none" if period is None else period}
         found: dict[str, str | float] = {
-            "title": f"{motor.name}: {', '.join(settings.outputs)} over {', '.join(swept)}",
+            "title": f"{one_line(motor.name)}: {', '.join(settings.outputs)} over {', '.join(swept)}",
             **identity(),
-            "motor": motor.name,
+            "motor": plain(motor.name),
             **{name: value for name, value in numbers.items() if name not in swept},
             "start": settings.start,
             "contact": levels.contact,
@@ -117,7 +118,7 @@ class Plan:
         }
         for name, parameter in motor.parameters():
             if name not in swept:
-                found[f"motor_{name}"] = f"{parameter.value!r} {parameter.unit} ({parameter.source})"
+                found[f"motor_{name}"] = f"{parameter.value!r} {parameter.unit} ({plain(parameter.source)})"
         found["motor_file"] = motor.text
         found["motor_file_sha256"] = hashlib.sha256(motor.text.encode()).hexdigest()
         beside = [name for axis in self.grid.axes for name in axis.values if name != axis.name]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import stat
 import sys
 import time
 from collections.abc import Iterator, Sequence
@@ -146,7 +147,7 @@ def check_out(name: str, target: Path | None) -> None:
     ------
     ParameterError, MissingExtraError
     """
-    from trum_sym.output.files import SUFFIXES, check_packages, check_target
+    from trum_sym.output.files import SUFFIXES, check_packages, check_target, found
 
     if target is None:
         return
@@ -157,9 +158,11 @@ def check_out(name: str, target: Path | None) -> None:
     if target.suffix != ".zarr":
         check_target(name, target)
         check_packages(target)
-    elif target.exists() and not target.is_dir():
+        return
+    there = found(name, target)
+    if there is not None and not stat.S_ISDIR(there.st_mode):
         raise ParameterError(name, str(target), "a store; this is a file")
-    elif not os.access(target if target.exists() else target.absolute().parent, os.W_OK | os.X_OK):
+    if not os.access(target.absolute().parent if there is None else target, os.W_OK | os.X_OK):
         raise ParameterError(name, str(target), "a store in a folder that exists and can be written to")
 
 

@@ -19,7 +19,6 @@ import numpy.typing as npt
 import xarray as xr
 import zarr
 from zarr.codecs import Crc32cCodec, ZstdCodec
-from zarr.errors import ZarrUserWarning
 from zarr.storage import LocalStore, MemoryStore
 
 from trum_sym.errors import ParameterError
@@ -65,6 +64,9 @@ class Store:
     def dataset(self) -> xr.Dataset:
         """The data set; read from the store as it is used, or all of it if it is in memory."""
         found: xr.Dataset = xr.open_zarr(self.source, chunks=None)
+        for variable in found.variables.values():  # or the set could only be written as this store is
+            preferred = variable.encoding.get("preferred_chunks")
+            variable.encoding = {} if preferred is None else {"preferred_chunks": preferred}
         return found if self.root else found.load()
 
 
@@ -96,10 +98,7 @@ def open_store(name: str, root: Path | None, plan: Plan, chunk_given: bool) -> I
     handle = None
     try:
         if not root.exists() or (root.is_dir() and not any(root.iterdir())):
-            beside = root.with_name(f".{root.name}.new")
-            shutil.rmtree(beside, ignore_errors=True)  # of a process that was killed
-            _create(LocalStore(beside), plan)
-            beside.rename(root)
+            _make(root, plan)
         group = _check(name, root, plan, chunk_given)
         handle = _lock(name, root)
         store = _opened(LocalStore(root), root, group, plan.with_chunk(next(iter(_outputs(group, plan))).chunks))
@@ -113,10 +112,22 @@ def open_store(name: str, root: Path | None, plan: Plan, chunk_given: bool) -> I
         os.close(handle)
 
 
+def _make(root: Path, plan: Plan) -> None:
+    """A new store, which appears when all of its metadata are there."""
+    beside = root.with_name(f".{root.name[:100]}.new")
+    shutil.rmtree(beside, ignore_errors=True)  # of a process that was killed
+    try:
+        _create(LocalStore(beside), plan)
+        beside.rename(root)
+    except BaseException:
+        shutil.rmtree(beside, ignore_errors=True)
+        raise
+
+
 def _create(store: LocalStore | MemoryStore, plan: Plan) -> zarr.Group:
     group = zarr.create_group(store, zarr_format=3, attributes=plan.attributes())
     dimensions = [axis.name for axis in plan.grid.axes]
-    codecs = [ZstdCodec(level=1), Crc32cCodec()]
+    codecs = [ZstdCodec(level=1), Crc32cCodec()] if isinstance(store, LocalStore) else []
     for axis in plan.grid.axes:
         for name, values in axis.values.items():
             group.create_array(
@@ -141,7 +152,7 @@ def _create(store: LocalStore | MemoryStore, plan: Plan) -> zarr.Group:
             attributes=plan.about(name),
         )
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ZarrUserWarning)  # its form is not settled, but xarray looks for it
+        warnings.simplefilter("ignore")  # its form is not settled, but xarray looks for it
         zarr.consolidate_metadata(store)
     return group
 

@@ -18,6 +18,7 @@ from trum_sym.errors import MissingExtraError, ParameterError
 from trum_sym.inputs.checks import Array, number
 from trum_sym.inputs.domain import Domain
 from trum_sym.output.json_text import finite
+from trum_sym.values import Value
 
 __all__ = [
     "CONFIDENCE",
@@ -56,8 +57,8 @@ class Estimate(NamedTuple):
         return known
 
 
-@dataclass(frozen=True)
-class Indices:
+@dataclass(frozen=True, eq=False)
+class Indices(Value):
     """Sobol indices of one output by parameter.
 
     Attributes
@@ -81,8 +82,8 @@ class Indices:
     rows: int
 
 
-@dataclass(frozen=True)
-class Spread:
+@dataclass(frozen=True, eq=False)
+class Spread(Value):
     """How one output is distributed over A and B.
 
     Attributes
@@ -100,8 +101,8 @@ class Spread:
     without_value: int
 
 
-@dataclass(frozen=True)
-class Propagation:
+@dataclass(frozen=True, eq=False)
+class Propagation(Value):
     """What uncertain parameters do to a function.
 
     Attributes

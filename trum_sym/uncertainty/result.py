@@ -15,7 +15,9 @@ from trum_sym.inputs.drive import DRIVE_DOMAINS, Drive
 from trum_sym.inputs.motor import SPECS, Motor
 from trum_sym.model.operating_point import OperatingPoint
 from trum_sym.quantities import QUANTITIES
+from trum_sym.text import one_line
 from trum_sym.uncertainty.propagation import Estimate, Propagation, share
+from trum_sym.values import Value
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -31,8 +33,8 @@ def unit_of(name: str) -> str:
     return DRIVE_DOMAINS[name][1] if name in DRIVE_DOMAINS else SPECS[name].unit
 
 
-@dataclass(frozen=True)
-class Target:
+@dataclass(frozen=True, eq=False)
+class Target(Value):
     """What an output has to keep to, such as ``mean_speed >= 600 arcsec/s``; ``bound`` in the output's SI unit."""
 
     text: str
@@ -45,8 +47,8 @@ class Target:
         return ~np.asarray(_COMPARE[self.relation](values, self.bound), bool)
 
 
-@dataclass(frozen=True)
-class Study:
+@dataclass(frozen=True, eq=False)
+class Study(Value):
     """A tolerance study; SI units, frequencies in Hz, speeds in rad/s.
 
     Attributes
@@ -126,7 +128,7 @@ class Study:
             variables[name] = (dims, found.values[name], {"units": output.unit, "long_name": output.label})
         variables["converged"] = (dims, self.settled, {"long_name": "the orbit met its tolerance"})
         attributes = {
-            "title": f"tolerance study of {self.motor.name}",
+            "title": f"tolerance study of {one_line(self.motor.name)}",
             "trum_sym": version("trum-sym"),
             "samples": self.samples,
             "seed": self.seed,

@@ -10,6 +10,7 @@ import numpy as np
 from trum_sym.inputs.units import parse_unit
 from trum_sym.output.json_text import json_text
 from trum_sym.quantities import QUANTITIES
+from trum_sym.text import one_line
 from trum_sym.uncertainty.propagation import CONFIDENCE, Estimate, Indices
 from trum_sym.uncertainty.result import BALANCED, MISSED, Study, unit_of
 
@@ -48,7 +49,8 @@ def as_text(study: Study) -> str:
     """All of it, in units that people read; intervals hold at 95 %."""
     drive, count = study.drive, len(study.distributions)
     lines = [
-        f"{study.motor.name} at {drive.prepressure:g} N, {drive.frequency_difference:+g} Hz, {drive.on_periods:g} of "
+        f"{one_line(study.motor.name)} at "
+        f"{drive.prepressure:g} N, {drive.frequency_difference:+g} Hz, {drive.on_periods:g} of "
         f"{drive.periods:g} periods on, load {drive.load_torque:g} N m, start {drive.start}",
         f"{count} uncertain parameter{'s' * (count != 1)}, {study.samples} samples, "
         f"{study.samples * (count + 2)} points, seed {study.seed}; intervals at {100 * CONFIDENCE:g} %",
