@@ -8,12 +8,15 @@ import argparse
 import sys
 
 from derivations.codegen.emit import GENERATED, render, stale, write
+from derivations.codegen.kernels import kernels
 from derivations.dimensions import DimensionError
+from derivations.proofs import prove
 
 
 def _generate(check: bool) -> int:
     try:
         files = render()
+        prove(kernels(), files)
     except (ArithmeticError, DimensionError) as error:
         print(f"derivations: a proof fails: {error}", file=sys.stderr)
         return 1

@@ -1,0 +1,255 @@
+"""Kernel mutants: one slip in one part of a kernel's expressions, to see whether its proof notices.
+
+A part is mutated wherever it occurs, as a slip where the formula is typed would.  Slips: a sign, a dropped term or
+factor, an exponent one more or less, sine for cosine, arguments exchanged, the lesser for the greater, a missing
+magnitude, a condition the other way round, a number one off or its sign, two like symbols or outputs exchanged.  In the
+tables: a sign, a number one part in a thousand off, two neighbours exchanged.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+
+import mpmath as mp
+import sympy as sp
+
+from derivations.codegen.emit import check_dimensions
+from derivations.codegen.kernels import Kernel
+from derivations.dimensions import DimensionError
+from derivations.nomenclature import NOMENCLATURE
+from derivations.proofs import numbers, of_kernel
+from derivations.proofs.graph import Graph, Values
+from derivations.proofs.maths import DIGITS, Number, Point
+from derivations.proofs.proof import NONSENSE, Proof, Subject, check, identical, reference
+from derivations.proofs.tables import TABLES, wrong
+
+__all__ = ["Slip", "kernel_mutants", "slips", "table_mutants"]
+
+_TURNED = {sp.sin: sp.cos, sp.cos: sp.sin}
+_PICKED = {sp.Min: sp.Max, sp.Max: sp.Min}
+
+
+@dataclass(frozen=True)
+class Slip:
+    """A slip in a kernel or table, and what became of it: ``rejected``, ``equivalent`` with a reason, or neither."""
+
+    of: str
+    what: str
+    rejected: bool
+    equivalent: str = ""
+
+
+def _number_slips(number: sp.Basic) -> Iterator[sp.Basic]:
+    if isinstance(number, sp.Float):
+        yield from (-number, number * sp.Rational(1001, 1000))
+    elif isinstance(number, sp.Integer):
+        yield from (number + 1, number - 1, -number)
+    elif isinstance(number, sp.Rational):
+        yield from (1 / number, -number, sp.Rational(number.p + 1, number.q), sp.Rational(number.p, number.q + 1))
+    elif number == sp.pi:
+        yield from (sp.Integer(3), sp.pi / 2, 2 * sp.pi)
+
+
+def _structure(part: sp.Basic) -> Iterator[tuple[str, sp.Basic]]:
+    """Slips in how a part is put together."""
+    args = list(part.args)
+    if isinstance(part, sp.Add):
+        for i, term in enumerate(args):
+            rest = args[:i] + args[i + 1 :]
+            yield f"sign of {term}", sp.Add(*rest, -term)
+            yield f"term {term} dropped", sp.Add(*rest)
+    elif isinstance(part, sp.Mul):
+        for i, factor in enumerate(args):
+            yield f"factor {factor} dropped", sp.Mul(*args[:i], *args[i + 1 :])
+        yield "sign", -part
+    elif isinstance(part, sp.Pow):
+        if part.exp.is_Rational:
+            yield "exponent one more", part.base ** (part.exp + 1)
+            yield "exponent one less", part.base ** (part.exp - 1)
+        else:
+            yield "sign of the exponent", part.base ** (-part.exp)
+            yield "exponent dropped", part.base
+    elif part.func in _TURNED:
+        yield f"{_TURNED[part.func].__name__} for {part.func.__name__}", _TURNED[part.func](*args)
+        yield f"{part.func.__name__} dropped", args[0]
+    elif part.func in _PICKED:
+        yield f"{_PICKED[part.func].__name__} for {part.func.__name__}", _PICKED[part.func](*args)
+        for i, kept in enumerate(args):
+            yield f"only argument {i + 1} of {part.func.__name__}", kept
+    elif isinstance(part, sp.Abs):
+        yield "magnitude dropped", args[0]
+    elif isinstance(part, sp.exp):
+        yield "sign of the exponent", sp.exp(-args[0])
+        yield "exp dropped", args[0]
+    elif isinstance(part, sp.Function):
+        name = part.func.__name__
+        if len(args) == 2:
+            yield f"arguments of {name} exchanged", part.func(args[1], args[0])
+            yield f"sign of {name}'s first argument", part.func(-args[0], args[1])
+            yield f"sign of {name}'s second argument", part.func(args[0], -args[1])
+        else:
+            yield f"{name} dropped", args[0]
+            yield f"sign of {name}'s argument", part.func(-args[0])
+
+
+def _like(symbol: sp.Symbol, others: Iterable[sp.Symbol]) -> list[sp.Symbol]:
+    """Other symbols of the same dimension."""
+    unit = NOMENCLATURE[symbol.name].dimension if symbol.name in NOMENCLATURE else None
+    names = (s for s in others if s != symbol and s.name in NOMENCLATURE)
+    return [s for s in names if NOMENCLATURE[s.name].dimension == unit]
+
+
+def slips(part: sp.Basic, symbols: Iterable[sp.Symbol]) -> Iterator[tuple[str, sp.Basic]]:
+    """Every slip in a part itself, its arguments' own slips left out: what it is, and the part with it."""
+    seen = {part}
+    if not part.args:
+        return
+    found = list(_structure(part))
+    powers = isinstance(part, sp.Pow) and part.exp.is_Rational
+    for i, argument in enumerate(part.args[:1] if powers else part.args):
+        others: list[tuple[str, sp.Basic]] = []
+        if argument.is_number and not argument.args:
+            others = [(f"{new} for {argument}", new) for new in _number_slips(argument)]
+        elif isinstance(argument, sp.Symbol):
+            others = [(f"{new} for {argument}", new) for new in _like(argument, symbols)[:3]]
+        for text, new in others:
+            found.append((text, part.func(*part.args[:i], new, *part.args[i + 1 :])))
+    for text, new in found:
+        if new not in seen:
+            seen.add(new)
+            yield f"{text} in {part}", new
+
+
+class _Prepared:
+    """A kernel with the points of its proofs, what is wanted there, and the values of all its parts."""
+
+    def __init__(self, kernel: Kernel) -> None:
+        self.kernel, self.subject = kernel, Subject(kernel)
+        self.proofs: tuple[Proof, ...] = of_kernel(kernel.name)
+        self.wanted = {proof: reference(proof) for proof in self.proofs}
+        with mp.workdps(DIGITS):
+            self.evaluations = {
+                proof: [self.subject.evaluations(point) for point, _ in wanted] for proof, wanted in self.wanted.items()
+            }
+
+    def notices(self, part: int, new: sp.Basic) -> bool:
+        """Whether a proof does, with ``new`` in place of a part."""
+        affected = self.subject.graph.affected(part)
+        with mp.workdps(DIGITS):
+            for proof in self.proofs:
+                for (point, wanted), evaluated in zip(self.wanted[proof], self.evaluations[proof], strict=True):
+                    try:
+                        results = self.subject.with_part(point, evaluated, part, new, affected)
+                        if proof.differs(results, wanted):
+                            return True
+                    except NONSENSE:
+                        return True
+        return False
+
+    def rejects(self, kernel: Kernel) -> bool:
+        """Whether a proof rejects another kernel in place of this one."""
+        subject = Subject(kernel)
+        return any(check(proof, subject, iter(self.wanted[proof])) for proof in self.proofs)
+
+
+_WHOLE = {"s": (1, -1), "g_A": (0, 1), "g_B": (0, 1)}
+
+
+def _equivalent(one: sp.Expr, other: sp.Expr) -> str:
+    """Why two expressions are the same, '' if they are not shown to be: for the values that switches can have."""
+    if identical(one, other):
+        return "identically the same"
+    symbols = [s for s in one.free_symbols | other.free_symbols if s.name in _WHOLE]
+    for symbol in sorted(symbols, key=str):
+        pairs = [(one.subs(symbol, value), other.subs(symbol, value)) for value in _WHOLE[symbol.name]]
+        if all(a == b or identical(a, b) for a, b in pairs):
+            return f"the same for each value of {symbol}"
+    return ""
+
+
+def _swapped_symbols(kernel: Kernel) -> Iterator[tuple[str, Kernel]]:
+    for i, symbol in enumerate(kernel.inputs):
+        for other in _like(symbol, kernel.inputs[i + 1 :])[:1]:
+            exchange = {symbol: other, other: symbol}
+            outputs = {name: sp.sympify(expr).xreplace(exchange) for name, expr in kernel.outputs.items()}
+            if outputs != dict(kernel.outputs):
+                yield f"{symbol} and {other} exchanged", replace(kernel, outputs=outputs)
+
+
+def _swapped_outputs(kernel: Kernel) -> Iterator[tuple[str, Kernel]]:
+    names = list(kernel.outputs)
+    for i, name in enumerate(names):
+        alike = [n for n in names[i + 1 :] if kernel.units[n] == kernel.units[name]]
+        for other in [n for n in alike if kernel.outputs[n] != kernel.outputs[name]][:1]:
+            exchanged = {**kernel.outputs, name: kernel.outputs[other], other: kernel.outputs[name]}
+            yield f"{name} and {other} exchanged", replace(kernel, outputs=exchanged)
+
+
+def _other_rates(kernel: Kernel) -> Iterator[tuple[str, Kernel]]:
+    for direction, rates in kernel.along.items():
+        for symbol, rate in rates.items():
+            whole = sp.sympify(rate)
+            changed = [("dropped", sp.Integer(0)), ("sign", -whole)]
+            for part in Graph({"rate": whole}).parts:
+                changed += [(text, whole.xreplace({part: new})) for text, new in slips(part, kernel.inputs)]
+            for text, new in changed:
+                if new != whole:
+                    along = {**kernel.along, direction: {**rates, symbol: new}}
+                    yield f"rate of {symbol} along {direction}: {text}", replace(kernel, along=along)
+
+
+def kernel_mutants(kernel: Kernel) -> Iterator[Slip]:
+    """Every slip in a kernel's expressions, rates and order of outputs, and what becomes of it."""
+    prepared = _Prepared(kernel)
+    outputs = {name: sp.sympify(expr) for name, expr in kernel.outputs.items()}
+    for place, part in enumerate(prepared.subject.graph.parts):
+        for text, new in slips(part, kernel.inputs):
+            if prepared.notices(place, new):
+                yield Slip(kernel.name, text, True)
+            else:
+                changed = {name: expr.xreplace({part: new}) for name, expr in outputs.items()}
+                yield _unnoticed(text, kernel, replace(kernel, outputs=changed), part, new)
+    for text, other in (*_swapped_symbols(kernel), *_swapped_outputs(kernel), *_other_rates(kernel)):
+        yield Slip(kernel.name, text, True) if prepared.rejects(other) else _unnoticed(text, kernel, other)
+
+
+def _unnoticed(
+    text: str, kernel: Kernel, other: Kernel, part: sp.Basic | None = None, new: sp.Basic | None = None
+) -> Slip:
+    """A slip that no proof notices: the dimensions may, or it changes nothing."""
+    try:
+        check_dimensions(other)
+    except DimensionError:
+        return Slip(kernel.name, text, True)
+    if kernel.along != other.along:
+        return Slip(kernel.name, text, False)
+    reasons = set()
+    for name, output in kernel.outputs.items():
+        one, two = sp.sympify(output), sp.sympify(other.outputs[name])
+        if part is not None and new is not None and not part.is_Symbol:
+            any_ = sp.Dummy(real=True)  # the part may be any number
+            of_any = one.xreplace({part: any_}), one.xreplace({part: new.xreplace({part: any_})})
+            one, two = (one, two) if _equivalent(*of_any) == "" else of_any
+        if one != two:
+            reasons.add(_equivalent(one, two))
+    same = "; ".join(sorted(reasons)) or "identically the same"
+    return Slip(kernel.name, text, False, "" if "" in reasons else same)
+
+
+def _changed_tables(values: list[Number]) -> Iterator[tuple[str, list[Number]]]:
+    for i, value in enumerate(values):
+        others = [-value, value * mp.mpf("1.001"), value + 1] if value else [mp.mpf(1)]
+        for other in others:
+            yield f"{mp.nstr(other, 8)} for number {i + 1}", [*values[:i], other, *values[i + 1 :]]
+        if i + 1 < len(values) and values[i + 1] != value:
+            yield f"numbers {i + 1} and {i + 2} exchanged", [*values[:i], values[i + 1], value, *values[i + 2 :]]
+
+
+def table_mutants(files: Mapping[str, str]) -> Iterator[Slip]:
+    """Every slip in a table of the generated headers, and whether a table's proof notices."""
+    tables = numbers(files)
+    for name, values in tables.items():
+        for text, other in _changed_tables(values):
+            changed = {**tables, name: other}
+            yield Slip(name, text, any(wrong(table, changed) for table in TABLES))
