@@ -13,7 +13,7 @@ from derivations.proofs import contact, cycle, friction, stator, wave
 from derivations.proofs.proof import Proof, Subject, check, reference
 from derivations.proofs.tables import HEADERS, TABLES, read, wrong
 
-__all__ = ["PROOFS", "numbers", "of_kernel", "prove"]
+__all__ = ["PROOFS", "numbers", "of_kernel", "prove", "unproved"]
 
 PROOFS: tuple[Proof, ...] = (*stator.PROOFS, *cycle.PROOFS, *wave.PROOFS, *contact.PROOFS, *friction.PROOFS)
 
@@ -28,8 +28,8 @@ def numbers(files: Mapping[str, str]) -> dict[str, list[object]]:
     return {name: values for header in HEADERS for name, values in read(files[header]).items()}
 
 
-def _without(kernels: Iterable[Kernel], tables: Iterable[str]) -> list[str]:
-    """Outputs and tables that no proof states, and proofs of what does not exist."""
+def unproved(kernels: Iterable[Kernel], tables: Iterable[str]) -> list[str]:
+    """Outputs and tables that no proof states, and proofs of what does not exist, in words."""
     stated = {(proof.kernel, name) for proof in PROOFS for name in proof.names}
     computed = {(kernel.name, name) for kernel in kernels for name in kernel.results}
     known = {table.name for table in TABLES}
@@ -57,7 +57,7 @@ def prove(kernels: Iterable[Kernel], files: Mapping[str, str]) -> None:
         If an output or a table is not what its statement says, or has none; names it.
     """
     every, tables = tuple(kernels), numbers(files)
-    problems = _without(every, tables)
+    problems = unproved(every, tables)
     for kernel in every if not problems else ():
         subject = Subject(kernel)
         for proof in of_kernel(kernel.name):

@@ -17,11 +17,19 @@ Values = list[Number]
 Replaced = Mapping[int, sp.Basic]
 """Expressions, of the graph's own parts, that stand in for some of them."""
 
+
+
+def _angle(y: Number, x: Number) -> Number:
+    if isinstance(y, mp.mpc) or isinstance(x, mp.mpc):
+        raise ValueError("the angle of complex numbers")
+    return mp.atan2(y, x)
+
+
 _FUNCTIONS: dict[str, Callable[..., Number]] = {
     "sin": mp.sin,
     "cos": mp.cos,
     "exp": mp.exp,
-    "atan2": mp.atan2,
+    "atan2": _angle,
     "Abs": abs,
     "expm1": mp.expm1,
     "Min": min,
@@ -83,6 +91,14 @@ class Graph:
             self._place[expr] = len(self.parts)
             self.parts.append(expr)
         return self._place[expr]
+
+    def place(self, part: sp.Basic) -> int:
+        """Where a part is in the list."""
+        return self._place[part]
+
+    def above(self, place: int) -> list[sp.Basic]:
+        """The parts that have the one at a place for an argument."""
+        return [self.parts[i] for i in sorted(self._above[place])]
 
     def affected(self, part: int) -> list[int]:
         """What is computed from a part, in order, the part itself left out."""

@@ -8,8 +8,10 @@ tables: a sign, a number one part in a thousand off, two neighbours exchanged.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+import random
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 
 import mpmath as mp
 import sympy as sp
@@ -100,6 +102,10 @@ def _like(symbol: sp.Symbol, others: Iterable[sp.Symbol]) -> list[sp.Symbol]:
     return [s for s in names if NOMENCLATURE[s.name].dimension == unit]
 
 
+def _short(text: str) -> str:
+    return text if len(text) < 160 else text[:100] + " ... " + text[-50:]
+
+
 def slips(part: sp.Basic, symbols: Iterable[sp.Symbol]) -> Iterator[tuple[str, sp.Basic]]:
     """Every slip in a part itself, its arguments' own slips left out: what it is, and the part with it."""
     seen = {part}
@@ -118,7 +124,7 @@ def slips(part: sp.Basic, symbols: Iterable[sp.Symbol]) -> Iterator[tuple[str, s
     for text, new in found:
         if new not in seen:
             seen.add(new)
-            yield f"{text} in {part}", new
+            yield _short(f"{text} in {part}"), new
 
 
 class _Prepared:
@@ -153,19 +159,72 @@ class _Prepared:
         return any(check(proof, subject, iter(self.wanted[proof])) for proof in self.proofs)
 
 
-_WHOLE = {"s": (1, -1), "g_A": (0, 1), "g_B": (0, 1)}
+_SWITCHES = {"s": (1, -1), "g_A": (0, 1), "g_B": (0, 1)}
+_HIGHEST = 6  # parts above a slip that are looked at for whether they still see it
 
 
-def _equivalent(one: sp.Expr, other: sp.Expr) -> str:
+def _differ(one: sp.Expr, other: sp.Expr) -> bool:
+    """Whether two expressions have unlike numbers somewhere."""
+    graph = Graph({"one": one, "other": other})
+    at = random.Random("differ")
+    with mp.workdps(DIGITS):
+        for _ in range(4):
+            values = {s.name: mp.mpf(at.uniform(0.2, 0.9)) for s in sorted(one.free_symbols | other.free_symbols, key=str)}
+            try:
+                found = graph.values(values)
+            except NONSENSE:
+                continue
+            one_, other_ = (found[graph.outputs[name]] for name in ("one", "other"))
+            if abs(one_ - other_) > mp.mpf("1e-40") * abs(one_):
+                return True
+    return False
+
+
+def _same(one: sp.Expr, other: sp.Expr) -> str:
     """Why two expressions are the same, '' if they are not shown to be: for the values that switches can have."""
-    if identical(one, other):
+    if not _differ(one, other) and identical(one, other):
         return "identically the same"
-    symbols = [s for s in one.free_symbols | other.free_symbols if s.name in _WHOLE]
+    symbols = [s for s in one.free_symbols | other.free_symbols if s.name in _SWITCHES]
     for symbol in sorted(symbols, key=str):
-        pairs = [(one.subs(symbol, value), other.subs(symbol, value)) for value in _WHOLE[symbol.name]]
-        if all(a == b or identical(a, b) for a, b in pairs):
+        pairs = [(one.subs(symbol, value), other.subs(symbol, value)) for value in _SWITCHES[symbol.name]]
+        if all(a == b or (not _differ(a, b) and identical(a, b)) for a, b in pairs):
             return f"the same for each value of {symbol}"
     return ""
+
+
+def _equivalent(graph: Graph, part: sp.Basic, new: sp.Basic) -> str:
+    """Why a slip changes nothing, '' if that is not shown.
+
+    Each part that is made of the slipped one is looked at, or in its place all that are made of that, with a symbol for
+    whatever the slip does not touch.
+    """
+    untouched: dict[sp.Basic, sp.Symbol] = {}
+
+    def bare(expr: sp.Basic) -> sp.Basic:
+        """With symbols for arguments that are no symbols or numbers."""
+        if not expr.args:
+            return expr
+        return untouched.setdefault(expr, sp.Symbol(f"part_{len(untouched)}", real=True))
+
+    def skeleton(expr: sp.Basic, at: sp.Basic) -> sp.Basic:
+        if expr == part:
+            return at
+        if not expr.has(part):
+            return bare(expr)
+        return expr.func(*(skeleton(argument, at) for argument in expr.args))
+
+    inner = {argument: bare(argument) for argument in part.args}
+    old, changed = part.xreplace(inner), new.xreplace(inner)
+
+    def seen(expr: sp.Basic, level: int) -> str:
+        reason = _same(skeleton(expr, old), skeleton(expr, changed))
+        place = graph.place(expr)
+        if reason or level == _HIGHEST or place in graph.outputs.values():
+            return reason
+        above = {seen(higher, level + 1) for higher in graph.above(place)}
+        return "" if "" in above else "; ".join(sorted(above))
+
+    return seen(part, 0)
 
 
 def _swapped_symbols(kernel: Kernel) -> Iterator[tuple[str, Kernel]]:
@@ -209,32 +268,31 @@ def kernel_mutants(kernel: Kernel) -> Iterator[Slip]:
                 yield Slip(kernel.name, text, True)
             else:
                 changed = {name: expr.xreplace({part: new}) for name, expr in outputs.items()}
-                yield _unnoticed(text, kernel, replace(kernel, outputs=changed), part, new)
+                graph = prepared.subject.graph
+                yield _unnoticed(
+                    text, kernel, replace(kernel, outputs=changed), partial(_equivalent, graph, part, new)
+                )
     for text, other in (*_swapped_symbols(kernel), *_swapped_outputs(kernel), *_other_rates(kernel)):
-        yield Slip(kernel.name, text, True) if prepared.rejects(other) else _unnoticed(text, kernel, other)
+        if prepared.rejects(other):
+            yield Slip(kernel.name, text, True)
+        else:
+            yield _unnoticed(text, kernel, other, partial(_same_outputs, kernel, other))
 
 
-def _unnoticed(
-    text: str, kernel: Kernel, other: Kernel, part: sp.Basic | None = None, new: sp.Basic | None = None
-) -> Slip:
+def _unnoticed(text: str, kernel: Kernel, other: Kernel, equivalent: Callable[[], str]) -> Slip:
     """A slip that no proof notices: the dimensions may, or it changes nothing."""
     try:
         check_dimensions(other)
     except DimensionError:
         return Slip(kernel.name, text, True)
+    return Slip(kernel.name, text, False, equivalent())
+
+
+def _same_outputs(kernel: Kernel, other: Kernel) -> str:
     if kernel.along != other.along:
-        return Slip(kernel.name, text, False)
-    reasons = set()
-    for name, output in kernel.outputs.items():
-        one, two = sp.sympify(output), sp.sympify(other.outputs[name])
-        if part is not None and new is not None and not part.is_Symbol:
-            any_ = sp.Dummy(real=True)  # the part may be any number
-            of_any = one.xreplace({part: any_}), one.xreplace({part: new.xreplace({part: any_})})
-            one, two = (one, two) if _equivalent(*of_any) == "" else of_any
-        if one != two:
-            reasons.add(_equivalent(one, two))
-    same = "; ".join(sorted(reasons)) or "identically the same"
-    return Slip(kernel.name, text, False, "" if "" in reasons else same)
+        return ""
+    pairs = [(sp.sympify(output), sp.sympify(other.outputs[name])) for name, output in kernel.outputs.items()]
+    return "" if not all(identical(*pair) for pair in pairs) else "identically the same"
 
 
 def _changed_tables(values: list[Number]) -> Iterator[tuple[str, list[Number]]]:

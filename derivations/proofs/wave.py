@@ -182,7 +182,7 @@ PROOFS = (
         "11 16 20 21",
         "difference quotients of the wave at a fixed share of a drive period, and in time",
         _wave_slopes,
-        grid(f"D Delta_omega W {_PHASORS} {_RATES} g_A g_B k_c omega_n p_im p_re s tau xi"),
+        grid(f"D Delta_omega W {_PHASORS} {_RATES} g_A g_B k_c omega_n p_im p_re s tau xi", 8),
         _WHERE,
     ),
     Proof(

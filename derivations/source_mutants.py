@@ -1,0 +1,430 @@
+"""``python -m derivations.source_mutants``: one slip in the Python of a formula module, and who refuses it.
+
+Slips of someone who types: an operator, a sign, a number, a comparison, a name for another, sine for cosine, arguments
+exchanged.  Each is made in memory, in a fork of a process that has everything loaded: the changed module and what
+imports it are run again, then come, from cheap to dear, the proofs of ``generate``, the ledger's entries that depend on
+the module, and the fast tests.  Files stay as they are.
+
+A slip that none of them refuses is shown to change nothing: every kernel, table and derived form of the ledger comes out
+as the very same expression.  What is left survives, and the exit code is 1.
+"""
+
+from __future__ import annotations
+
+import argparse
+import ast
+import importlib
+import importlib.util
+import io
+import json
+import os
+import random
+import signal
+import sys
+import time
+import traceback
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import redirect_stderr, redirect_stdout
+from copy import deepcopy
+from dataclasses import dataclass
+from pathlib import Path
+from types import FrameType, ModuleType
+
+import sympy as sp
+
+from derivations.codegen import emit
+from derivations.codegen import kernels as kernel_module
+from derivations.codegen.kernels import Kernel
+from derivations.dimensions import DimensionError
+from derivations.ledger import ENTRIES
+from derivations.ledger.model import Entry, confirm
+from derivations.proofs import PROOFS, numbers, of_kernel, unproved
+from derivations.proofs.proof import Subject, check, reference
+from derivations.proofs.tables import TABLES, wrong
+
+__all__ = ["FORMULA_MODULES", "Edit", "edits", "main"]
+
+FOLDER = Path(__file__).parent
+FORMULA_MODULES = (
+    "amplitude",
+    "beam",
+    "collocation",
+    "contact",
+    "determinant",
+    "ellipse",
+    "line_contact",
+    "phases",
+    "rotor",
+    "section",
+    "square_roots",
+    "supplement",
+    "surface",
+    "transfer",
+    "codegen.kernels",
+)
+_TESTS = ("tests/derivations/test_ledger_transfer.py", "tests/derivations/test_ledger_supplement.py")
+_LIMIT = 120  # seconds that one mutant may take; what takes longer has lost its way in an expression
+_SWAPPED = {"sin": "cos", "cos": "sin", "Min": "Max", "Max": "Min", "acos": "asin", "asin": "acos"}
+_OPERATORS: dict[type[ast.operator], type[ast.operator]] = {
+    ast.Add: ast.Sub,
+    ast.Sub: ast.Add,
+    ast.Mult: ast.Div,
+    ast.Div: ast.Mult,
+    ast.Pow: ast.Mult,
+}
+_COMPARISONS: dict[type[ast.cmpop], type[ast.cmpop]] = {
+    ast.Lt: ast.Gt,
+    ast.Gt: ast.Lt,
+    ast.LtE: ast.GtE,
+    ast.GtE: ast.LtE,
+    ast.Eq: ast.NotEq,
+    ast.NotEq: ast.Eq,
+}
+
+
+@dataclass(frozen=True)
+class Edit:
+    """One slip: the module, the line, what stood there and stands now, the changed source."""
+
+    module: str
+    line: int
+    old: str
+    new: str
+    source: str
+
+
+# --- making them ------------------------------------------------------------------------------------------------
+def _skipped(tree: ast.Module) -> set[ast.AST]:
+    """Nodes that are no formula: docstrings, annotations, decorators, ``__all__``, messages of errors."""
+    found: set[ast.AST] = set()
+    for node in ast.walk(tree):
+        parts: list[ast.AST | None] = []
+        if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+            parts += node.decorator_list
+        if isinstance(node, ast.FunctionDef):
+            parts.append(node.returns)
+        if isinstance(node, ast.AnnAssign):
+            parts.append(node.annotation)
+        if isinstance(node, ast.arg):
+            parts.append(node.annotation)
+        if isinstance(node, (ast.Raise, ast.Import, ast.ImportFrom)):
+            parts.append(node)
+        if isinstance(node, ast.Assign) and any(isinstance(t, ast.Name) and t.id == "__all__" for t in node.targets):
+            parts.append(node)
+        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
+            parts.append(node)
+        for part in parts:
+            if part is not None:
+                found |= set(ast.walk(part))
+    return found
+
+
+def _names(tree: ast.Module) -> dict[ast.AST, list[str]]:
+    """For each name that is read within a function, the other names that are read or assigned in it."""
+    found: dict[ast.AST, list[str]] = {}
+    for function in ast.walk(tree):
+        if not isinstance(function, ast.FunctionDef):
+            continue
+        names = [node for node in ast.walk(function) if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load)]
+        called = {node.func for node in ast.walk(function) if isinstance(node, ast.Call)}
+        owners = {node.value for node in ast.walk(function) if isinstance(node, ast.Attribute)}
+        plain = [node for node in names if node not in called and node not in owners]
+        for node in plain:
+            found[node] = sorted({other.id for other in plain} - {node.id})
+    return found
+
+
+def _changes(node: ast.AST, others: list[str]) -> Iterator[Callable[[ast.AST], ast.AST]]:
+    """Functions that change a copy of a node."""
+
+    def with_(**fields: object) -> Callable[[ast.AST], ast.AST]:
+        def change(copy: ast.AST) -> ast.AST:
+            for name, value in fields.items():
+                setattr(copy, name, value)
+            return copy
+
+        return change
+
+    if isinstance(node, ast.BinOp) and type(node.op) in _OPERATORS:
+        yield with_(op=_OPERATORS[type(node.op)]())
+    elif isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
+        yield lambda copy: copy.operand  # type: ignore[attr-defined]
+    elif isinstance(node, ast.Constant) and isinstance(node.value, int | float) and not isinstance(node.value, bool):
+        yield with_(value=node.value + 1)
+        yield with_(value=node.value - 1)
+    elif isinstance(node, ast.Compare) and type(node.ops[0]) in _COMPARISONS:
+        yield with_(ops=[_COMPARISONS[type(node.ops[0])](), *node.ops[1:]])
+    elif isinstance(node, ast.Attribute) and node.attr in _SWAPPED:
+        yield with_(attr=_SWAPPED[node.attr])
+    elif isinstance(node, ast.Call) and len(node.args) == 2 and ast.dump(node.args[0]) != ast.dump(node.args[1]):
+        yield with_(args=node.args[::-1])
+    elif isinstance(node, ast.Name):
+        for other in others[:: max(1, len(others) // 2)][:2]:
+            yield with_(id=other)
+
+
+def edits(module: str) -> Iterator[Edit]:
+    """Every slip in a module."""
+    text = FOLDER.joinpath(*module.split(".")).with_suffix(".py").read_text("utf-8")
+    tree = ast.parse(text)
+    names, skipped = _names(tree), _skipped(tree)
+    for place, node in enumerate(ast.walk(tree)):
+        if node in skipped:
+            continue
+        for change in _changes(node, names.get(node, [])):
+            copy = deepcopy(tree)
+            target = list(ast.walk(copy))[place]
+            new = ast.fix_missing_locations(change(deepcopy(target)))
+
+            class Put(ast.NodeTransformer):
+                def visit(self, at: ast.AST, target: ast.AST = target, new: ast.AST = new) -> ast.AST:
+                    return new if at is target else self.generic_visit(at)
+
+            changed = ast.unparse(Put().visit(copy))
+            yield Edit(module, getattr(node, "lineno", 0), ast.unparse(node), ast.unparse(new), changed)
+
+
+# --- who refuses them -------------------------------------------------------------------------------------------
+_KEPT = ("derivations.proofs", "derivations.source_mutants", "derivations.__main__", "derivations.ledger.command")
+
+
+def _imports(module: ModuleType) -> set[str]:
+    """The project's modules that one imports, at its head or within functions."""
+    found: set[str] = set()
+    for node in ast.walk(ast.parse(Path(str(module.__file__)).read_text("utf-8"))):
+        if isinstance(node, ast.ImportFrom) and node.module and node.module.startswith("derivations"):
+            found |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
+    return found & set(sys.modules)
+
+
+def _dependents(name: str) -> set[str]:
+    """Loaded modules that import one, by whatever way, and can be run again."""
+    importers: dict[str, set[str]] = {}
+    for other, module in sys.modules.items():
+        if other.startswith("derivations.") and not other.startswith(_KEPT):
+            for imported in _imports(module):
+                importers.setdefault(imported, set()).add(other)
+    found: set[str] = set()
+    front = {name}
+    while front:
+        front = set().union(*(importers.get(n, set()) for n in front)) - found
+        found |= front
+    return found - {name, "derivations.ledger"}
+
+
+def _headers() -> Mapping[str, list[object]]:
+    """The tables of numbers, of the emitter as it is loaded now."""
+    now = sys.modules[emit.__name__]
+    makers = {"collocation": now._collocation, "quadrature": now._quadrature, "elementary": now._elementary}
+    return numbers({**{f"trum_{name}.h": make() for name, make in makers.items()}, "trum_kernels.h": now._header()})
+
+
+def _forms(entry: Entry) -> dict[str, str]:
+    """An entry's derived forms, for comparison."""
+    return {name: sp.srepr(form) for name, form in entry.derive().forms.items()}
+
+
+class Loaded:
+    """What is computed once, before any fork: kernels, tables, what the proofs want, how long each entry takes."""
+
+    def __init__(self, *, timed: bool) -> None:
+        self.hashes = {kernel.name: emit._source_hash(kernel) for kernel in kernel_module.kernels()}
+        self.tables = _headers()
+        self.wanted = {proof: reference(proof) for proof in PROOFS}
+        self.importers = {name: _dependents(f"derivations.{name}") for name in FORMULA_MODULES}
+        self.owners = {e.id: e.judge.__module__ for e in ENTRIES}
+        self.seconds = dict.fromkeys(self.owners, 0.0)
+        for entry in ENTRIES if timed else ():
+            start = time.process_time()
+            confirm(entry)
+            self.seconds[entry.id] = time.process_time() - start
+
+    def entries(self, module: str) -> list[str]:
+        """The entries of modules that depend on one, the cheapest first."""
+        found = [name for name, owner in self.owners.items() if owner in self.importers[module]]
+        return sorted(found, key=lambda name: self.seconds[name])
+
+
+def _run_again(edit: Edit, others: set[str]) -> None:
+    """Run a module's changed source in its place, and everything that imports it."""
+    name = f"derivations.{edit.module}"
+    for other in others | {name}:
+        sys.modules.pop(other, None)
+    package = sys.modules[name.rpartition(".")[0]]
+    spec = importlib.util.spec_from_loader(name, loader=None)
+    assert spec is not None
+    module = importlib.util.module_from_spec(spec)
+    module.__file__ = f"<{name} with a slip>"
+    sys.modules[name] = module
+    setattr(package, name.rpartition(".")[2], module)
+    exec(compile(edit.source, module.__file__, "exec"), module.__dict__)
+    for other in sorted(others):
+        importlib.import_module(other)
+
+
+def _by_generate(loaded: Loaded) -> str:
+    """What ``generate`` refuses, '' if nothing: dimensions and proofs of what is not as it was."""
+    now = sys.modules[kernel_module.__name__].kernels()
+    missing = unproved(now, loaded.tables)
+    if missing:
+        return f"proof: {missing[0]}"
+    for kernel in now:
+        if emit._source_hash(kernel) == loaded.hashes[kernel.name] and kernel.results == _results[kernel.name]:
+            continue
+        emit.check_dimensions(kernel)
+        subject = Subject(kernel)
+        for proof in of_kernel(kernel.name):
+            found = check(proof, subject, loaded.wanted[proof])
+            if found:
+                return f"proof: {kernel.name}: {found}"
+    tables = _headers()
+    if tables != loaded.tables:
+        for table in TABLES:
+            found = wrong(table, tables)
+            if found:
+                return f"proof: {found}"
+    return ""
+
+
+_results = {kernel.name: kernel.results for kernel in kernel_module.kernels()}
+
+
+def _by_ledger(names: list[str]) -> str:
+    by_id = {entry.id: entry for entry in sys.modules["derivations.ledger"].ENTRIES}
+    for name in names:
+        entry = by_id[name]
+        try:
+            problems = confirm(entry).problems
+        except Exception as error:  # whatever a changed source raises
+            problems = [f"{type(error).__name__}: {error}"]
+        if problems:
+            return f"ledger: ({name}) {problems[0]}"
+    return ""
+
+
+def _by_tests() -> str:
+    import pytest
+
+    with redirect_stdout(io.StringIO()) as said, redirect_stderr(said):
+        code = pytest.main(["-q", "-x", "-n", "0", "-p", "no:cacheprovider", *_TESTS])
+    failed = [line for line in said.getvalue().splitlines() if line.startswith(("FAILED", "ERROR"))]
+    return f"test: {failed[0] if failed else code}" if code else ""
+
+
+def _refusal(edit: Edit, loaded: Loaded) -> str:
+    """Who refuses a slip, '' if nobody; a dictionary of derived forms as JSON is left to the caller."""
+    dependents = loaded.importers[edit.module]
+    of_ledger = {name for name in dependents if name.startswith("derivations.ledger")}
+    try:
+        _run_again(edit, dependents - of_ledger)
+        found = _by_generate(loaded)
+        if found:
+            return found
+        for name in of_ledger:
+            sys.modules.pop(name, None)
+        sys.modules.pop("derivations.ledger", None)
+        importlib.import_module("derivations.ledger")
+    except DimensionError as error:
+        return f"dimension: {error}"
+    except ArithmeticError as error:
+        return f"own check: {error}"
+    except Exception as error:  # whatever a changed source raises
+        last = traceback.extract_tb(error.__traceback__)[-1]
+        return f"does not run: {type(error).__name__}: {error} ({Path(last.filename).name}:{last.lineno})"
+    return _by_ledger(loaded.entries(edit.module)) or _by_tests()
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of a slip: refused by whom, or why it changes nothing; neither if it survives."""
+
+    edit: Edit
+    refused: str
+    equivalent: str
+    seconds: float
+
+
+def try_(edit: Edit, loaded: Loaded) -> Outcome:
+    """One slip, in a fork."""
+    start = time.perf_counter()
+    reading, writing = os.pipe()
+    child = os.fork()
+    if child == 0:
+        os.close(reading)
+        signal.alarm(_LIMIT)
+        try:
+            refused = _refusal(edit, loaded)
+            answer = {"refused": refused} if refused else {"refused": "", "forms": _now(edit, loaded)}
+        except BaseException as error:  # the parent must hear of it
+            answer = {"refused": f"does not run: {type(error).__name__}: {error}"}
+        with os.fdopen(writing, "w") as out:
+            json.dump(answer, out)
+        os._exit(0)
+    os.close(writing)
+    with os.fdopen(reading) as said:
+        text = said.read()
+    os.waitpid(child, 0)
+    answer = json.loads(text) if text else {"refused": f"does not end within {_LIMIT} s"}
+    same = not answer["refused"] and answer["forms"] == _before(edit, loaded)
+    reason = "every kernel, table and derived form is the same expression" if same else ""
+    return Outcome(edit, answer["refused"], reason, time.perf_counter() - start)
+
+
+def _now(edit: Edit, loaded: Loaded) -> dict[str, object]:
+    """What the derivations give with a slip: hashes of the kernels, whether tables changed, the ledger's forms."""
+    hashes = {kernel.name: emit._source_hash(kernel) for kernel in sys.modules[kernel_module.__name__].kernels()}
+    by_id = {entry.id: entry for entry in sys.modules["derivations.ledger"].ENTRIES}
+    forms = {name: _forms(by_id[name]) for name in loaded.entries(edit.module)}
+    return {"kernels": hashes, "tables": _headers() == loaded.tables, "forms": forms}
+
+
+def _before(edit: Edit, loaded: Loaded) -> dict[str, object]:
+    by_id = {entry.id: entry for entry in ENTRIES}
+    forms = {name: _forms(by_id[name]) for name in loaded.entries(edit.module)}
+    return {"kernels": loaded.hashes, "tables": True, "forms": forms}
+
+
+def _table(outcomes: list[Outcome]) -> str:
+    """Counts per module and by whom, as Markdown."""
+    kinds = ("own check", "dimension", "proof", "ledger", "test", "does not run", "does not end")
+    lines = ["| module | slips | " + " | ".join(kinds) + " | change nothing | survive |", "|---|" + "---:|" * 10]
+    totals: Counter[str] = Counter()
+    for module in (*FORMULA_MODULES, "all"):
+        own = [o for o in outcomes if module in (o.edit.module, "all")]
+        by = Counter(next((kind for kind in kinds if o.refused.startswith(kind)), "") for o in own)
+        totals = by
+        same = sum(bool(o.equivalent) for o in own)
+        counts = [len(own), *(by[kind] for kind in kinds), same, by[""] - same]
+        lines.append(f"| {module} | " + " | ".join(str(count) for count in counts) + " |")
+    del totals
+    return "\n".join(lines)
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run the command line; returns the exit code."""
+    parser = argparse.ArgumentParser(prog="python -m derivations.source_mutants", description=__doc__)
+    parser.add_argument("--seed", default=time.strftime("%Y-%m-%d"), help="of the choice; today's date if not given")
+    parser.add_argument("--count", type=int, default=10, help="how many slips; 10 if not given")
+    options = parser.parse_args(arguments)
+    every = [edit for module in FORMULA_MODULES for edit in edits(module)]
+    if not 1 <= options.count <= len(every):
+        print(f"--count is {options.count}; allowed is 1 to {len(every)}, all of them", file=sys.stderr)
+        return 2
+    chosen = random.Random(options.seed).sample(every, options.count)
+    print(f"{options.count} of {len(every)} slips, seed {options.seed}", flush=True)
+    loaded, outcomes = Loaded(timed=options.count > 50), []
+    for number, edit in enumerate(chosen, 1):
+        outcome = try_(edit, loaded)
+        outcomes.append(outcome)
+        state = outcome.refused or outcome.equivalent or "SURVIVES"
+        where = f"{edit.module}:{edit.line}: {edit.old} -> {edit.new}"
+        print(f"[{number}] {where[:150]}: {state[:150]}, {outcome.seconds:.1f} s", flush=True)
+    print(_table(outcomes))
+    survivors = [o for o in outcomes if not o.refused and not o.equivalent]
+    print(f"{len(outcomes)} slips, {len(survivors)} surviving")
+    return 1 if survivors else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
