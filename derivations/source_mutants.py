@@ -15,6 +15,7 @@ import argparse
 import ast
 import importlib
 import importlib.util
+import inspect
 import io
 import json
 import os
@@ -85,9 +86,10 @@ _COMPARISONS: dict[type[ast.cmpop], type[ast.cmpop]] = {
 
 @dataclass(frozen=True)
 class Edit:
-    """One slip: the module, the line, what stood there and stands now, the changed source."""
+    """One slip: the module, the function and line, what stood there and stands now, the changed source."""
 
     module: str
+    function: str
     line: int
     old: str
     new: str
@@ -120,18 +122,38 @@ def _skipped(tree: ast.Module) -> set[ast.AST]:
     return found
 
 
+def _symbols(tree: ast.Module) -> set[str]:
+    """Names that a module gives to symbols."""
+    found: set[str] = set()
+    for node in tree.body:
+        if isinstance(node, ast.Assign) and isinstance(node.value, ast.Call | ast.Subscript):
+            call = node.value.value if isinstance(node.value, ast.Subscript) else node.value
+            maker = ast.unparse(call.func) if isinstance(call, ast.Call) else ""
+            if maker in ("sym", "sp.symbols", "sp.Symbol", "symbols"):
+                found |= {n.id for target in node.targets for n in ast.walk(target) if isinstance(n, ast.Name)}
+    return found
+
+
 def _names(tree: ast.Module) -> dict[ast.AST, list[str]]:
-    """For each name that is read within a function, the other names that are read or assigned in it."""
+    """For each name that is read within a function, names for which it may be taken.
+
+    A symbol for the symbols that its function reads or, if there are none, the module's; what is assigned in a function
+    for what is assigned above it.
+    """
     found: dict[ast.AST, list[str]] = {}
+    symbols = _symbols(tree)
     for function in ast.walk(tree):
         if not isinstance(function, ast.FunctionDef):
             continue
-        names = [node for node in ast.walk(function) if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load)]
-        called = {node.func for node in ast.walk(function) if isinstance(node, ast.Call)}
-        owners = {node.value for node in ast.walk(function) if isinstance(node, ast.Attribute)}
-        plain = [node for node in names if node not in called and node not in owners]
-        for node in plain:
-            found[node] = sorted({other.id for other in plain} - {node.id})
+        nodes = [node for node in ast.walk(function) if isinstance(node, ast.Name)]
+        assigned = {node.id: node.lineno for node in reversed(nodes) if isinstance(node.ctx, ast.Store)}
+        read = [node for node in nodes if isinstance(node.ctx, ast.Load)]
+        for node in read:
+            if node.id in symbols:
+                near = sorted({other.id for other in read} & symbols - {node.id})
+                found[node] = near or sorted(symbols - {node.id})
+            elif node.id in assigned:
+                found[node] = sorted(n for n, line in assigned.items() if n != node.id and line < node.lineno)
     return found
 
 
@@ -169,6 +191,8 @@ def edits(module: str) -> Iterator[Edit]:
     text = FOLDER.joinpath(*module.split(".")).with_suffix(".py").read_text("utf-8")
     tree = ast.parse(text)
     names, skipped = _names(tree), _skipped(tree)
+    functions = [node for node in tree.body if isinstance(node, ast.FunctionDef)]
+    owners = {node: function.name for function in functions for node in ast.walk(function)}
     for place, node in enumerate(ast.walk(tree)):
         if node in skipped:
             continue
@@ -182,7 +206,7 @@ def edits(module: str) -> Iterator[Edit]:
                     return new if at is target else self.generic_visit(at)
 
             changed = ast.unparse(Put().visit(copy))
-            yield Edit(module, getattr(node, "lineno", 0), ast.unparse(node), ast.unparse(new), changed)
+            yield Edit(module, owners.get(node, ""), getattr(node, "lineno", 0), ast.unparse(node), ast.unparse(new), changed)
 
 
 # --- who refuses them -------------------------------------------------------------------------------------------
@@ -233,12 +257,15 @@ class Loaded:
         self.tables = _headers()
         self.wanted = {proof: reference(proof) for proof in PROOFS}
         self.importers = {name: _dependents(f"derivations.{name}") for name in FORMULA_MODULES}
+        self.given = {name: _given(name) for name in FORMULA_MODULES}
         self.owners = {e.id: e.judge.__module__ for e in ENTRIES}
         self.seconds = dict.fromkeys(self.owners, 0.0)
+        self.forms: dict[str, dict[str, str]] = {}
         for entry in ENTRIES if timed else ():
             start = time.process_time()
             confirm(entry)
             self.seconds[entry.id] = time.process_time() - start
+            self.forms[entry.id] = _forms(entry)
 
     def entries(self, module: str) -> list[str]:
         """The entries of modules that depend on one, the cheapest first."""
@@ -290,9 +317,10 @@ def _by_generate(loaded: Loaded) -> str:
 _results = {kernel.name: kernel.results for kernel in kernel_module.kernels()}
 
 
-def _by_ledger(names: list[str]) -> str:
+def _by_ledger(names: list[str], forms: Mapping[str, dict[str, str]]) -> str:
+    """What ``verify`` refuses, '' if nothing: first of the entries that have come out other than before."""
     by_id = {entry.id: entry for entry in sys.modules["derivations.ledger"].ENTRIES}
-    for name in names:
+    for name in sorted(names, key=lambda name: name in forms and _now_of(by_id[name]) == forms[name]):
         entry = by_id[name]
         try:
             problems = confirm(entry).problems
@@ -301,6 +329,14 @@ def _by_ledger(names: list[str]) -> str:
         if problems:
             return f"ledger: ({name}) {problems[0]}"
     return ""
+
+
+def _now_of(entry: Entry) -> dict[str, str]:
+    """An entry's derived forms, none where they cannot be made."""
+    try:
+        return _forms(entry)
+    except Exception:  # whatever a changed source raises
+        return {}
 
 
 def _by_tests() -> str:
@@ -312,27 +348,52 @@ def _by_tests() -> str:
     return f"test: {failed[0] if failed else code}" if code else ""
 
 
-def _refusal(edit: Edit, loaded: Loaded) -> str:
-    """Who refuses a slip, '' if nobody; a dictionary of derived forms as JSON is left to the caller."""
+def _refusal(edit: Edit, loaded: Loaded) -> dict[str, object]:
+    """Who refuses a slip; if nobody does so cheaply and the function that it is in gives the same, that."""
     dependents = loaded.importers[edit.module]
     of_ledger = {name for name in dependents if name.startswith("derivations.ledger")}
     try:
         _run_again(edit, dependents - of_ledger)
         found = _by_generate(loaded)
         if found:
-            return found
+            return {"refused": found}
+        if edit.function in loaded.given[edit.module] and _given(edit.module) == loaded.given[edit.module]:
+            return {"refused": "", "same": f"all functions of {edit.module} without arguments return the same"}
         for name in of_ledger:
             sys.modules.pop(name, None)
         sys.modules.pop("derivations.ledger", None)
         importlib.import_module("derivations.ledger")
+        found = _by_ledger(loaded.entries(edit.module), loaded.forms) or _by_tests()
+        return {"refused": found} if found else {"refused": "", "now": _now(edit, loaded)}
     except DimensionError as error:
-        return f"dimension: {error}"
+        return {"refused": f"dimension: {error}"}
     except ArithmeticError as error:
-        return f"own check: {error}"
+        return {"refused": f"own check: {error}"}
     except Exception as error:  # whatever a changed source raises
         last = traceback.extract_tb(error.__traceback__)[-1]
-        return f"does not run: {type(error).__name__}: {error} ({Path(last.filename).name}:{last.lineno})"
-    return _by_ledger(loaded.entries(edit.module)) or _by_tests()
+        where = f"{Path(last.filename).name}:{last.lineno}"
+        return {"refused": f"does not run: {type(error).__name__}: {error} ({where})"}
+
+
+def _text(value: object) -> str:
+    """An expression, or a collection of them, in full."""
+    if isinstance(value, sp.Basic | sp.MatrixBase):
+        return str(sp.srepr(value))
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{_text(k)}: {_text(v)}" for k, v in value.items()) + "}"
+    if isinstance(value, tuple | list):
+        return "(" + ", ".join(map(_text, value)) + ")"
+    return repr(value)
+
+
+def _given(name: str) -> dict[str, str]:
+    """What the functions of a module return that need no arguments."""
+    module, found = sys.modules[f"derivations.{name}"], {}
+    for key, function in vars(module).items():
+        own = callable(function) and getattr(function, "__module__", "") == module.__name__
+        if own and not isinstance(function, type) and not inspect.signature(function).parameters:
+            found[key] = _text(function())
+    return found
 
 
 @dataclass(frozen=True)
@@ -354,8 +415,7 @@ def try_(edit: Edit, loaded: Loaded) -> Outcome:
         os.close(reading)
         signal.alarm(_LIMIT)
         try:
-            refused = _refusal(edit, loaded)
-            answer = {"refused": refused} if refused else {"refused": "", "forms": _now(edit, loaded)}
+            answer = _refusal(edit, loaded)
         except BaseException as error:  # the parent must hear of it
             answer = {"refused": f"does not run: {type(error).__name__}: {error}"}
         with os.fdopen(writing, "w") as out:
@@ -366,9 +426,10 @@ def try_(edit: Edit, loaded: Loaded) -> Outcome:
         text = said.read()
     os.waitpid(child, 0)
     answer = json.loads(text) if text else {"refused": f"does not end within {_LIMIT} s"}
-    same = not answer["refused"] and answer["forms"] == _before(edit, loaded)
-    reason = "every kernel, table and derived form is the same expression" if same else ""
-    return Outcome(edit, answer["refused"], reason, time.perf_counter() - start)
+    reason = answer.get("same", "")
+    if "now" in answer and answer["now"] == _before(edit, loaded):
+        reason = "every kernel, table and derived form of the ledger is the same"
+    return Outcome(edit, str(answer["refused"]), str(reason), time.perf_counter() - start)
 
 
 def _now(edit: Edit, loaded: Loaded) -> dict[str, object]:

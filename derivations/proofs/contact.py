@@ -11,7 +11,7 @@ import sympy as sp
 from derivations.proofs.maths import Maths, Number, Point
 from derivations.proofs.proof import Proof, grid
 
-__all__ = ["PROOFS", "balanced", "half_angle"]
+__all__ = ["PROOFS", "balanced", "half_angle", "load", "turned"]
 
 Found = Mapping[str, Number | None]
 TINY = mp.mpf("1e-37")
@@ -36,13 +36,14 @@ def half_angle(filled: Number) -> Number:
     return theta
 
 
-def balanced(values: dict[str, Number], at: random.Random) -> None:
+def balanced(values: dict[str, Number], at: random.Random, theta: Number = None) -> None:
     """Makes engagement, share and sine those of a contact that carries its load; a third touches all round."""
-    if at.random() < 1 / 3:
+    if theta is None:
+        theta = +mp.pi if at.random() < 1 / 3 else mp.mpf(at.uniform(0.3, 3.0))
+    if theta >= mp.pi:
         engagement = mp.mpf(at.uniform(0.05, 0.99)) / mp.pi
-        values |= {"theta": +mp.pi, "sin_theta": mp.mpf(0), "engagement": engagement, "share": 1 / mp.pi}
+        values |= {"theta": theta, "sin_theta": mp.mpf(0), "engagement": engagement, "share": 1 / mp.pi}
         return
-    theta = mp.mpf(at.uniform(0.3, 3.0))
     engagement = 1 / load(theta)
     values |= {"theta": theta, "sin_theta": mp.sin(theta), "engagement": engagement}
     values["share"] = -engagement * mp.cos(theta)

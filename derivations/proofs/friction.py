@@ -12,9 +12,9 @@ from itertools import pairwise
 
 import mpmath as mp
 
-from derivations.proofs.contact import TINY, balanced, half_angle, load
+from derivations.proofs.contact import TINY, balanced, half_angle, load, turned
 from derivations.proofs.maths import DIGITS, Maths, Number, Point
-from derivations.proofs.proof import Proof, grid
+from derivations.proofs.proof import Proof, draw, grid
 
 __all__ = ["PROOFS"]
 
@@ -22,12 +22,13 @@ Found = Mapping[str, Number | None]
 
 
 def _root(function: Callable[[Number], Number], low: Number, high: Number) -> Number:
-    """Where a function that changes its sign once does so: bisection, then secants."""
-    rising = function(high) > 0
-    for _ in range(40):
-        middle = (low + high) / 2
-        low, high = (low, middle) if (function(middle) > 0) == rising else (middle, high)
-    before, at = low, high
+    """Where a function that changes its sign once does so: bisection in few digits, then secants."""
+    rising, left, right = function(high) > 0, float(low), float(high)
+    with mp.workdps(16):
+        for _ in range(40):
+            middle = (left + right) / 2
+            left, right = (left, middle) if (function(mp.mpf(middle)) > 0) == rising else (middle, right)
+    before, at = mp.mpf(left), mp.mpf(right)
     for _ in range(12):
         one, other = function(before), function(at)
         if one == other:
@@ -113,22 +114,37 @@ def _slopes(p: Point, m: Maths) -> Found:  # noqa: ARG001
     }
 
 
-def _sliding(faster: bool) -> Callable[[dict[str, Number], random.Random], None]:
-    """Makes a state of a contact that carries its load, with a rotor within the surface's speeds or beyond."""
+def _beyond(values: dict[str, Number], at: random.Random) -> None:
+    """A contact that carries its load and a rotor beyond the surface's speeds."""
+    values["v"] = values["R_v"] * mp.mpf(at.uniform(1.01, 2) * at.choice((1, -1)))
+    turned(values, at)
 
-    def fit(values: dict[str, Number], at: random.Random) -> None:
-        phi = mp.mpf(at.uniform(-3.1, 3.1))
-        values |= {"phi": phi, "cos_phi": mp.cos(phi), "sin_phi": mp.sin(phi)}
-        share = at.uniform(1.01, 2) * at.choice((1, -1)) if faster else at.uniform(-0.98, 0.98)
-        values["v"] = values["R_v"] * mp.mpf(share)
-        balanced(values, at)
 
-    return fit
+def _within() -> list[Point]:
+    """States that between them have each of both points as fast as the rotor wherever it can be, on either side.
+
+    In a partial contact: inside it, beside it, far from it; in a full one; past half a turn, just before and after it.
+    """
+    found = []
+    cases = [(sign, side, place) for sign in (1, -1) for side in (1, -1) for place in _PLACES]
+    for index, (sign, side, place) in enumerate(cases * 2):
+        at = random.Random(f"state {index}")
+        low, high, widths = _PLACES[place]
+        theta = at.uniform(*widths)
+        u = side * at.uniform(low(theta), high(theta))
+        alpha = at.uniform(0.003, 0.02) if index < len(cases) else at.uniform(0.1, 3.1)
+        values = {"R_v": draw("R_v", index)}
+        balanced(values, at, mp.mpf(theta) if theta < _FULL else +mp.pi)
+        phi = mp.mpf(u) - sign * mp.mpf(alpha)
+        phi -= 2 * mp.pi * mp.nint(phi / (2 * mp.pi))
+        values |= {"phi": phi, "cos_phi": mp.cos(phi), "sin_phi": mp.sin(phi), "v": values["R_v"] * mp.cos(alpha)}
+        found.append(Point(values))
+    return found
 
 
 def _standing() -> list[Point]:
     """Surface and rotor stand still, at a contact that carries its load."""
-    return [grid("R_v", 1, _sliding(False))()[0].with_(R_v=mp.mpf(0), v=mp.mpf(0), tiny=TINY)]
+    return [_within()[0].with_(R_v=mp.mpf(0), v=mp.mpf(0), tiny=TINY)]
 
 
 def _limit(p: Point, m: Maths) -> Found:  # noqa: ARG001
@@ -151,9 +167,20 @@ def _as_fast(values: dict[str, Number], at: random.Random) -> None:
     values["v"] = values["R_v"] * at.choice((1, -1))
 
 
+_FULL = 3.1  # from this half-angle on the whole wave is taken to touch
+_PLACES: dict[str, tuple[Callable[[float], float], Callable[[float], float], tuple[float, float]]] = {
+    "inside": (lambda theta: 0.02, lambda theta: 0.98 * theta, (0.3, 3.0)),
+    "beside": (lambda theta: 1.05 * theta, lambda theta: 0.98, (0.3, 0.7)),
+    "far": (lambda theta: 1.1, lambda theta: 3.0, (0.3, 0.9)),
+    "full": (lambda theta: 0.02, lambda theta: 3.0, (3.12, 3.14)),
+    "half a turn": (lambda theta: 3.02, lambda theta: 3.13, (3.12, 3.14)),
+    "past it": (lambda theta: 3.15, lambda theta: 3.25, (3.12, 3.14)),
+    "past it, beside": (lambda theta: 3.16, lambda theta: 3.25, (2.86, 3.0)),
+}
+"""Between which angles, of the contact's half-angle, a point as fast as the rotor lies, and of which contacts."""
 _LIMIT = "R_v R_v_rate p_larger p_smaller step v v_rate"
-_INSIDE = "48 random states of partial and full contact, rotor within the surface's speeds"
-_BEYOND = "8 random states with a rotor beyond the surface's speeds"
+_INSIDE = "56 states: each of both points inside, beside, far from the contact, about half a turn"
+_BEYOND = "16 random states with a rotor beyond the surface's speeds"
 PROOFS = (
     Proof(
         "trum_friction",
@@ -161,7 +188,7 @@ PROOFS = (
         "33 34 35 36 37 rotor-orbit",
         "sum of the slip's sign times the pressure; its difference quotient; pressure where the slip is 0",
         _friction,
-        grid("R_v", 48, _sliding(False)),
+        _within,
         _INSIDE,
         floor=1,
     ),
@@ -171,7 +198,7 @@ PROOFS = (
         "33 34 35 36 37 rotor-orbit",
         "all of friction in one sense, slope 0",
         _friction,
-        grid("R_v", 8, _sliding(True)),
+        grid("R_v", 16, _beyond),
         _BEYOND,
         floor=1,
     ),
@@ -190,7 +217,7 @@ PROOFS = (
         "31 36 rotor-orbit",
         "difference quotients of the sum by phi and along states that carry their load",
         _slopes,
-        grid("R_v", 48, _sliding(False)),
+        _within,
         _INSIDE,
         floor=1,
     ),
@@ -200,7 +227,7 @@ PROOFS = (
         "31 36 rotor-orbit",
         "none by the engagement",
         _slopes,
-        grid("R_v", 8, _sliding(True)),
+        grid("R_v", 16, _beyond),
         _BEYOND,
         floor=1,
     ),

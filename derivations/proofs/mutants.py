@@ -19,7 +19,7 @@ import sympy as sp
 from derivations.codegen.emit import check_dimensions
 from derivations.codegen.kernels import Kernel
 from derivations.dimensions import DimensionError
-from derivations.nomenclature import NOMENCLATURE
+from derivations.nomenclature import NOMENCLATURE, TINY
 from derivations.proofs import numbers, of_kernel
 from derivations.proofs.graph import Graph, Values
 from derivations.proofs.maths import DIGITS, Number, Point
@@ -160,6 +160,8 @@ class _Prepared:
 
 
 _SWITCHES = {"s": (1, -1), "g_A": (0, 1), "g_B": (0, 1)}
+_FULLNESS = {NOMENCLATURE[name].symbol for name in ("fullness", "fullness_root")}
+_PHI = NOMENCLATURE["phi"].symbol
 _HIGHEST = 6  # parts above a slip that are looked at for whether they still see it
 
 
@@ -169,7 +171,8 @@ def _differ(one: sp.Expr, other: sp.Expr) -> bool:
     at = random.Random("differ")
     with mp.workdps(DIGITS):
         for _ in range(4):
-            values = {s.name: mp.mpf(at.uniform(0.2, 0.9)) for s in sorted(one.free_symbols | other.free_symbols, key=str)}
+            symbols = sorted(one.free_symbols | other.free_symbols, key=str)
+            values = {s.name: mp.mpf(at.uniform(0.2 if s.is_positive else -0.9, 0.9)) for s in symbols}
             try:
                 found = graph.values(values)
             except NONSENSE:
@@ -225,6 +228,99 @@ def _equivalent(graph: Graph, part: sp.Basic, new: sp.Basic) -> str:
         return "" if "" in above else "; ".join(sorted(above))
 
     return seen(part, 0)
+
+
+def _bounds(expr: sp.Basic) -> tuple[sp.Expr, sp.Expr] | None:
+    """Between which numbers an angle lies: phi within half a turn, the angle of a point with a root for its sine too."""
+    if expr.is_number:
+        return expr, expr
+    if expr == _PHI:
+        return -sp.pi, sp.pi
+    if isinstance(expr, sp.atan2) and isinstance(expr.args[0], sp.Pow) and expr.args[0].exp == sp.Rational(1, 2):
+        return sp.Integer(0), sp.pi
+    if isinstance(expr, sp.Mul) and expr.args[0] == -1 and len(expr.args) == 2:
+        inner = _bounds(expr.args[1])
+        return None if inner is None else (-inner[1], -inner[0])
+    if isinstance(expr, sp.Add):
+        terms = [_bounds(term) for term in expr.args]
+        if all(term is not None for term in terms):
+            return sp.Add(*(t[0] for t in terms if t)), sp.Add(*(t[1] for t in terms if t))
+    return None
+
+
+def _decided(expr: sp.Expr) -> sp.Expr:
+    """An expression with the comparisons done that come out the same for all angles."""
+
+    def decide(comparison: sp.Basic) -> sp.Basic:
+        first, second = (_bounds(argument) for argument in comparison.args)
+        if first and second and first[0] >= second[1]:
+            return sp.Integer(0)
+        return sp.Integer(1) if first and second and first[1] < second[0] else comparison
+
+    return expr.replace(lambda e: type(e).__name__ == "less", decide)
+
+
+def _still(kernel: Kernel, other: Kernel) -> bool:
+    """Whether the outputs of two kernels with directions differ by what no direction changes."""
+    moving = {symbol for rates in kernel.along.values() for symbol in rates}
+    pairs = [(sp.sympify(output), sp.sympify(other.outputs[name])) for name, output in kernel.outputs.items()]
+    return bool(kernel.along) and not any(sp.expand(a - b).free_symbols & moving for a, b in pairs if a != b)
+
+
+def _either_way(pairs: list[tuple[sp.Expr, sp.Expr]]) -> bool:
+    """Whether pairs of expressions are the same for either outcome of some comparison that both have."""
+    unlike = [(a, b) for a, b in pairs if a != b]
+
+    def comparisons(expr: sp.Expr) -> set[sp.Basic]:
+        return {node for node in sp.preorder_traversal(expr) if type(node).__name__ == "less"}
+
+    for node in sorted(set.intersection(*(comparisons(e) for pair in unlike for e in pair)), key=sp.count_ops):
+        outcomes = [(a.xreplace({node: sp.Integer(k)}), b.xreplace({node: sp.Integer(k)})) for a, b in unlike for k in (0, 1)]
+        if all(sp.expand(a - b) == 0 for a, b in outcomes):
+            return True
+    return False
+
+
+def _never_reached(pairs: list[tuple[sp.Expr, sp.Expr]]) -> bool:
+    """Whether what is held at pi, in one of each pair, stays below pi by itself at all fullnesses of the contact.
+
+    Near the whole wave in contact, at 1 - t = n^2/2, the balance is a parabola in the distance n from pi, and Halley's
+    step from n_g ends at n_g (n_g^2 + 3 n^2)/(3 n_g^2 + n^2) > 0; before that 600 fullnesses are tried.
+    """
+    for one, other in pairs:
+        held = [node for node in one.atoms(sp.Min) if sp.pi in node.args and node not in other.atoms(sp.Min)]
+        if one.free_symbols - {*_FULLNESS, TINY} or len(held) != 1:
+            return False
+        (free,) = (argument for argument in held[0].args if argument != sp.pi)
+        if other not in (one.xreplace({held[0]: free}), one.xreplace({held[0]: sp.Min(2 * sp.pi, free)})):
+            return False
+        graph = Graph({"free": free})
+        with mp.workdps(200):
+            for k in range(600):
+                full = 1 - mp.mpf(2) ** (-mp.mpf(k + 1) / 2)
+                point = {"fullness": full, "fullness_root": mp.cbrt(full), TINY.name: mp.mpf("1e-190")}
+                if not graph.values(point)[graph.outputs["free"]] < mp.pi:
+                    return False
+    return True
+
+
+def _by_domain(kernel: Kernel, other: Kernel) -> str:
+    """Why two kernels compute the same by what their arguments can be, '' if that is not shown."""
+    if kernel.along != other.along:
+        return ""
+    if _still(kernel, other):
+        return "differs by what no direction changes"
+    pairs = [(sp.sympify(output), sp.sympify(other.outputs[name])) for name, output in kernel.outputs.items()]
+    if all(a == b or _decided(a) == _decided(b) for a, b in pairs):
+        return "phi and alpha are half a turn at most"
+    if _either_way(pairs):
+        return "the same whether a comparison holds or not"
+    if _never_reached([(a, b) for a, b in pairs if a != b]):
+        return "the angle stays below pi by itself"
+    free = {TINY: -TINY}
+    if all(a == b or a == b.xreplace(free) for a, b in pairs):
+        return "what keeps a quotient finite may have either sign"
+    return ""
 
 
 def _swapped_symbols(kernel: Kernel) -> Iterator[tuple[str, Kernel]]:
@@ -285,7 +381,7 @@ def _unnoticed(text: str, kernel: Kernel, other: Kernel, equivalent: Callable[[]
         check_dimensions(other)
     except DimensionError:
         return Slip(kernel.name, text, True)
-    return Slip(kernel.name, text, False, equivalent())
+    return Slip(kernel.name, text, False, _by_domain(kernel, other) or equivalent())
 
 
 def _same_outputs(kernel: Kernel, other: Kernel) -> str:

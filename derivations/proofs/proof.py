@@ -124,18 +124,20 @@ def grid(
     return points
 
 
-def identical(one: sp.Expr, other: sp.Expr) -> bool:
-    """Whether two expressions are the same for all values of their symbols, but for a sign.
+def identical(one: sp.Expr, other: sp.Expr, *, but_for_sign: bool = False) -> bool:
+    """Whether two expressions are the same for all values of their symbols.
 
-    Rational functions are brought over one denominator; where both have a square root, their squares are.  The sign
-    is what the numbers at the points decide.
+    Rational functions are brought over one denominator.  ``but_for_sign`` compares squares as well, which settles
+    expressions with a square root each; the sign is then left to the numbers at the points.
     """
     if sp.expand(one - other) == 0:
         return True
     gap = sp.cancel(sp.together(one - other))
     if gap == 0 or sp.cancel(sp.together(sp.expand_trig(gap))) == 0:
         return True
-    return bool(other != 0 and sp.cancel(sp.together(sp.powdenest((one / other) ** 2, force=True))) == 1)
+    if not but_for_sign or other == 0:
+        return False
+    return bool(sp.cancel(sp.together(sp.powdenest((one / other) ** 2, force=True))) == 1)
 
 
 @dataclass(frozen=True)
@@ -292,7 +294,7 @@ def _identically(proof: Proof, kernel: Kernel) -> str:
     wanted = proof.wanted(symbols, SYMBOLS)
     fixed = {symbol: sp.nsimplify(value) for symbol, value in CONSTANTS.items() if symbol != TINY} | {TINY: 0}
     for name in proof.names:
-        if not identical(sp.sympify(kernel.outputs[name]).subs(fixed), sp.sympify(wanted[name])):
+        if not identical(sp.sympify(kernel.outputs[name]).subs(fixed), sp.sympify(wanted[name]), but_for_sign=True):
             return f"{name} is not identically what is stated"
     return ""
 
