@@ -170,6 +170,7 @@ def _as_fast(values: dict[str, Number], at: random.Random) -> None:
 _FULL = 3.1  # from this half-angle on the whole wave is taken to touch
 _PLACES: dict[str, tuple[Callable[[float], float], Callable[[float], float], tuple[float, float]]] = {
     "inside": (lambda theta: 0.02, lambda theta: 0.98 * theta, (0.3, 3.0)),
+    "inside of nearly all": (lambda theta: 0.02, lambda theta: 0.98 * theta, (3.02, 3.09)),
     "beside": (lambda theta: 1.05 * theta, lambda theta: 0.98, (0.3, 0.7)),
     "far": (lambda theta: 1.1, lambda theta: 3.0, (0.3, 0.9)),
     "full": (lambda theta: 0.02, lambda theta: 3.0, (3.12, 3.14)),
@@ -179,7 +180,7 @@ _PLACES: dict[str, tuple[Callable[[float], float], Callable[[float], float], tup
 }
 """Between which angles, of the contact's half-angle, a point as fast as the rotor lies, and of which contacts."""
 _LIMIT = "R_v R_v_rate p_larger p_smaller step v v_rate"
-_INSIDE = "56 states: each of both points inside, beside, far from the contact, about half a turn"
+_INSIDE = "64 states: each of both points inside, beside, far from the contact, about half a turn"
 _BEYOND = "16 random states with a rotor beyond the surface's speeds"
 PROOFS = (
     Proof(

@@ -19,7 +19,7 @@ import sympy as sp
 from derivations.codegen.emit import check_dimensions
 from derivations.codegen.kernels import Kernel
 from derivations.dimensions import DimensionError
-from derivations.nomenclature import NOMENCLATURE, TINY
+from derivations.nomenclature import NOMENCLATURE, TINY, sym
 from derivations.proofs import numbers, of_kernel
 from derivations.proofs.graph import Graph, Values
 from derivations.proofs.maths import DIGITS, Number, Point
@@ -274,6 +274,8 @@ def _either_way(pairs: list[tuple[sp.Expr, sp.Expr]]) -> bool:
     def comparisons(expr: sp.Expr) -> set[sp.Basic]:
         return {node for node in sp.preorder_traversal(expr) if type(node).__name__ == "less"}
 
+    if not unlike:
+        return False
     for node in sorted(set.intersection(*(comparisons(e) for pair in unlike for e in pair)), key=sp.count_ops):
         outcomes = [(a.xreplace({node: sp.Integer(k)}), b.xreplace({node: sp.Integer(k)})) for a, b in unlike for k in (0, 1)]
         if all(sp.expand(a - b) == 0 for a, b in outcomes):
@@ -315,6 +317,14 @@ def _by_domain(kernel: Kernel, other: Kernel) -> str:
         return "phi and alpha are half a turn at most"
     if _either_way(pairs):
         return "the same whether a comparison holds or not"
+    theta, engagement, share, sin_theta, R_v, v = sym("theta engagement share sin_theta R_v v")
+    balance = {share: (1 - engagement * sin_theta) / theta}
+    if {share, theta, sin_theta} <= set(kernel.inputs) and _either_way([(a.subs(balance), b.subs(balance)) for a, b in pairs]):
+        return "the same where the contact carries its load"
+    if kernel.name == "trum_friction_limit":
+        sides = [(a.subs(v, sign * R_v), b.subs(v, sign * R_v)) for a, b in pairs for sign in (1, -1)]
+        if all(identical(a, b) for a, b in sides):
+            return "the same where the rotor is as fast as the surface"
     if _never_reached([(a, b) for a, b in pairs if a != b]):
         return "the angle stays below pi by itself"
     free = {TINY: -TINY}
