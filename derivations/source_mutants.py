@@ -5,8 +5,8 @@ exchanged.  Each is made in memory, in a fork of a process that has everything l
 imports it are run again, then come, from cheap to dear, the proofs of ``generate``, the ledger's entries that depend on
 the module, and the fast tests.  Files stay as they are.
 
-A slip that none of them refuses is shown to change nothing: every kernel, table and derived form of the ledger comes out
-as the very same expression.  What is left survives, and the exit code is 1.
+A slip that none of them refuses is shown to change nothing: every kernel, table and derived form of the ledger comes
+out as the very same expression.  What is left survives, and the exit code is 1.
 """
 
 from __future__ import annotations
@@ -30,13 +30,12 @@ from contextlib import redirect_stderr, redirect_stdout
 from copy import deepcopy
 from dataclasses import dataclass
 from pathlib import Path
-from types import FrameType, ModuleType
+from types import ModuleType
 
 import sympy as sp
 
 from derivations.codegen import emit
 from derivations.codegen import kernels as kernel_module
-from derivations.codegen.kernels import Kernel
 from derivations.dimensions import DimensionError
 from derivations.ledger import ENTRIES
 from derivations.ledger.model import Entry, confirm
@@ -188,8 +187,7 @@ def _changes(node: ast.AST, others: list[str]) -> Iterator[Callable[[ast.AST], a
 
 def edits(module: str) -> Iterator[Edit]:
     """Every slip in a module."""
-    text = FOLDER.joinpath(*module.split(".")).with_suffix(".py").read_text("utf-8")
-    tree = ast.parse(text)
+    tree = ast.parse(_source(module))
     names, skipped = _names(tree), _skipped(tree)
     functions = [node for node in tree.body if isinstance(node, ast.FunctionDef)]
     owners = {node: function.name for function in functions for node in ast.walk(function)}
@@ -206,7 +204,9 @@ def edits(module: str) -> Iterator[Edit]:
                     return new if at is target else self.generic_visit(at)
 
             changed = ast.unparse(Put().visit(copy))
-            yield Edit(module, owners.get(node, ""), getattr(node, "lineno", 0), ast.unparse(node), ast.unparse(new), changed)
+            yield Edit(
+                module, owners.get(node, ""), getattr(node, "lineno", 0), ast.unparse(node), ast.unparse(new), changed
+            )
 
 
 # --- who refuses them -------------------------------------------------------------------------------------------
@@ -323,7 +323,7 @@ def _by_ledger(names: list[str], forms: Mapping[str, dict[str, str]]) -> str:
     for name in sorted(names, key=lambda name: name in forms and _now_of(by_id[name]) == forms[name]):
         entry = by_id[name]
         try:
-            problems = confirm(entry).problems
+            problems = list(confirm(entry).problems)
         except Exception as error:  # whatever a changed source raises
             problems = [f"{type(error).__name__}: {error}"]
         if problems:
@@ -462,19 +462,44 @@ def _table(outcomes: list[Outcome]) -> str:
     return "\n".join(lines)
 
 
+def _drawn(seed: str, count: int) -> list[Edit]:
+    every = [edit for module in FORMULA_MODULES for edit in edits(module)]
+    if not 1 <= count <= len(every):
+        raise ValueError(f"--count is {count}; allowed is 1 to {len(every)}, all there are")
+    print(f"{count} of {len(every)} slips, seed {seed}", flush=True)
+    return random.Random(seed).sample(every, count)
+
+
+def _typed(module: str, old: str, new: str) -> Edit:
+    """A change that someone typed: the first place in a module that has ``old``."""
+    if module not in FORMULA_MODULES:
+        raise ValueError(f"--edit's module is {module}; allowed are {', '.join(FORMULA_MODULES)}")
+    text = _source(module)
+    if old not in text:
+        raise ValueError(f"--edit's old text is {old}; allowed is what stands in {module}")
+    line = text[: text.index(old)].count("\n") + 1
+    return Edit(module, "", line, old, new, text.replace(old, new, 1))
+
+
+def _source(module: str) -> str:
+    return FOLDER.joinpath(*module.split(".")).with_suffix(".py").read_text("utf-8")
+
+
 def main(arguments: list[str] | None = None) -> int:
     """Run the command line; returns the exit code."""
     parser = argparse.ArgumentParser(prog="python -m derivations.source_mutants", description=__doc__)
     parser.add_argument("--seed", default=time.strftime("%Y-%m-%d"), help="of the choice; today's date if not given")
     parser.add_argument("--count", type=int, default=10, help="how many slips; 10 if not given")
+    parser.add_argument(
+        "--edit", nargs=3, action="append", metavar=("MODULE", "OLD", "NEW"), help="try this change of a line instead"
+    )
     options = parser.parse_args(arguments)
-    every = [edit for module in FORMULA_MODULES for edit in edits(module)]
-    if not 1 <= options.count <= len(every):
-        print(f"--count is {options.count}; allowed is 1 to {len(every)}, all of them", file=sys.stderr)
+    try:
+        chosen = [_typed(*edit) for edit in options.edit] if options.edit else _drawn(options.seed, options.count)
+    except ValueError as error:
+        print(error, file=sys.stderr)
         return 2
-    chosen = random.Random(options.seed).sample(every, options.count)
-    print(f"{options.count} of {len(every)} slips, seed {options.seed}", flush=True)
-    loaded, outcomes = Loaded(timed=options.count > 50), []
+    loaded, outcomes = Loaded(timed=len(chosen) > 50), []
     for number, edit in enumerate(chosen, 1):
         outcome = try_(edit, loaded)
         outcomes.append(outcome)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import random
 from collections.abc import Callable, Mapping
 
@@ -23,16 +24,20 @@ def load(theta: Number) -> Number:
 
 
 def half_angle(filled: Number) -> Number:
-    """Theta at which the load is pi times ``filled``: the load grows, so by bisection, then Newton."""
-    low, high = mp.mpf(0), +mp.pi
+    """Theta at which the load is pi times ``filled``: the load grows, so by bisection in few digits, then Newton."""
     if filled >= 1:
-        return high
-    for _ in range(60):
+        return +mp.pi
+    low, high, wanted = 0.0, math.pi, math.pi * float(filled)
+    for _ in range(50):
         middle = (low + high) / 2
-        low, high = (middle, high) if load(middle) < mp.pi * filled else (low, middle)
-    theta = (low + high) / 2
-    for _ in range(6):
-        theta -= (load(theta) - mp.pi * filled) / (theta * mp.sin(theta))
+        low, high = (middle, high) if math.sin(middle) - middle * math.cos(middle) < wanted else (low, middle)
+    theta = mp.mpf((low + high) / 2)
+    for _ in range(9):
+        sine = mp.sin(theta)
+        step = (sine - theta * mp.cos(theta) - mp.pi * filled) / (theta * sine)
+        theta -= step
+        if abs(step) < mp.mpf(10) ** (-mp.mp.dps * 2 // 3):  # the next one has more digits than there are
+            break
     return theta
 
 
@@ -185,7 +190,11 @@ PROOFS = (
         "31",
         "load at the half-angle that balances it, found by bisection, over that of the whole wave",
         _filling,
-        grid("W_c engagement_per_height", 12, lambda v, at: v.update(W_c=mp.mpf(at.uniform(0.2, 9)) / 20 / v["engagement_per_height"] * 10)),
+        grid(
+            "W_c engagement_per_height",
+            12,
+            lambda v, at: v.update(W_c=mp.mpf(at.uniform(0.2, 9)) / 20 / v["engagement_per_height"] * 10),
+        ),
         "random heights, partly and wholly in contact",
     ),
     Proof(

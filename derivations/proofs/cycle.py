@@ -156,13 +156,16 @@ def _measures(p: Point, m: Maths) -> Found:
 
 
 def _phasor(p: Point, free: Free) -> tuple[Number, Number]:
-    """z with Re z = w, Re(lambda z) = v; lambda solves lambda^2 + 2 xi omega_n lambda + omega_n^2 = 0."""
+    """Z with Re z = w, Re(lambda z) = v; lambda solves lambda^2 + 2 xi omega_n lambda + omega_n^2 = 0."""
     re, im = -p.xi * p.omega_n, mp.sqrt(p.omega_n**2 - (p.xi * p.omega_n) ** 2)
     return free[0], (re * free[0] - free[1]) / im
 
 
 def _along(
-    p: Point, names: str, outputs: Callable[[Point], Mapping[str, Number]], directions: Mapping[str, Callable[..., Point]]
+    p: Point,
+    names: str,
+    outputs: Callable[[Point], Mapping[str, Number]],
+    directions: Mapping[str, Callable[..., Point]],
 ) -> Found:
     """Derivatives of outputs along curves through a point: ``directions`` give its points by the parameter."""
     found = {}

@@ -22,10 +22,13 @@ Found = Mapping[str, Number | None]
 
 
 def _root(function: Callable[[Number], Number], low: Number, high: Number) -> Number:
-    """Where a function that changes its sign once does so: bisection in few digits, then secants."""
+    """Where a function that changes its sign once does so: bisection in few digits, then secants.
+
+    Once a secant's step is two thirds of the digits small, the next one would be below all of them.
+    """
     rising, left, right = function(high) > 0, float(low), float(high)
     with mp.workdps(16):
-        for _ in range(40):
+        for _ in range(22):
             middle = (left + right) / 2
             left, right = (left, middle) if (function(mp.mpf(middle)) > 0) == rising else (middle, right)
     before, at = mp.mpf(left), mp.mpf(right)
@@ -34,6 +37,8 @@ def _root(function: Callable[[Number], Number], low: Number, high: Number) -> Nu
         if one == other:
             break
         before, at = at, at - other * (at - before) / (other - one)
+        if abs(at - before) < mp.mpf(10) ** (-mp.mp.dps * 2 // 3):
+            break
     return at
 
 
@@ -131,7 +136,7 @@ def _within() -> list[Point]:
         at = random.Random(f"state {index}")
         low, high, widths = _PLACES[place]
         theta = at.uniform(*widths)
-        u = side * at.uniform(low(theta), high(theta))
+        u = side * at.uniform(*(a + b * theta for a, b in (low, high)))
         alpha = at.uniform(0.003, 0.02) if index < len(cases) else at.uniform(0.1, 3.1)
         values = {"R_v": draw("R_v", index)}
         balanced(values, at, mp.mpf(theta) if theta < _FULL else +mp.pi)
@@ -168,17 +173,17 @@ def _as_fast(values: dict[str, Number], at: random.Random) -> None:
 
 
 _FULL = 3.1  # from this half-angle on the whole wave is taken to touch
-_PLACES: dict[str, tuple[Callable[[float], float], Callable[[float], float], tuple[float, float]]] = {
-    "inside": (lambda theta: 0.02, lambda theta: 0.98 * theta, (0.3, 3.0)),
-    "inside of nearly all": (lambda theta: 0.02, lambda theta: 0.98 * theta, (3.02, 3.09)),
-    "beside": (lambda theta: 1.05 * theta, lambda theta: 0.98, (0.3, 0.7)),
-    "far": (lambda theta: 1.1, lambda theta: 3.0, (0.3, 0.9)),
-    "full": (lambda theta: 0.02, lambda theta: 3.0, (3.12, 3.14)),
-    "half a turn": (lambda theta: 3.02, lambda theta: 3.13, (3.12, 3.14)),
-    "past it": (lambda theta: 3.15, lambda theta: 3.25, (3.12, 3.14)),
-    "past it, beside": (lambda theta: 3.16, lambda theta: 3.25, (2.86, 3.0)),
+_PLACES: dict[str, tuple[tuple[float, float], tuple[float, float], tuple[float, float]]] = {
+    "inside": ((0, 0.02), (0, 0.98), (0.3, 3.0)),
+    "inside of nearly all": ((0, 0.02), (0, 0.98), (3.02, 3.09)),
+    "beside": ((0, 1.05), (0.98, 0), (0.3, 0.7)),
+    "far": ((1.1, 0), (3.0, 0), (0.3, 0.9)),
+    "full": ((0.02, 0), (3.0, 0), (3.12, 3.14)),
+    "half a turn": ((3.02, 0), (3.13, 0), (3.12, 3.14)),
+    "past it": ((3.15, 0), (3.25, 0), (3.12, 3.14)),
+    "past it, beside": ((3.16, 0), (3.25, 0), (2.86, 3.0)),
 }
-"""Between which angles, of the contact's half-angle, a point as fast as the rotor lies, and of which contacts."""
+"""Between which angles a + b theta, by a and b, a point as fast as the rotor lies, and of which half-angles theta."""
 _LIMIT = "R_v R_v_rate p_larger p_smaller step v v_rate"
 _INSIDE = "64 states: each of both points inside, beside, far from the contact, about half a turn"
 _BEYOND = "16 random states with a rotor beyond the surface's speeds"

@@ -1,4 +1,4 @@
-"""Expressions as a graph of their distinct parts, evaluated with 50 digits; a part can be replaced and the rest kept."""
+"""Expressions as a graph of their distinct parts, evaluated with many digits; one part can be replaced."""
 
 from __future__ import annotations
 
@@ -16,7 +16,6 @@ __all__ = ["Graph", "Replaced"]
 Values = list[Number]
 Replaced = Mapping[int, sp.Basic]
 """Expressions, of the graph's own parts, that stand in for some of them."""
-
 
 
 def _angle(y: Number, x: Number) -> Number:

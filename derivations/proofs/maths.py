@@ -41,16 +41,17 @@ class Point:
 class Maths(Protocol):
     """The functions that a statement may use."""
 
-    pi: Number
+    @property
+    def pi(self) -> Number: ...  # noqa: D102
 
-    def sqrt(self, x: Number) -> Number: ...
-    def sin(self, x: Number) -> Number: ...
-    def cos(self, x: Number) -> Number: ...
-    def exp(self, x: Number) -> Number: ...
-    def log(self, x: Number) -> Number: ...
-    def absolute(self, x: Number) -> Number: ...
-    def integral(self, function: Callable[[Number], Number], low: Number, high: Number) -> Number: ...
-    def derivative(self, function: Callable[[Number], Number], at: Number) -> Number: ...
+    def sqrt(self, x: Number) -> Number: ...  # noqa: D102
+    def sin(self, x: Number) -> Number: ...  # noqa: D102
+    def cos(self, x: Number) -> Number: ...  # noqa: D102
+    def exp(self, x: Number) -> Number: ...  # noqa: D102
+    def log(self, x: Number) -> Number: ...  # noqa: D102
+    def absolute(self, x: Number) -> Number: ...  # noqa: D102
+    def integral(self, function: Callable[[Number], Number], low: Number, high: Number) -> Number: ...  # noqa: D102
+    def derivative(self, function: Callable[[Number], Number], at: Number) -> Number: ...  # noqa: D102
 
 
 @cache

@@ -21,8 +21,8 @@ from derivations.codegen.kernels import Kernel
 from derivations.dimensions import DimensionError
 from derivations.nomenclature import NOMENCLATURE, TINY, sym
 from derivations.proofs import numbers, of_kernel
-from derivations.proofs.graph import Graph, Values
-from derivations.proofs.maths import DIGITS, Number, Point
+from derivations.proofs.graph import Graph
+from derivations.proofs.maths import DIGITS, Number
 from derivations.proofs.proof import NONSENSE, Proof, Subject, check, identical, reference
 from derivations.proofs.tables import TABLES, wrong
 
@@ -231,7 +231,7 @@ def _equivalent(graph: Graph, part: sp.Basic, new: sp.Basic) -> str:
 
 
 def _bounds(expr: sp.Basic) -> tuple[sp.Expr, sp.Expr] | None:
-    """Between which numbers an angle lies: phi within half a turn, the angle of a point with a root for its sine too."""
+    """Between which numbers an angle lies: phi within half a turn, that of a point above the axis too."""
     if expr.is_number:
         return expr, expr
     if expr == _PHI:
@@ -277,7 +277,9 @@ def _either_way(pairs: list[tuple[sp.Expr, sp.Expr]]) -> bool:
     if not unlike:
         return False
     for node in sorted(set.intersection(*(comparisons(e) for pair in unlike for e in pair)), key=sp.count_ops):
-        outcomes = [(a.xreplace({node: sp.Integer(k)}), b.xreplace({node: sp.Integer(k)})) for a, b in unlike for k in (0, 1)]
+        outcomes = [
+            (a.xreplace({node: sp.Integer(k)}), b.xreplace({node: sp.Integer(k)})) for a, b in unlike for k in (0, 1)
+        ]
         if all(sp.expand(a - b) == 0 for a, b in outcomes):
             return True
     return False
@@ -319,7 +321,9 @@ def _by_domain(kernel: Kernel, other: Kernel) -> str:
         return "the same whether a comparison holds or not"
     theta, engagement, share, sin_theta, R_v, v = sym("theta engagement share sin_theta R_v v")
     balance = {share: (1 - engagement * sin_theta) / theta}
-    if {share, theta, sin_theta} <= set(kernel.inputs) and _either_way([(a.subs(balance), b.subs(balance)) for a, b in pairs]):
+    if {share, theta, sin_theta} <= set(kernel.inputs) and _either_way(
+        [(a.subs(balance), b.subs(balance)) for a, b in pairs]
+    ):
         return "the same where the contact carries its load"
     if kernel.name == "trum_friction_limit":
         sides = [(a.subs(v, sign * R_v), b.subs(v, sign * R_v)) for a, b in pairs for sign in (1, -1)]
@@ -375,9 +379,7 @@ def kernel_mutants(kernel: Kernel) -> Iterator[Slip]:
             else:
                 changed = {name: expr.xreplace({part: new}) for name, expr in outputs.items()}
                 graph = prepared.subject.graph
-                yield _unnoticed(
-                    text, kernel, replace(kernel, outputs=changed), partial(_equivalent, graph, part, new)
-                )
+                yield _unnoticed(text, kernel, replace(kernel, outputs=changed), partial(_equivalent, graph, part, new))
     for text, other in (*_swapped_symbols(kernel), *_swapped_outputs(kernel), *_other_rates(kernel)):
         if prepared.rejects(other):
             yield Slip(kernel.name, text, True)

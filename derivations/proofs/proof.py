@@ -18,7 +18,7 @@ import sympy as sp
 from derivations.codegen.kernels import Kernel
 from derivations.nomenclature import CONSTANTS, TINY
 from derivations.proofs.graph import Graph, Values
-from derivations.proofs.maths import DIGITS, NUMBERS, SYMBOLS, Number, Point
+from derivations.proofs.maths import DIGITS, NUMBERS, SYMBOLS, Maths, Number, Point
 from trum_sym.inputs.motor_file import load_motor
 
 __all__ = ["NONSENSE", "Proof", "Subject", "check", "draw", "grid", "identical", "reference"]
@@ -54,9 +54,9 @@ _RANGES: dict[str, tuple[float, float]] = {
     "T": (4e-4, 6e-4),
     "T_load": (-0.4, 0.4),
     "f": (-1.0, 1.0),
-    **{name: (0.5, 90.0) for name in ("q_plus", "q_minus", "p_plus", "p_minus")},
-    **{name: (-5e-6, 5e-6) for name in ("a", "a_A", "a_B", "w_A", "w_B", "f_A_re", "f_A_im", "f_B_re", "f_B_im")},
-    **{name: (-1.0, 1.0) for name in ("b", "b_A", "b_B", "p_re", "p_im", "e_re", "e_im", "d_re", "d_im")},
+    **dict.fromkeys(("q_plus", "q_minus", "p_plus", "p_minus"), (0.5, 90.0)),
+    **dict.fromkeys(("a", "a_A", "a_B", "w_A", "w_B", "f_A_re", "f_A_im", "f_B_re", "f_B_im"), (-5e-06, 5e-06)),
+    **dict.fromkeys(("b", "b_A", "b_B", "p_re", "p_im", "e_re", "e_im", "d_re", "d_im"), (-1.0, 1.0)),
     "W_c": (1e-6, 9e-6),
     "W_full": (2e-7, 8e-7),
     "engagement_per_height": (5e6, 2e7),
@@ -137,7 +137,8 @@ def identical(one: sp.Expr, other: sp.Expr, *, but_for_sign: bool = False) -> bo
         return True
     if not but_for_sign or other == 0:
         return False
-    return bool(sp.cancel(sp.together(sp.powdenest((one / other) ** 2, force=True))) == 1)
+    square = sp.cancel(sp.together(sp.powdenest((one / other) ** 2, force=True)))
+    return bool(square == 1 or sp.simplify(gap) == 0 or sp.simplify(square) == 1)
 
 
 @dataclass(frozen=True)
@@ -172,7 +173,7 @@ class Proof:
     outputs: str
     rests_on: str
     statement: str
-    wanted: Callable[[Point, type | object], Mapping[str, Number | None]]
+    wanted: Callable[[Point, Maths], Mapping[str, Number | None]]
     points: Callable[[], list[Point]]
     where: str
     symbolic: bool = False
@@ -205,7 +206,7 @@ class Proof:
 
 
 def _constants(point: Point) -> dict[str, Number]:
-    """A point's values with the kernels' constants; what keeps quotients finite is below all digits that are compared."""
+    """A point's values with the kernels' constants; what keeps quotients finite is below all compared digits."""
     constants = {symbol.name: mp.mpf(value) for symbol, value in CONSTANTS.items()}
     return {**constants, TINY.name: mp.mpf("1e-150"), **point.values}
 

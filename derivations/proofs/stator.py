@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import mpmath as mp
 import sympy as sp
@@ -140,8 +140,17 @@ def _foundation(p: Point, m: Maths) -> Found:
     return {"harmonic": reaction / m.pi, "smeared": p.k_N * touching / around, "printed": p.k_N * touching}
 
 
-def _proof(kernel: str, outputs: str, rests_on: str, statement: str, wanted: object, names: str, **how: bool) -> Proof:
-    return Proof(kernel, outputs, rests_on, statement, wanted, grid(names), _ANYWHERE, symbolic=how.get("symbolic", True))  # type: ignore[arg-type]
+def _proof(
+    kernel: str,
+    outputs: str,
+    rests_on: str,
+    statement: str,
+    wanted: Callable[[Point, Maths], Found],
+    names: str,
+    *,
+    symbolic: bool = True,
+) -> Proof:
+    return Proof(kernel, outputs, rests_on, statement, wanted, grid(names), _ANYWHERE, symbolic)
 
 
 _BEAM = "A E G I_z k_c k_dx k_f kappa rho"

@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from itertools import pairwise
+from typing import TypeAlias
 
 import mpmath as mp
 
@@ -28,6 +30,10 @@ def read(text: str) -> dict[str, list[Number]]:
         }
 
 
+Errors: TypeAlias = Callable[[Tables], list[Number]]
+"""Errors of a table over what is allowed, each 1 at most where its statement holds."""
+
+
 @dataclass(frozen=True)
 class Table:
     """What a table is: by its definition, not by how it is made.
@@ -39,12 +45,12 @@ class Table:
     statement : str
         In words.
     errors : callable
-        (all tables) -> errors over what is allowed, each 1 at most where the statement holds.
+        (all tables) -> errors over what is allowed.
     """
 
     name: str
     statement: str
-    errors: Callable[[Tables], list[Number]]
+    errors: Errors
 
 
 def _square(values: list[Number]) -> list[list[Number]]:
@@ -65,10 +71,12 @@ def _nodes(t: Tables) -> list[Number]:
     def moment(k: int) -> Number:
         coefficients = [mp.mpf(1)]
         for node in z:
-            coefficients = [a - node * b for a, b in zip([mp.mpf(0), *coefficients], [*coefficients, mp.mpf(0)], strict=True)]
+            coefficients = [
+                a - node * b for a, b in zip([mp.mpf(0), *coefficients], [*coefficients, mp.mpf(0)], strict=True)
+            ]
         return mp.fsum(c / (j + k + 1) for j, c in enumerate(coefficients))
 
-    order = [mp.mpf(0) if a < b else mp.mpf(2) for a, b in zip(z, z[1:], strict=False)]
+    order = [mp.mpf(0) if a < b else mp.mpf(2) for a, b in pairwise(z)]
     return [_same(z[0], 0), _same(z[-1], 1), *order, *(_same(moment(k), 0) for k in range(len(z) - 2))]
 
 
@@ -119,7 +127,7 @@ def _outward(t: Tables) -> list[Number]:
 def _gauss_nodes(t: Tables) -> list[Number]:
     """Zeros of Legendre's polynomial of their number, in order: 20 digits of each."""
     nodes = t["TRUM_GAUSS_NODES"]
-    found = [mp.mpf(0) if a < b else mp.mpf(2) for a, b in zip(nodes, nodes[1:], strict=False)]
+    found = [mp.mpf(0) if a < b else mp.mpf(2) for a, b in pairwise(nodes)]
     for x in nodes:
         slope = mp.diff(lambda at: mp.legendre(len(nodes), at), x)
         found.append(_same(mp.legendre(len(nodes), x) / slope, 0))
@@ -136,25 +144,24 @@ def _gauss_weights(t: Tables) -> list[Number]:
     return found
 
 
-def _series(name: str, function: Callable[[Number], Number]) -> Callable[[Tables], list[Number]]:
-    """Coefficients of a power series: the n-th derivative at 0 over n!, taken by mpmath's own series."""
+def _taylor(name: str, function: Callable[[Number], Number]) -> Errors:
+    """Coefficients that are not 0 of a power series, by mpmath's own."""
 
     def errors(t: Tables) -> list[Number]:
-        wanted = mp.taylor(function, 0, 2 * len(t[name]))
-        wanted = [c for k, c in enumerate(wanted) if c or function is mp.exp]
+        wanted = [c for c in mp.taylor(function, 0, 2 * len(t[name])) if abs(c) > mp.mpf("1e-60")]
         return [_same(c, w, abs(w)) for c, w in zip(t[name], wanted, strict=False)]
 
     return errors
 
 
-def _truncated(name: str, reach: Number, value: Callable[[Number, Tables], Number], exact: Callable[[Number], Number], allowed: str) -> Callable[[Tables], list[Number]]:
-    """Error of the polynomial over its range, at 400 points."""
+def _close(value: Callable[[Tables, Number], Number], to: Callable[[Number], Number], reach: str, error: str) -> Errors:
+    """Of a polynomial's values at 401 points to either side of 0."""
 
     def errors(t: Tables) -> list[Number]:
-        points = (reach * i / 200 for i in range(-200, 201))
-        return [abs(value(x, t) - exact(x)) / mp.mpf(allowed) for x in points]
+        end = _REACH[reach]()
+        points = (end * i / 200 for i in range(-200, 201))
+        return [abs(value(t, x) - to(x)) / mp.mpf(error) for x in points]
 
-    del name
     return errors
 
 
@@ -162,7 +169,7 @@ def _polynomial(coefficients: list[Number], x: Number) -> Number:
     return mp.polyval(coefficients[::-1], x)
 
 
-def _both(*parts: Callable[[Tables], list[Number]]) -> Callable[[Tables], list[Number]]:
+def _both(*parts: Errors) -> Errors:
     return lambda t: [error for part in parts for error in part(t)]
 
 
@@ -180,12 +187,27 @@ def _gates(t: Tables) -> list[Number]:
     return [*found, _same(a[0], 0), *(mp.mpf(0) if x or y else mp.mpf(2) for x, y in zip(a, b, strict=True))]
 
 
-def _quarter() -> Number:
-    return mp.pi / 4
+def _odd(name: str) -> Callable[[Tables, Number], Number]:
+    return lambda t, x: x * _polynomial(t[name], x * x)
 
 
+def _even(name: str) -> Callable[[Tables, Number], Number]:
+    return lambda t, x: _polynomial(t[name], x * x)
+
+
+_REACH: dict[str, Callable[[], Number]] = {
+    "pi/4": lambda: mp.pi / 4,
+    "ln(2)/2": lambda: mp.log(2) / 2,
+    "tan(pi/8)": lambda: mp.tan(mp.pi / 8),
+}
+_SIN, _COS, _EXP, _ATAN = (f"TRUM_{name}_COEFFICIENTS" for name in ("SIN", "COS", "EXP", "ATAN"))
+_SHARED = "each phase has n pulses, A is off in the first region, never are both"
 TABLES = (
-    Table("TRUM_COLLOCATION_NODES", "their number", lambda t: _count(t, "TRUM_COLLOCATION_NODES", "TRUM_COLLOCATION_POINTS")),
+    Table(
+        "TRUM_COLLOCATION_NODES",
+        "how many nodes there are",
+        lambda t: _count(t, "TRUM_COLLOCATION_NODES", "TRUM_COLLOCATION_POINTS"),
+    ),
     Table(
         "TRUM_COLLOCATION_POINTS",
         "0, 1 and between: their polynomial is orthogonal on [0, 1] to all of degree n - 3",
@@ -195,53 +217,30 @@ TABLES = (
     Table("TRUM_COLLOCATION_POWERS", "powers below n reproduced", _powers),
     Table("TRUM_COLLOCATION_LEGENDRE", "powers below n reproduced by Legendre's polynomials", _legendre),
     Table("TRUM_COLLOCATION_OUTWARD", "powers below n - 1 extrapolated exactly", _outward),
-    Table("TRUM_GAUSS_POINTS", "their number", lambda t: _count(t, "TRUM_GAUSS_POINTS", "TRUM_GAUSS_NODES")),
+    Table(
+        "TRUM_GAUSS_POINTS", "how many nodes there are", lambda t: _count(t, "TRUM_GAUSS_POINTS", "TRUM_GAUSS_NODES")
+    ),
     Table("TRUM_GAUSS_NODES", "zeros of Legendre's polynomial", _gauss_nodes),
     Table("TRUM_GAUSS_WEIGHTS", "powers below 2 n integrated exactly over [-1, 1]", _gauss_weights),
     Table(
-        "TRUM_SIN_COEFFICIENTS",
-        "Taylor's; error below 1e-19 on |x| <= pi/4",
-        _both(
-            _series("TRUM_SIN_COEFFICIENTS", mp.sin),
-            lambda t: _truncated(
-                "", _quarter(), lambda x, t: x * _polynomial(t["TRUM_SIN_COEFFICIENTS"], x * x), mp.sin, "1.5e-19"
-            )(t),
-        ),
+        _SIN,
+        "Taylor's; off by 1e-19 at most up to pi/4",
+        _both(_taylor(_SIN, mp.sin), _close(_odd(_SIN), mp.sin, "pi/4", "1e-19")),
     ),
     Table(
-        "TRUM_COS_COEFFICIENTS",
-        "Taylor's; error below 1e-19 on |x| <= pi/4",
-        _both(
-            _series("TRUM_COS_COEFFICIENTS", mp.cos),
-            lambda t: _truncated(
-                "", _quarter(), lambda x, t: _polynomial(t["TRUM_COS_COEFFICIENTS"], x * x), mp.cos, "1.5e-19"
-            )(t),
-        ),
+        _COS,
+        "Taylor's; off by 1e-19 at most up to pi/4",
+        _both(_taylor(_COS, mp.cos), _close(_even(_COS), mp.cos, "pi/4", "1e-19")),
     ),
     Table(
-        "TRUM_EXP_COEFFICIENTS",
-        "Taylor's; error below 1e-17 on |x| <= ln(2)/2",
-        _both(
-            _series("TRUM_EXP_COEFFICIENTS", mp.exp),
-            lambda t: _truncated(
-                "", mp.log(2) / 2, lambda x, t: _polynomial(t["TRUM_EXP_COEFFICIENTS"], x), mp.exp, "1e-17"
-            )(t),
-        ),
+        _EXP,
+        "Taylor's; off by 1e-17 at most up to ln(2)/2",
+        _both(_taylor(_EXP, mp.exp), _close(lambda t, x: _polynomial(t[_EXP], x), mp.exp, "ln(2)/2", "1e-17")),
     ),
-    Table(
-        "TRUM_ATAN_COEFFICIENTS",
-        "error below 1e-19 on |x| <= tan(pi/8)",
-        lambda t: _truncated(
-            "",
-            mp.tan(mp.pi / 8),
-            lambda x, t: x * _polynomial(t["TRUM_ATAN_COEFFICIENTS"], x * x),
-            mp.atan,
-            "1e-19",
-        )(t),
-    ),
-    Table("TRUM_REGIONS", "their number", _gates),
-    Table("TRUM_GATES_A", "each phase n pulses, A off in the first region, never both off", _gates),
-    Table("TRUM_GATES_B", "each phase n pulses, A off in the first region, never both off", _gates),
+    Table(_ATAN, "off by 1e-19 at most up to tan(pi/8)", _close(_odd(_ATAN), mp.atan, "tan(pi/8)", "1e-19")),
+    Table("TRUM_REGIONS", "how many regions there are", _gates),
+    Table("TRUM_GATES_A", _SHARED, _gates),
+    Table("TRUM_GATES_B", _SHARED, _gates),
 )
 
 

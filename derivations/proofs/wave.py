@@ -1,4 +1,4 @@
-"""Proofs of the wave's kernels: phasors and their turn, wave height and surface speed, a surface point (eqs. 11 to 20)."""
+"""Proofs of the wave's kernels: phasors, their turn, wave height, surface speed, a surface point (eqs. 11 to 20)."""
 
 from __future__ import annotations
 
@@ -68,7 +68,9 @@ def _wave(p: Point, m: Maths) -> Found:  # noqa: ARG001
 
 def _standing_still() -> list[Point]:
     """No wave and no motion: what is divided by the surface speed stays finite."""
-    still = grid(_WAVE, 1)()[0].with_(W=mp.mpf(0), **{f"f_{phase}_{part}": mp.mpf(0) for phase in "AB" for part in ("re", "im")})
+    still = grid(_WAVE, 1)()[0].with_(
+        W=mp.mpf(0), **{f"f_{phase}_{part}": mp.mpf(0) for phase in "AB" for part in ("re", "im")}
+    )
     return [still.with_(tiny=mp.mpf("1e-37"))]
 
 
