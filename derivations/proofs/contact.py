@@ -264,6 +264,15 @@ PROOFS = (
         "random places, inside and outside of the contact, slip in either sense",
     ),
     Proof(
+        "trum_interface",
+        "v_x v_x_slope p traction",
+        "37",
+        "no traction without slip",
+        lambda p, m: {"v_x": mp.mpf(0), "v_x_slope": mp.mpf(0), "p": None, "traction": mp.mpf(0)},  # noqa: ARG005
+        lambda: [grid(_SURFACE, 1, turned)()[0].with_(R_v=mp.mpf(0), v=mp.mpf(0))],
+        "surface and rotor at rest",
+    ),
+    Proof(
         "trum_contact_limit",
         "T_theta_E",
         "31",

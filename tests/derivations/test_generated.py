@@ -157,12 +157,6 @@ def test_slips_survive_a_proof_that_is_too_lenient(monkeypatch):
     assert [slip for slip in found if not slip.rejected and not slip.equivalent]
 
 
-def test_no_slip_in_the_rules_tables_survives(files):
-    tables = [s for s in mutants.table_mutants(files) if s.of.startswith("TRUM_COLLOCATION")]
-    assert tables
-    assert [slip for slip in tables if not slip.rejected] == []
-
-
 # What the ledger alone did not see: in kernels of the rotor, and in its time steps' rule
 SLIPS = (
     ("rotor", "net = 2 * (shares[0] - shares[1]) - 1", "net = 2 * (shares[0] - shares[1]) + 1", "trum_friction: f "),
