@@ -12,6 +12,7 @@ import random
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
+from typing import TypeAlias
 
 import mpmath as mp
 import sympy as sp
@@ -28,6 +29,7 @@ from derivations.proofs.tables import TABLES, wrong
 
 __all__ = ["Slip", "kernel_mutants", "slips", "table_mutants"]
 
+Pairs: TypeAlias = list[tuple[sp.Expr, sp.Expr]]
 _TURNED = {sp.sin: sp.cos, sp.cos: sp.sin}
 _PICKED = {sp.Min: sp.Max, sp.Max: sp.Min}
 
@@ -267,25 +269,22 @@ def _still(kernel: Kernel, other: Kernel) -> bool:
     return bool(kernel.along) and not any(sp.expand(a - b).free_symbols & moving for a, b in pairs if a != b)
 
 
-def _either_way(pairs: list[tuple[sp.Expr, sp.Expr]]) -> bool:
+def _either_way(pairs: Pairs) -> bool:
     """Whether pairs of expressions are the same for either outcome of some comparison that both have."""
-    unlike = [(a, b) for a, b in pairs if a != b]
 
     def comparisons(expr: sp.Expr) -> set[sp.Basic]:
         return {node for node in sp.preorder_traversal(expr) if type(node).__name__ == "less"}
 
-    if not unlike:
-        return False
-    for node in sorted(set.intersection(*(comparisons(e) for pair in unlike for e in pair)), key=sp.count_ops):
+    for node in sorted(set.intersection(*(comparisons(e) for pair in pairs for e in pair)), key=sp.count_ops):
         outcomes = [
-            (a.xreplace({node: sp.Integer(k)}), b.xreplace({node: sp.Integer(k)})) for a, b in unlike for k in (0, 1)
+            (a.xreplace({node: sp.Integer(k)}), b.xreplace({node: sp.Integer(k)})) for a, b in pairs for k in (0, 1)
         ]
         if all(sp.expand(a - b) == 0 for a, b in outcomes):
             return True
     return False
 
 
-def _never_reached(pairs: list[tuple[sp.Expr, sp.Expr]]) -> bool:
+def _never_reached(pairs: Pairs) -> bool:
     """Whether what is held at pi, in one of each pair, stays below pi by itself at all fullnesses of the contact.
 
     Near the whole wave in contact, at 1 - t = n^2/2, the balance is a parabola in the distance n from pi, and Halley's
@@ -308,6 +307,35 @@ def _never_reached(pairs: list[tuple[sp.Expr, sp.Expr]]) -> bool:
     return True
 
 
+def _in_balance(kernel: Kernel, pairs: Pairs) -> bool:
+    """Whether pairs are the same where engagement sin theta + share theta is 1."""
+    theta, engagement, share, sin_theta = sym("theta engagement share sin_theta")
+    balance = {share: (1 - engagement * sin_theta) / theta}
+    known = {share, theta, sin_theta} <= set(kernel.inputs)
+    return known and _either_way([(a.subs(balance), b.subs(balance)) for a, b in pairs])
+
+
+def _at_saturation(kernel: Kernel, pairs: Pairs) -> bool:
+    """Whether pairs are the same for R_v = |v|, at which the kernel of that name is a limit."""
+    R_v, v = sym("R_v v")
+    at = [(a.subs(v, sign * R_v), b.subs(v, sign * R_v)) for a, b in pairs for sign in (1, -1)]
+    return kernel.name == "trum_friction_limit" and all(identical(a, b) for a, b in at)
+
+
+_DOMAIN: tuple[tuple[str, Callable[[Kernel, Pairs], bool]], ...] = (
+    ("phi and alpha are half a turn at most", lambda _, pairs: all(_decided(a) == _decided(b) for a, b in pairs)),
+    ("the same whether a comparison holds or not", lambda _, pairs: _either_way(pairs)),
+    ("the same where the contact carries its load", _in_balance),
+    ("the same where the rotor is as fast as the surface", _at_saturation),
+    ("the angle stays below pi by itself", lambda _, pairs: _never_reached(pairs)),
+    (
+        "what keeps a quotient finite may have either sign",
+        lambda _, pairs: all(a == b.xreplace({TINY: -TINY}) for a, b in pairs),
+    ),
+)
+"""What the arguments of kernels can be, and whether unlike outputs are the same for that."""
+
+
 def _by_domain(kernel: Kernel, other: Kernel) -> str:
     """Why two kernels compute the same by what their arguments can be, '' if that is not shown."""
     if kernel.along != other.along:
@@ -315,26 +343,8 @@ def _by_domain(kernel: Kernel, other: Kernel) -> str:
     if _still(kernel, other):
         return "differs by what no direction changes"
     pairs = [(sp.sympify(output), sp.sympify(other.outputs[name])) for name, output in kernel.outputs.items()]
-    if all(a == b or _decided(a) == _decided(b) for a, b in pairs):
-        return "phi and alpha are half a turn at most"
-    if _either_way(pairs):
-        return "the same whether a comparison holds or not"
-    theta, engagement, share, sin_theta, R_v, v = sym("theta engagement share sin_theta R_v v")
-    balance = {share: (1 - engagement * sin_theta) / theta}
-    if {share, theta, sin_theta} <= set(kernel.inputs) and _either_way(
-        [(a.subs(balance), b.subs(balance)) for a, b in pairs]
-    ):
-        return "the same where the contact carries its load"
-    if kernel.name == "trum_friction_limit":
-        sides = [(a.subs(v, sign * R_v), b.subs(v, sign * R_v)) for a, b in pairs for sign in (1, -1)]
-        if all(identical(a, b) for a, b in sides):
-            return "the same where the rotor is as fast as the surface"
-    if _never_reached([(a, b) for a, b in pairs if a != b]):
-        return "the angle stays below pi by itself"
-    free = {TINY: -TINY}
-    if all(a == b or a == b.xreplace(free) for a, b in pairs):
-        return "what keeps a quotient finite may have either sign"
-    return ""
+    unlike = [(a, b) for a, b in pairs if a != b]
+    return next((reason for reason, holds in _DOMAIN if unlike and holds(kernel, unlike)), "")
 
 
 def _swapped_symbols(kernel: Kernel) -> Iterator[tuple[str, Kernel]]:
