@@ -29,6 +29,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import redirect_stderr, redirect_stdout
 from copy import deepcopy
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from types import ModuleType
 
@@ -89,14 +90,14 @@ _COMPARISONS: dict[type[ast.cmpop], type[ast.cmpop]] = {
 
 @dataclass(frozen=True)
 class Edit:
-    """One slip: the module, the function and line, what stood there and stands now, the changed source."""
+    """One slip: the module, the function and line, what stood there and stands now, a function for the whole source."""
 
     module: str
     function: str
     line: int
     old: str
     new: str
-    source: str
+    source: Callable[[], str]
 
 
 # --- making them ------------------------------------------------------------------------------------------------
@@ -189,6 +190,19 @@ def _changes(node: ast.AST, others: list[str]) -> Iterator[Callable[[ast.AST], a
             yield with_(id=other)
 
 
+def _put(module: str, place: int, change: Callable[[ast.AST], ast.AST]) -> str:
+    """A module's source with the node at a place of its walk changed."""
+    tree = ast.parse(_source(module))
+    target = list(ast.walk(tree))[place]
+    new = ast.fix_missing_locations(change(deepcopy(target)))
+
+    class Put(ast.NodeTransformer):
+        def visit(self, node: ast.AST) -> ast.AST:
+            return new if node is target else self.generic_visit(node)
+
+    return ast.unparse(Put().visit(tree))
+
+
 def edits(module: str) -> Iterator[Edit]:
     """Every slip in a module."""
     tree = ast.parse(_source(module))
@@ -196,21 +210,10 @@ def edits(module: str) -> Iterator[Edit]:
     functions = [node for node in tree.body if isinstance(node, ast.FunctionDef)]
     owners = {node: function.name for function in functions for node in ast.walk(function)}
     for place, node in enumerate(ast.walk(tree)):
-        if node in skipped:
-            continue
-        for change in _changes(node, names.get(node, [])):
-            copy = deepcopy(tree)
-            target = list(ast.walk(copy))[place]
-            new = ast.fix_missing_locations(change(deepcopy(target)))
-
-            class Put(ast.NodeTransformer):
-                def visit(self, at: ast.AST, target: ast.AST = target, new: ast.AST = new) -> ast.AST:
-                    return new if at is target else self.generic_visit(at)
-
-            changed = ast.unparse(Put().visit(copy))
-            yield Edit(
-                module, owners.get(node, ""), getattr(node, "lineno", 0), ast.unparse(node), ast.unparse(new), changed
-            )
+        for change in _changes(node, names.get(node, [])) if node not in skipped else ():
+            old, new = ast.unparse(node), ast.unparse(change(deepcopy(node)))
+            where = owners.get(node, ""), getattr(node, "lineno", 0)
+            yield Edit(module, *where, old, new, partial(_put, module, place, change))
 
 
 # --- who refuses them -------------------------------------------------------------------------------------------
@@ -295,7 +298,7 @@ def _run_again(edit: Edit, others: set[str]) -> None:
     module.__file__ = f"<{name} with a slip>"
     sys.modules[name] = module
     setattr(package, name.rpartition(".")[2], module)
-    exec(compile(edit.source, module.__file__, "exec"), module.__dict__)
+    exec(compile(edit.source(), module.__file__, "exec"), module.__dict__)
     for other in sorted(others):
         importlib.import_module(other)
 
@@ -490,7 +493,7 @@ def _typed(module: str, old: str, new: str) -> Edit:
     if old not in text:
         raise ValueError(f"--edit's old text is {old}; allowed is what stands in {module}")
     line = text[: text.index(old)].count("\n") + 1
-    return Edit(module, "", line, old, new, text.replace(old, new, 1))
+    return Edit(module, "", line, old, new, partial(text.replace, old, new, 1))
 
 
 def _source(module: str) -> str:
