@@ -65,7 +65,7 @@ FORMULA_MODULES = (
     "codegen.kernels",
 )
 _TESTS = ("tests/derivations/test_ledger_transfer.py", "tests/derivations/test_ledger_supplement.py")
-_LIMIT = 120  # seconds that one mutant may take; what takes longer has lost its way in an expression
+_LIMIT = 120  # seconds of processor time that one mutant may take; what takes longer is left undecided
 _FREE = {
     ("rotor", "_guess"): "another fit of the first guess; the kernel keeps the accuracy that its proof states",
 }
@@ -417,6 +417,7 @@ class Outcome:
     refused: str
     equivalent: str
     seconds: float
+    undecided: str = ""
 
 
 def try_(edit: Edit, loaded: Loaded) -> Outcome:
@@ -426,7 +427,7 @@ def try_(edit: Edit, loaded: Loaded) -> Outcome:
     child = os.fork()
     if child == 0:
         os.close(reading)
-        signal.alarm(_LIMIT)
+        signal.setitimer(signal.ITIMER_PROF, _LIMIT)
         try:
             answer = _refusal(edit, loaded)
         except BaseException as error:  # the parent must hear of it
@@ -438,13 +439,13 @@ def try_(edit: Edit, loaded: Loaded) -> Outcome:
     with os.fdopen(reading) as said:
         text = said.read()
     os.waitpid(child, 0)
-    answer = json.loads(text) if text else {"refused": f"does not end within {_LIMIT} s"}
+    answer = json.loads(text) if text else {"refused": "", "same": "", "undecided": f"does not end within {_LIMIT} s"}
     reason = answer.get("same", "")
     if not answer["refused"] and (edit.module, edit.function) in _FREE:
         reason = _FREE[edit.module, edit.function]
     if "now" in answer and answer["now"] == _before(edit, loaded):
         reason = "every kernel, table and derived form of the ledger is the same"
-    return Outcome(edit, str(answer["refused"]), str(reason), time.perf_counter() - start)
+    return Outcome(edit, str(answer["refused"]), str(reason), time.perf_counter() - start, answer.get("undecided", ""))
 
 
 def _now(edit: Edit, loaded: Loaded) -> dict[str, object]:
@@ -463,17 +464,17 @@ def _before(edit: Edit, loaded: Loaded) -> dict[str, object]:
 
 def _table(outcomes: list[Outcome]) -> str:
     """Counts per module and by whom, as Markdown."""
-    kinds = ("own check", "dimension", "proof", "ledger", "test", "does not run", "does not end")
-    lines = ["| module | slips | " + " | ".join(kinds) + " | change nothing | survive |", "|---|" + "---:|" * 10]
-    totals: Counter[str] = Counter()
+    kinds = ("own check", "dimension", "proof", "ledger", "test", "does not run")
+    lines = [
+        "| module | slips | " + " | ".join(kinds) + " | change nothing | undecided | survive |",
+        "|---|" + "---:|" * 10,
+    ]
     for module in (*FORMULA_MODULES, "all"):
         own = [o for o in outcomes if module in (o.edit.module, "all")]
         by = Counter(next((kind for kind in kinds if o.refused.startswith(kind)), "") for o in own)
-        totals = by
-        same = sum(bool(o.equivalent) for o in own)
-        counts = [len(own), *(by[kind] for kind in kinds), same, by[""] - same]
+        same, undecided = sum(bool(o.equivalent) for o in own), sum(bool(o.undecided) for o in own)
+        counts = [len(own), *(by[kind] for kind in kinds), same, undecided, by[""] - same - undecided]
         lines.append(f"| {module} | " + " | ".join(str(count) for count in counts) + " |")
-    del totals
     return "\n".join(lines)
 
 
@@ -525,7 +526,7 @@ def main(arguments: list[str] | None = None) -> int:
     for number, edit in list(enumerate(chosen, 1))[first - 1 : last]:
         outcome = try_(edit, loaded)
         outcomes.append(outcome)
-        state = outcome.refused or outcome.equivalent or "SURVIVES"
+        state = outcome.refused or outcome.equivalent or outcome.undecided or "SURVIVES"
         where = f"{edit.module}:{edit.line}: {edit.old} -> {edit.new}"
         print(f"[{number}] {where[:150]}: {state[:150]}, {outcome.seconds:.1f} s", flush=True)
     print(_table(outcomes))

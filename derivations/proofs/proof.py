@@ -284,7 +284,7 @@ def check(proof: Proof, subject: Subject, reference: Iterable[tuple[Point, Mappi
             except KeyError as error:
                 wrong = f"{proof.outputs}: depends on {error.args[0]}, which the statement knows nothing of"
             except NONSENSE as error:
-                wrong = f"{proof.outputs}: {error or type(error).__name__}"
+                wrong = f"{proof.outputs}: {str(error) or type(error).__name__}"
             if wrong:
                 return f"{wrong}, at point {index + 1}"
     return _identically(proof, subject.kernel) if proof.symbolic else ""

@@ -250,5 +250,5 @@ def wrong(table: Table, tables: Tables) -> str:
         try:
             worst = max(table.errors(tables))
         except (ArithmeticError, ValueError, KeyError, IndexError, TypeError) as error:
-            return f"{table.name}: {error or type(error).__name__}"
+            return f"{table.name}: {str(error) or type(error).__name__}"
         return "" if worst <= 1 else f"{table.name} is off by {mp.nstr(worst, 3)} times what is allowed"
