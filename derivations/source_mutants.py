@@ -439,13 +439,16 @@ def try_(edit: Edit, loaded: Loaded) -> Outcome:
     with os.fdopen(reading) as said:
         text = said.read()
     os.waitpid(child, 0)
-    answer = json.loads(text) if text else {"refused": "", "same": "", "undecided": f"does not end within {_LIMIT} s"}
+    seconds = time.perf_counter() - start
+    if not text:
+        return Outcome(edit, "", "", seconds, f"does not end within {_LIMIT} s")
+    answer = json.loads(text)
     reason = answer.get("same", "")
     if not answer["refused"] and (edit.module, edit.function) in _FREE:
         reason = _FREE[edit.module, edit.function]
     if "now" in answer and answer["now"] == _before(edit, loaded):
         reason = "every kernel, table and derived form of the ledger is the same"
-    return Outcome(edit, str(answer["refused"]), str(reason), time.perf_counter() - start, answer.get("undecided", ""))
+    return Outcome(edit, str(answer["refused"]), str(reason), seconds)
 
 
 def _now(edit: Edit, loaded: Loaded) -> dict[str, object]:
@@ -530,7 +533,7 @@ def main(arguments: list[str] | None = None) -> int:
         where = f"{edit.module}:{edit.line}: {edit.old} -> {edit.new}"
         print(f"[{number}] {where[:150]}: {state[:150]}, {outcome.seconds:.1f} s", flush=True)
     print(_table(outcomes))
-    survivors = [o for o in outcomes if not o.refused and not o.equivalent]
+    survivors = [o for o in outcomes if not (o.refused or o.equivalent or o.undecided)]
     print(f"{len(outcomes)} slips, {len(survivors)} surviving")
     return 1 if survivors else 0
 
