@@ -8,13 +8,18 @@ from __future__ import annotations
 import argparse
 import sys
 
+from derivations import error_bound
 from derivations.codegen.emit import GENERATED, render, stale, write
+from derivations.codegen.kernels import kernels
 from derivations.dimensions import DimensionError
+from derivations.proofs import prove
 
 
 def _generate(check: bool) -> int:
     try:
         files = render()
+        prove(kernels(), files)
+        error_bound.prove()
     except (ArithmeticError, DimensionError) as error:
         print(f"derivations: a proof fails: {error}", file=sys.stderr)
         return 1

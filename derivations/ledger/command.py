@@ -13,12 +13,15 @@ from pathlib import Path
 from typing import Any
 
 from derivations.codegen.emit import GENERATED
+from derivations.codegen.kernels import kernels
 from derivations.ledger import ENTRIES, entry
 from derivations.ledger.model import Entry, confirm
 from derivations.ledger.mutate import MUTATED, Outcome, try_misreadings, try_mutants
 from derivations.ledger.referee import review
 from derivations.ledger.report import record
 from derivations.ledger.transcription import copy_of, differences, load
+from derivations.proofs.mutants import Slip, kernel_mutants, table_mutants
+from derivations.proofs.page import rests_on
 from trum_sym.paper.ledger import table, written_out
 
 __all__ = ["as_json", "check_mutants", "outputs", "prove", "transcription", "verify"]
@@ -95,6 +98,35 @@ def check_mutants(entries: tuple[Entry, ...]) -> int:
     return 1 if survivors else 0
 
 
+def _kernel_slips(name: str) -> list[Slip]:
+    """What became of the slips in a kernel, or of those in all tables for no name."""
+    if not name:
+        from derivations.codegen.emit import render
+
+        return list(table_mutants(render()))
+    return list(kernel_mutants(next(kernel for kernel in kernels() if kernel.name == name)))
+
+
+def check_kernel_mutants() -> int:
+    """Try all slips in kernels and tables of numbers, on all processors; returns 1 if one goes unnoticed."""
+    names = [*(kernel.name for kernel in kernels()), ""]
+    total: Counter[str] = Counter()
+    survivors: list[Slip] = []
+    with ProcessPoolExecutor() as pool:
+        for name, found in zip(names, pool.map(_kernel_slips, names), strict=True):
+            rejected, equivalent = sum(s.rejected for s in found), sum(bool(s.equivalent) for s in found)
+            total.update(slips=len(found), rejected=rejected, equivalent=equivalent)
+            survivors += [s for s in found if not s.rejected and not s.equivalent]
+            print(f"{name or 'tables'}: {len(found)} slips, {rejected} rejected, {equivalent} proved equivalent")
+    for slip in survivors:
+        print(f"surviving in {slip.of}: {slip.what}")
+    print(
+        f"{total['slips']} slips in {len(names) - 1} kernels and the tables: {total['rejected']} rejected, "
+        f"{total['equivalent']} proved equivalent, {len(survivors)} surviving"
+    )
+    return 1 if survivors else 0
+
+
 def check_effects(entries: tuple[Entry, ...]) -> int:
     """Recompute every figure of the effects by the second route; returns 1 if one is not what is printed."""
     from derivations.ledger.check_effects import Checked, check
@@ -136,6 +168,7 @@ def check_circular(entries: tuple[Entry, ...]) -> int:
 def outputs(records: list[dict[str, Any]]) -> dict[Path, str]:
     """What the ledger gives: its records and page, and the pages of the docs that are made of them."""
     from derivations.ledger import article, assumptions, html, protocol
+    from derivations.proofs.page import filled
 
     docs = GENERATED.parent / "docs"
     return {
@@ -144,6 +177,7 @@ def outputs(records: list[dict[str, Any]]) -> dict[Path, str]:
         docs / "assumptions.md": assumptions.page(),
         docs / "referee.md": protocol.page(records),
         docs / "article.md": article.page(records),
+        docs / "proofs.md": filled((docs / "proofs.md").read_text("utf-8")),
     }
 
 
@@ -183,7 +217,7 @@ def verify(
 
         return run_mutants(entries, every) if mutants else run(entries, write=write and equation is None)
     if mutants:
-        return check_mutants(entries)
+        return check_mutants(entries) | (check_kernel_mutants() if equation is None else 0)
     if effects:
         return check_effects(entries)
     if circular:
@@ -198,7 +232,10 @@ def verify(
         print(table(records))
         print(f"\n{len(records)} entries, {len(records) - failed} confirmed, {failed} not confirmed")
     outputs = _write(records, check) if equation is None and (write or check) else 0
-    return 0 if outputs == 0 and all(r["confirmed"] for r in records) else 1
+    unjudged = rests_on() - {e.id for e in ENTRIES}
+    for name in sorted(unjudged):
+        print(f"a kernel's proof rests on the entry {name}, which the ledger lacks", file=sys.stderr)
+    return 0 if outputs == 0 and not unjudged and all(r["confirmed"] for r in records) else 1
 
 
 def transcription(*, mutants: bool) -> int:
