@@ -92,7 +92,10 @@ def run() -> NoReturn:
         code, message = 128 + signals.come, "interrupted"
     if message is not None:
         with suppress(OSError, ValueError):
-            sys.stderr.write(f"trum-sym: {message}\n")
+            try:
+                sys.stderr.write(f"trum-sym: {message}\n")
+            except UnicodeEncodeError:
+                sys.stderr.write(f"trum-sym: {message.encode('ascii', 'backslashreplace').decode('ascii')}\n")
     _end(code)
 
 

@@ -103,7 +103,8 @@ def _compared(value: Any) -> Iterator[str]:  # noqa: ANN401
 
 
 def _is_array(value: object) -> bool:
-    return hasattr(value, "__array_interface__") and hasattr(value, "flags")
+    kind = type(value)  # a stranger's object is not asked
+    return hasattr(kind, "__array_interface__") and hasattr(kind, "flags")
 
 
 def _frozen(value: Any) -> Any:  # noqa: ANN401
@@ -137,6 +138,8 @@ def _key(value: Any) -> Any:  # noqa: ANN401
     if _is_array(value):
         import numpy as np
 
+        if value.dtype.kind not in "fiub":  # text
+            return value.shape, tuple(value.ravel().tolist())
         numbers = np.asarray(value, np.float64) + 0.0  # -0.0 is 0.0
         numbers[np.isnan(numbers)] = np.nan  # of whatever bits
         return value.shape, numbers.tobytes()

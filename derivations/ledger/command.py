@@ -194,6 +194,18 @@ def _write(records: list[dict[str, Any]], check: bool) -> int:
     return 1 if stale else 0
 
 
+def _show(records: list[dict[str, Any]], json_: bool, one: bool) -> None:
+    """Print the records: as JSON, one written out, or a table with the count."""
+    if json_:
+        print(as_json(records), end="")
+    elif one:
+        print(written_out(records[0]))
+    else:
+        failed = sum(not r["confirmed"] for r in records)
+        print(table(records))
+        print(f"\n{len(records)} entries, {len(records) - failed} confirmed, {failed} not confirmed")
+
+
 def verify(
     equation: str | None,
     *,
@@ -223,14 +235,7 @@ def verify(
     if circular:
         return check_circular(entries)
     records = prove(entries)
-    if json_:
-        print(as_json(records), end="")
-    elif equation is not None:
-        print(written_out(records[0]))
-    else:
-        failed = sum(not r["confirmed"] for r in records)
-        print(table(records))
-        print(f"\n{len(records)} entries, {len(records) - failed} confirmed, {failed} not confirmed")
+    _show(records, json_, equation is not None)
     outputs = _write(records, check) if equation is None and (write or check) else 0
     unjudged = rests_on() - {e.id for e in ENTRIES}
     for name in sorted(unjudged):

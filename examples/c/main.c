@@ -76,6 +76,7 @@ int main(int count, char** arguments) {
   print_number("frequency_difference", drive.frequency_difference);
 #define PRINT(name, unit) print_number(#name, point.name);
   TRUM_FIGURES(PRINT)
-  printf("  \"converged\": %s\n}\n", point.converged ? "true" : "false");
+  printf("  \"converged\": %s,\n", point.converged ? "true" : "false");
+  printf("  \"reason\": \"%s\"\n}\n", point.converged ? "" : trum_status_text((int)status));
   return 0;
 }

@@ -13,6 +13,7 @@ import pytest
 from lazily import lazily
 
 import trum_sym as ts
+from trum_sym.model.kernels import signature
 from trum_sym.model import sensitivities
 from trum_sym.model.kernels import SLOPE_FIGURES, SLOPE_PARAMETERS
 from trum_sym.model.levels import Levels
@@ -122,7 +123,7 @@ def test_product_and_chain_rules_of_the_slopes_are_sympys(trum60, monkeypatch):
     case = prepare(trum60, ts.Drive(load_torque=0.05), Levels(), 1e-6)
     raw = {name: np.asarray(draw.uniform(0.1, 0.9)) for name in SLOPE_FIGURES}
     raw["mean"] = -raw["mean"]  # a rotor that runs backward
-    raw |= {name: np.asarray(0.0) for name in ("start", "level", "error", "flags")}
+    raw |= {name: np.asarray(0.0) for name in signature("rotor_orbit")[1] if name not in raw}
     raw["slopes"] = draw.uniform(-1, 1, (len(SLOPE_FIGURES), len(SLOPE_PARAMETERS)))
     follow = {name: tuple(draw.uniform(-1, 1, 2)) for name in ("prepressure", "frequency_difference")}
     monkeypatch.setattr(sensitivities, "call_in_blocks", lambda *_, **__: raw)

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import pytest
-import sympy as sp
+from lazily import lazily
 
-from derivations import collocation, error_bound
+sp = lazily("sympy")
+collocation = lazily("derivations.collocation")
+error_bound = lazily("derivations.error_bound")
 
 
 def test_every_theorem_is_proved():
@@ -17,7 +19,7 @@ def test_every_theorem_is_proved():
 def test_a_wrong_check_weight_is_refused(monkeypatch, index):
     weights = list(collocation.check_weights())
     weights[index] += sp.Rational(1, 10**6)
-    monkeypatch.setattr(error_bound.collocation, "check_weights", lambda: weights)
+    monkeypatch.setattr("derivations.collocation.check_weights", lambda: weights)
     with pytest.raises(error_bound.ProofError, match="Kronrod"):
         error_bound.kronrod()
 
@@ -25,6 +27,6 @@ def test_a_wrong_check_weight_is_refused(monkeypatch, index):
 def test_a_wrong_check_node_is_refused(monkeypatch):
     points = list(collocation.check_nodes())
     points[0] += sp.Rational(1, 10**6)
-    monkeypatch.setattr(error_bound.collocation, "check_nodes", lambda: points)
+    monkeypatch.setattr("derivations.collocation.check_nodes", lambda: points)
     with pytest.raises(error_bound.ProofError, match="Kronrod"):
         error_bound.kronrod()

@@ -205,7 +205,7 @@ CONSOLE = [
     ("optimize", "--constraint", "max_speed - min_speed <= 5 1/s"),
     ("optimize", "--objective", "mean_speed + frequency_difference"),
     ("pareto", "--target-speed", "0.5 1/s"),
-    ("robust", "--tolerance", "friction_coefficient=10 deg"),
+    ("robust", "--spread", "friction_coefficient=10 deg"),
     ("speed-table", "--from", "0.1 Hz", "--to", "1 rad/s"),
     ("speed-table", "--from", "0.1 rad/s", "--to", "1 kHz"),
     ("sweep", "--frequency-difference", "1 rad/s:2 rad/s:3", "--outputs", "amplitude", "--dry-run"),

@@ -83,10 +83,11 @@ def of_points(trum60, monkeypatch):
 @pytest.mark.parametrize(("name", "compute"), [("rotor_orbit", ts.evaluate), ("rotor_slopes", ts.sensitivities)])
 def test_an_orbit_may_take_the_place_of_what_it_is_found_from(of_points, name, compute):
     ufunc, values = getattr(_kernels, name), of_points(name, compute)
-    wanted = ufunc(*values)
+    with np.errstate(all="ignore"):
+        wanted = ufunc(*values)
     assert np.isfinite(wanted[0]).all()
     for argument in range(ufunc.nin):
         given = [x.copy() for x in values]
         out = [np.empty_like(x) for x in wanted]
-        out[argument % 10] = given[argument]
-        assert same(ufunc(*given, out=tuple(out)), wanted), signature(name)[0][argument]
+        out[argument % len(signature("rotor_orbit")[1])] = given[argument]
+        assert same(called(ufunc, given, out), wanted), signature(name)[0][argument]

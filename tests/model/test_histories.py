@@ -178,7 +178,7 @@ def test_the_console_writes_what_python_gives(trum60, tmp_path, suffix, capsys):
 
 
 def test_the_console_prints_a_summary(capsys):
-    assert main(["simulate", "--load-torque", "2"]) == 0
+    assert main(["simulate", "--load-torque", "2"]) == 1
     out = capsys.readouterr().out
     assert "rotor_speed" in out
     assert "no speed balances the load" in out

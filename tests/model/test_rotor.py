@@ -199,10 +199,11 @@ def test_a_load_beyond_friction_has_no_speed(trum60, capsys):
     assert np.isnan(point.mean_speed[1:]).all()
     assert point.converged.tolist() == [True, False, False]
     assert np.isfinite(point.stall_torque).all()
-    assert main(["evaluate", "--load-torque", "1.2", "--json"]) == 0
+    assert main(["evaluate", "--load-torque", "1.2", "--json"]) == 1
     printed = json.loads(capsys.readouterr().out)
     assert printed["mean_speed"] is None
     assert printed["converged"] is False
+    assert printed["reason"].startswith("no speed balances the load")
     main(["evaluate", "--load-torque", "1.2"])
     assert "no speed balances the load" in capsys.readouterr().out
 

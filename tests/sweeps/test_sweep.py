@@ -19,7 +19,7 @@ from trum_sym.console import main
 from trum_sym.model import batch
 from trum_sym.model.levels import Levels
 from trum_sym.output.progress import Progress, duration
-from trum_sym.quantities import QUANTITIES
+from trum_sym.quantities import ERRORS, QUANTITIES
 from trum_sym.sweeps import engine
 from trum_sym.sweeps.grid import PARAMETERS, chunk_shape
 from trum_sym.sweeps.notation import parse
@@ -48,12 +48,13 @@ def test_every_point_has_the_bits_of_evaluate(trum60, chunk):
         trum60, drive, chunk=chunk, prepressure=forces, friction_coefficient=frictions, load_torque=np.array(loads)
     )
     assert found.sizes == {"prepressure": 3, "friction_coefficient": 2, "load_torque": 2}
-    assert set(found.data_vars) == {*QUANTITIES, "converged", "status"}
+    assert set(found.data_vars) == {*QUANTITIES, *ERRORS, "converged", "status"}
     for i, j, k in itertools.product(range(3), range(2), range(2)):
         motor = trum60.with_values({"friction_coefficient": frictions[j]})
-        one = ts.evaluate(motor, ts.Drive(prepressure=forces[i], load_torque=loads[k], periods=4, on_periods=3))
+        drive = ts.Drive(prepressure=forces[i], load_torque=loads[k], periods=4, on_periods=3)
+        one = ts.evaluate(motor, drive, tolerance=1e-6)
         here = found.isel(prepressure=i, friction_coefficient=j, load_torque=k)
-        for name in (*QUANTITIES, "converged"):
+        for name in (*QUANTITIES, *ERRORS, "converged"):
             assert np.array_equal(here[name].item(), getattr(one, name), equal_nan=True), name
         assert here.status == (1 if np.isnan(one.mean_speed) else 0)
     assert int((found.status == 1).sum()) == 6, "2 N m is more than friction carries"
@@ -378,7 +379,7 @@ def test_a_store_opens_with_units_coordinates_and_provenance(trum60, tmp_path):
         assert found.attrs["motor_file"] == trum60.text
         assert ts.load_motor().name in found.attrs["motor_file"]
         assert found.attrs["package"].startswith("trum-sym ")
-        assert found.attrs["tolerance"] == 1e-3
+        assert found.attrs["tolerance"] == 1e-6
         assert "prepressure" not in found.attrs, "swept"
         for name, value in DRIVE.numbers().items():
             assert name == "prepressure" or found.attrs[name] == value

@@ -282,7 +282,7 @@ def store(tmp_path_factory):
 OTHERS = [
     ({"outputs": ("q_average",)}, "its outputs is q_average mean_speed, not q_average"),
     ({"chunk": 8}, "its chunk is (1, 4), not (1, 8)"),
-    ({"tolerance": 1e-4}, "its tolerance is 0.001, not 0.0001"),
+    ({"tolerance": 1e-4}, "its tolerance is 1e-06, not 0.0001"),
     ({"contact": "hertz"}, "its contact is winkler, not hertz"),
     ({"load_torque": 0.2}, "its load_torque is 0.1, not 0.2"),
     ({"contact_radius": 0.026}, "its motor_contact_radius is 0.0265 m (assumed), not 0.026 m (set)"),

@@ -40,8 +40,8 @@ const char* trum_status_text(int status) {
       "the motor's values give no finite size",
       "without damping this drive has no steady or no repeated state",
       "forced amplitude and resonance do not settle",
-      "no speed balances the load",
-      "the orbit misses the tolerance"};
+      "no speed balances the load: it exceeds what friction can transmit",
+      "the bounds of the errors miss the tolerance"};
   return status < 0 || status >= TRUM_STATUSES ? 0 : texts[status];
 }
 

@@ -68,9 +68,10 @@ _REFUSALS = {
 
 def main(arguments: list[str] | None = None) -> int:
     """Run the console; returns the exit code and never lets a traceback through for bad input or surroundings."""
-    code, message = outcome(arguments)
-    if message is not None:
-        say(f"trum-sym: {message}", err=True)
+    with spelling_streams():
+        code, message = outcome(arguments)
+        if message is not None:
+            say(f"trum-sym: {message}", err=True)
     return code
 
 

@@ -29,6 +29,10 @@ static const double trum_kink_share = 100.0;         /* and with a kink */
 static const double trum_newton_share = 0.05;        /* Newton's last change, squared */
 static const double trum_first_lap_tolerance = 1e-2; /* in place of the tolerance, far from the orbit */
 
+/* What is added to a divisor that may be 0, and what a number is rounded by, in the precision of the kernels */
+static const double trum_tiny = sizeof(trum_real) < sizeof(double) ? 1e-37 : 1e-290;
+static const double trum_unit = sizeof(trum_real) < sizeof(double) ? 6e-8 : 1.2e-16;
+
 /* Factor of safety on all bounds */
 static const double trum_bound_safety = 2.0;
 

@@ -31,7 +31,7 @@ static real trum_quadrature_remainder(const real* r, real* size) {
   static const double b[] = TRUM_CHECK_WEIGHTS;
   const real sum = REAL(b[0]) * r[0] + REAL(b[1]) * r[1] + REAL(b[2]) * r[2];
   const real all =
-      REAL(b[0]) * absolute(r[0]) + REAL(b[1]) * absolute(r[1]) + REAL(b[2]) * absolute(r[2]) + REAL(1e-290);
+      REAL(b[0]) * absolute(r[0]) + REAL(b[1]) * absolute(r[1]) + REAL(b[2]) * absolute(r[2]) + REAL(trum_tiny);
   const real inverse = reciprocal(all), even = absolute(sum) * inverse;
   const real odd = REAL(b[0]) * absolute(r[0] - r[2]) * inverse, rough = maximum(even, odd * odd);
   *size = all;
@@ -76,14 +76,14 @@ static void trum_evaluate_defect(const trum_lanes* lanes, const trum_trial_step*
 static real trum_rounding(const trum_lanes* lanes, const trum_trial_step* trial) {
   const real theta = lanes->start.theta, h = lanes->step.h;
   const mask held = at_most(lanes->equation.push, REAL(0));
-  const real phase = minimum(REAL(2), REAL(4e-15) * lanes->constants.W * reciprocal(trial->at[1].W_c + REAL(1e-200)));
+  const real phase = minimum(REAL(2), REAL(40.0 * trum_unit) * lanes->constants.W * reciprocal(trial->at[1].W_c + REAL(trum_tiny)));
   real at_stake = REAL(0);
   int j;
   for (j = 0; j < NODES; ++j) {
     const real f = absolute(trial->f[j]);
     at_stake = maximum(at_stake, where(held, lanes->hertz ? REAL(1) : f, REAL(1) - f));
   }
-  return h * (REAL(1.2e-15) * (REAL(1) + REAL(3) * reciprocal(theta * theta + REAL(1e-200))) + phase * at_stake);
+  return h * (REAL(10.0 * trum_unit) * (REAL(1) + REAL(3) * reciprocal(theta * theta + REAL(trum_tiny))) + phase * at_stake);
 }
 
 /* What a trial step is off by. */
@@ -103,7 +103,7 @@ static void trum_step_defect(const trum_lanes* lanes, const trum_trial_step* tri
   }
   trum_evaluate_defect(lanes, trial, K, stiff, r, angle, kept, lasts, &d->xx);
   d->kept = trum_decay(stiff), d->mean_kept = trum_mean_decay(stiff);
-  d->stiffness = stiff * reciprocal(h + REAL(1e-290));
+  d->stiffness = stiff * reciprocal(h + REAL(trum_tiny));
   first = REAL(full[0]) * trial->T[0] * (trial->f[0] - lanes->start.f); /* of a damped step, at its first node */
   d->friction = first, d->x = first * d->kept, d->x_integral = REAL(0);
   damped = absolute(first) * d->kept;

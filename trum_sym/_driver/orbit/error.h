@@ -8,7 +8,7 @@
  * as the rotor, or the surface's largest speed, comes to where it ends. */
 static real trum_longest_step(const trum_lanes* lanes, const trum_trial_step* trial) {
   mask saturated = mask_all(1), inside = mask_all(0), outside = mask_all(0);
-  const real scale = reciprocal(trial->at[1].R_v * trial->at[1].R_v + REAL(1e-290));
+  const real scale = reciprocal(trial->at[1].R_v * trial->at[1].R_v + REAL(trum_tiny));
   real highest = REAL(-HUGE_VAL), lowest = REAL(HUGE_VAL);
   mask near;
   int j;
@@ -30,7 +30,7 @@ static real trum_error_ratio(trum_lanes* lanes, const trum_trial_step* trial, ma
   const mask held = at_most(lanes->equation.push, REAL(0));
   const real of_friction = absolute(d->friction) + d->friction_remainder;
   const real of_angle = REAL(0.31830988618379067154) * (absolute(d->angle) + d->angle_remainder);
-  const real of_x = (absolute(d->x) + d->remainder) * reciprocal(lanes->equation.push + REAL(1e-290));
+  const real of_x = (absolute(d->x) + d->remainder) * reciprocal(lanes->equation.push + REAL(trum_tiny));
   real G[NODES], ratio, cosine = lanes->start.cos_phi, sine = lanes->start.sin_phi;
   mask finite, phase_unresolved = mask_all(0);
   int j;
