@@ -13,9 +13,8 @@ import pytest
 from lazily import lazily
 
 import trum_sym as ts
-from trum_sym.model.kernels import signature
 from trum_sym.model import sensitivities
-from trum_sym.model.kernels import SLOPE_FIGURES, SLOPE_PARAMETERS
+from trum_sym.model.kernels import SLOPE_FIGURES, SLOPE_PARAMETERS, signature
 from trum_sym.model.levels import Levels
 from trum_sym.model.operating_point import prepare
 from trum_sym.paper import cycle
