@@ -160,7 +160,8 @@ static void trum_start_lap(trum_lanes* lanes, int i, trum_search* search) {
   trum_clear_sensitivity(&lanes->sensitivity, i, lanes->slopes);
   set_lane_mask(&lanes->status.at_lap_start, i, 1), set_lane_mask(&lanes->status.failed, i, 0);
   set_lane_mask(&lanes->status.active, i, 1);
-  set_lane_mask(&lanes->status.rough, i, search->stage == STAGE_ROUGH);
+  set_lane_mask(&lanes->status.rough, i,
+                search->stage == STAGE_ROUGH && search->level > trum_step_share * in->tolerance * 1.0001);
   set_lane_mask(&lanes->status.contact_only, i, held && search->held_laps == 2);
   search->region = -1;
   trum_enter_next_region(lanes, i, search);
