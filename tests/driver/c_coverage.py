@@ -63,6 +63,7 @@ NEVER = {
         "return fabs(change) > search->in->tolerance": LAPS,
         "if ((fabs(change) <= nearly": LAPS,
         "search->bracket.high - search->bracket.low <= nearly": LAPS,
+        "if (s->last) {": LAPS,
         "else if (s->last) search->out->flags": LAPS,
         "if (known_start) next = search->start_speed": LAPS,
         "} else if (!trum_finish_rough_lap(": LAPS,

@@ -206,8 +206,10 @@ def test_random_drives_agree_too(page):
             "phase_lead": float(rng.choice([1, -1])),
         }
         found, expected = numbers(page, f"trumMotor.set({json.dumps(settings)})"), evaluated(settings)
-        for name in QUANTITIES:  # the contact's mean is the one figure that the tolerance does not bound
-            assert found[name] == pytest.approx(expected[name], rel=1e-8 if name == "contact_fraction" else 1e-9), name
+        for name in QUANTITIES:  # both within their bounds: rounding may choose another step
+            allowed = 2 * (expected.get(f"{name}_error") or 0.0)
+            close = {"rel": 1e-8 if name == "contact_fraction" else 1e-9}
+            assert found[name] == pytest.approx(expected[name], **close) or abs(found[name] - expected[name]) <= allowed
 
 
 @pytest.mark.browser
