@@ -15,7 +15,7 @@ from trum_sym.optimiser.chart import Chart, basins, chart
 from trum_sym.optimiser.descent import Task, Visit, descend
 from trum_sym.optimiser.expressions import Constraint, Expression
 from trum_sym.optimiser.extra import casadi
-from trum_sym.optimiser.finish import ALLOWED, Bounds, Finished, checked, finish
+from trum_sym.optimiser.finish import ALLOWED, TOLERANCE, Bounds, Finished, checked, finish
 from trum_sym.optimiser.kinks import compass, stationarity
 from trum_sym.optimiser.model import Box, Functions, Model, functions
 from trum_sym.values import Value
@@ -319,7 +319,7 @@ def _between(search: _Search, rows: Functions, low: Array, high: Array, value: f
     for _ in range(_STEPS):
         along = np.linspace(0.0, 1.0, 10)[1:-1, np.newaxis]
         places = low + along * (high - low)
-        found = rows.values(model.results(model.box.at(places), _DESCENT))[:, 0]
+        found = rows.values(model.results(model.box.at(places), TOLERANCE))[:, 0]
         below = np.flatnonzero(found <= value)
         above = np.flatnonzero(found > value)
         if below.size + above.size < len(places):  # no orbit in between
