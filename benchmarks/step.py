@@ -67,8 +67,8 @@ def _values(outside: list[str]) -> dict[str, np.ndarray]:
         "f_B_im": W * np.sin(angle[1]),
         "e_re": 0.9 * np.cos(angle[2]),
         "e_im": 0.9 * np.sin(angle[2]),
-        "d_re": np.cos(angle[3]),
-        "d_im": np.sin(angle[3]),
+        "d_re": np.cos(angle[3]) - 0.9 * np.cos(angle[2]),
+        "d_im": np.sin(angle[3]) - 0.9 * np.sin(angle[2]),
         "p_re": 1.0,
         "p_im": 0.0,
     }

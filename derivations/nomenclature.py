@@ -90,15 +90,15 @@ f_B_re_Delta_omega | m*s | r | \partial f_{B,re}/\partial \Delta\omega | ours | 
 f_B_im_omega_n | m*s | r | \partial f_{B,im}/\partial \omega_n | ours | derivative of f_B_im by omega_n
 f_B_im_Delta_omega | m*s | r | \partial f_{B,im}/\partial \Delta\omega | ours | derivative of f_B_im by Delta_omega
 engagement_per_height | 1/m      | + | \epsilon' | ours | engagement over wave height
-f_A_re      | m        | r | f_{A,re} | ours | phasor of phase A's free motion at the start of a step, real part
+f_A_re      | m        | r | f_{A,re} | ours | phasor of phase A's motion at the start of a region, real part
 f_A_im      | m        | r | f_{A,im} | ours | its imaginary part
-f_B_re      | m        | r | f_{B,re} | ours | phasor of phase B's free motion at the start of a step, real part
+f_B_re      | m        | r | f_{B,re} | ours | phasor of phase B's motion at the start of a region, real part
 f_B_im      | m        | r | f_{B,im} | ours | its imaginary part
-p_re        | 1        | r | p_{re} | ours | phasor of the drive at the start of a step, real part
+p_re        | 1        | r | p_{re} | ours | phasor of the drive at the start of a region, real part
 p_im        | 1        | r | p_{im} | ours | its imaginary part
-e_re        | 1        | r | e_{re} | ours | turn and decay of free motion within a step, real part
+e_re        | 1        | r | e_{re} | ours | turn and decay of free motion since then, real part
 e_im        | 1        | r | e_{im} | ours | its imaginary part
-d_re        | 1        | r | d_{re} | ours | turn of the drive within a step, real part
+d_re        | 1        | r | d_{re} | ours | what the drive's turn since then exceeds that by, real part
 d_im        | 1        | r | d_{im} | ours | its imaginary part
 W_c         | m        | + | W_c | ours | height of the wave at its crest
 engagement | 1 | + | \epsilon | ours | the layer's force at full wave over the prepressure, 2 n_j k_N W_c / (k_c F_c)

@@ -26,6 +26,7 @@ __all__ = [
     "friction_slopes",
     "hertz_full_height",
     "less",
+    "motion_phasor",
     "peak_pressure",
     "phasor",
     "pressed",
@@ -38,7 +39,7 @@ __all__ = [
 ]
 
 omega_n, Delta_omega, xi, tau = sym("omega_n Delta_omega xi tau")
-a, b, W, D, k_c, s = sym("a b W D k_c s")
+a, b, W, D, k_c, s, psi = sym("a b W D k_c s psi")
 f_A_re, f_A_im, f_B_re, f_B_im = sym("f_A_re f_A_im f_B_re f_B_im")
 p_re, p_im, e_re, e_im, d_re, d_im, g_A, g_B = sym("p_re p_im e_re e_im d_re d_im g_A g_B")
 W_c, engagement, share, theta, phi, R_v, v = sym("W_c engagement share theta phi R_v v")
@@ -68,32 +69,65 @@ def phasor() -> tuple[sp.Expr, sp.Expr]:
 
 
 def rotation() -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
-    """exp(lambda tau) of the free motion and exp(i omega_q tau) of the drive, real and imaginary parts."""
-    omega_d = omega_n * sp.sqrt(1 - xi**2)
-    decay, angle = sp.exp(-xi * omega_n * tau), (omega_n + Delta_omega) * tau
-    return decay * sp.cos(omega_d * tau), decay * sp.sin(omega_d * tau), sp.cos(angle), sp.sin(angle)
+    """exp(lambda tau) of the free motion, and by how much exp(i omega_q tau) of the drive exceeds it; real and imaginary parts.
+
+    The difference is taken without cancellation, from half the sum and half the difference of the two angles: after a
+    start from rest it is all that there is of the wave.
+    """
+    omega_d, omega_q = omega_n * sp.sqrt(1 - xi**2), omega_n + Delta_omega
+    mean = (omega_q + omega_d) / 2 * tau
+    half = (Delta_omega + omega_n * xi**2 / (1 + sp.sqrt(1 - xi**2))) / 2 * tau
+    lost = -sp.Function("expm1")(-xi * omega_n * tau)
+    cosine = sp.cos(mean) * sp.cos(half) + sp.sin(mean) * sp.sin(half)
+    sine = sp.sin(mean) * sp.cos(half) - sp.cos(mean) * sp.sin(half)
+    return (
+        (1 - lost) * cosine,
+        (1 - lost) * sine,
+        lost * cosine - 2 * sp.sin(mean) * sp.sin(half),
+        lost * sine + 2 * sp.cos(mean) * sp.sin(half),
+    )
+
+
+def motion_phasor(phase: str, gate: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+    """Phasor of a phase's motion at a region's start: the free motion's and the drive's (eqs. 9, 10).
+
+    Its real part is the displacement, which stays the same where a gate switches; at rest it is zero.
+    """
+    z_re, z_im = phasor()
+    on = _led(phase, (sp.cos(psi), sp.sin(psi)))
+    return z_re + gate * W * on[0], z_im + gate * W * on[1]
 
 
 def _turned(re: sp.Expr, im: sp.Expr, c_re: sp.Expr, c_im: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
     return re * c_re - im * c_im, re * c_im + im * c_re
 
 
+def _led(phase: str, of_A: tuple[sp.Expr, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
+    """A drive phasor of phase A as one of the phase: B leads by s quarter turns."""
+    return of_A if phase == "A" else (-s * of_A[1], s * of_A[0])
+
+
 @cache
 def wave() -> dict[str, sp.Expr]:
-    """Wave height, surface speed amplitude and phase, after phasors f and p have turned by e and d (eqs. 11, 20).
+    """Wave height, surface speed amplitude and phase, a time after the motion had the phasor f (eqs. 11, 20).
 
+    The motion's phasor has become z = f e + g W p d, with e the free motion's turn, d what the drive's exceeds it by and
+    p the drive's phasor; w = Re z and w' = Re(lambda z) + g W Re((i omega_q - lambda) p (e + d)).
     W_c = sqrt(w_A^2 + w_B^2); with q = w_A' w_B - w_B' w_A the surface speed is
     D k_c (q cos u - W_c W_c' sin u) / W_c = R_v cos(u - phi).
     """
     omega_d, omega_q = omega_n * sp.sqrt(1 - xi**2), omega_n + Delta_omega
-    drive = _turned(p_re, p_im, d_re, d_im)
-    steady = {"A": (drive[0], drive[1]), "B": (-s * drive[1], s * drive[0])}
+    excess, drive = _turned(p_re, p_im, d_re, d_im), _turned(p_re, p_im, e_re + d_re, e_im + d_im)
     w, velocity = {}, {}
     for phase, re, im, gate in (("A", f_A_re, f_A_im, g_A), ("B", f_B_re, f_B_im, g_B)):
-        z_re, z_im = _turned(re, im, e_re, e_im)
-        on_re, on_im = steady[phase]
-        w[phase] = z_re + gate * W * on_re
-        velocity[phase] = -xi * omega_n * z_re - omega_d * z_im - gate * W * omega_q * on_im
+        free_re, free_im = _turned(re, im, e_re, e_im)
+        more_re, more_im = _led(phase, excess)
+        on_re, on_im = _led(phase, drive)
+        z_re, z_im = free_re + gate * W * more_re, free_im + gate * W * more_im
+        w[phase] = z_re
+        velocity[phase] = (
+            -xi * omega_n * z_re - omega_d * z_im + gate * W * (xi * omega_n * on_re + (omega_d - omega_q) * on_im)
+        )
     q = velocity["A"] * w["B"] - velocity["B"] * w["A"]
     growth = w["A"] * velocity["A"] + w["B"] * velocity["B"]
     length = sp.sqrt(q**2 + growth**2) + TINY

@@ -87,6 +87,11 @@ int trum_regions(const trum_real** arg, trum_real** res, long long int* iw, trum
 enum { trum_regions_in_Delta_omega, trum_regions_in_W, trum_regions_in_a_A, trum_regions_in_a_B, trum_regions_in_b_A, trum_regions_in_b_B, trum_regions_in_m, trum_regions_in_n, trum_regions_in_omega_n, trum_regions_in_psi, trum_regions_in_s, trum_regions_in_xi, trum_regions_n_arg };
 enum { trum_regions_out_time_redu, trum_regions_out_time_addredu, trum_regions_out_time_add, trum_regions_out_a_A_redu, trum_regions_out_b_A_redu, trum_regions_out_a_B_redu, trum_regions_out_b_B_redu, trum_regions_out_a_A_addredu, trum_regions_out_b_A_addredu, trum_regions_out_a_B_addredu, trum_regions_out_b_B_addredu, trum_regions_out_a_A_add, trum_regions_out_b_A_add, trum_regions_out_a_B_add, trum_regions_out_b_B_add, trum_regions_out_a_A_end, trum_regions_out_b_A_end, trum_regions_out_a_B_end, trum_regions_out_b_B_end, trum_regions_n_res };
 
+/* Both phases' motions at the start of the regions as phasors (eqs. 9, 10) */
+int trum_region_phasors(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_region_phasors_in_Delta_omega, trum_region_phasors_in_W, trum_region_phasors_in_a_A, trum_region_phasors_in_a_B, trum_region_phasors_in_b_A, trum_region_phasors_in_b_B, trum_region_phasors_in_m, trum_region_phasors_in_n, trum_region_phasors_in_omega_n, trum_region_phasors_in_psi, trum_region_phasors_in_s, trum_region_phasors_in_xi, trum_region_phasors_n_arg };
+enum { trum_region_phasors_out_re_A_redu, trum_region_phasors_out_im_A_redu, trum_region_phasors_out_re_A_addredu, trum_region_phasors_out_im_A_addredu, trum_region_phasors_out_re_A_add, trum_region_phasors_out_im_A_add, trum_region_phasors_out_re_B_redu, trum_region_phasors_out_im_B_redu, trum_region_phasors_out_re_B_addredu, trum_region_phasors_out_im_B_addredu, trum_region_phasors_out_re_B_add, trum_region_phasors_out_im_B_add, trum_region_phasors_n_res };
+
 /* Both phases within a region (eqs. 9, 10), determinant and its rate (eqs. 24, A5) */
 int trum_response(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_response_in_D, trum_response_in_Delta_omega, trum_response_in_W, trum_response_in_a_A, trum_response_in_a_B, trum_response_in_b_A, trum_response_in_b_B, trum_response_in_g_A, trum_response_in_g_B, trum_response_in_k_c, trum_response_in_omega_n, trum_response_in_psi, trum_response_in_s, trum_response_in_tau, trum_response_in_xi, trum_response_n_arg };
@@ -102,7 +107,7 @@ int trum_phasor(const trum_real** arg, trum_real** res, long long int* iw, trum_
 enum { trum_phasor_in_a, trum_phasor_in_b, trum_phasor_in_omega_n, trum_phasor_in_xi, trum_phasor_n_arg };
 enum { trum_phasor_out_re, trum_phasor_out_im, trum_phasor_n_res };
 
-/* Turn of free motion and drive in a time */
+/* Turn of free motion, and the drive's beyond it, in a time */
 int trum_rotation(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_rotation_in_Delta_omega, trum_rotation_in_omega_n, trum_rotation_in_tau, trum_rotation_in_xi, trum_rotation_n_arg };
 enum { trum_rotation_out_e_re, trum_rotation_out_e_im, trum_rotation_out_d_re, trum_rotation_out_d_im, trum_rotation_n_res };
@@ -157,7 +162,7 @@ int trum_start_rest_slopes(const trum_real** arg, trum_real** res, long long int
 enum { trum_start_rest_slopes_in_Delta_omega, trum_start_rest_slopes_in_W, trum_start_rest_slopes_in_omega_n, trum_start_rest_slopes_in_psi, trum_start_rest_slopes_in_s, trum_start_rest_slopes_n_arg };
 enum { trum_start_rest_slopes_out_a_A_omega_n, trum_start_rest_slopes_out_b_A_omega_n, trum_start_rest_slopes_out_a_B_omega_n, trum_start_rest_slopes_out_b_B_omega_n, trum_start_rest_slopes_out_a_A_Delta_omega, trum_start_rest_slopes_out_b_A_Delta_omega, trum_start_rest_slopes_out_a_B_Delta_omega, trum_start_rest_slopes_out_b_B_Delta_omega, trum_start_rest_slopes_n_res };
 
-/* How the free motion's phasors at the start of the regions follow the frequencies */
+/* How the motion's phasors at the start of the regions follow the frequencies */
 int trum_regions_slopes(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_regions_slopes_in_Delta_omega, trum_regions_slopes_in_W, trum_regions_slopes_in_a_A, trum_regions_slopes_in_a_A_Delta_omega, trum_regions_slopes_in_a_A_omega_n, trum_regions_slopes_in_a_B, trum_regions_slopes_in_a_B_Delta_omega, trum_regions_slopes_in_a_B_omega_n, trum_regions_slopes_in_b_A, trum_regions_slopes_in_b_A_Delta_omega, trum_regions_slopes_in_b_A_omega_n, trum_regions_slopes_in_b_B, trum_regions_slopes_in_b_B_Delta_omega, trum_regions_slopes_in_b_B_omega_n, trum_regions_slopes_in_m, trum_regions_slopes_in_n, trum_regions_slopes_in_omega_n, trum_regions_slopes_in_psi, trum_regions_slopes_in_s, trum_regions_slopes_in_xi, trum_regions_slopes_n_arg };
 enum { trum_regions_slopes_out_re_A_redu_omega_n, trum_regions_slopes_out_im_A_redu_omega_n, trum_regions_slopes_out_re_A_addredu_omega_n, trum_regions_slopes_out_im_A_addredu_omega_n, trum_regions_slopes_out_re_A_add_omega_n, trum_regions_slopes_out_im_A_add_omega_n, trum_regions_slopes_out_re_B_redu_omega_n, trum_regions_slopes_out_im_B_redu_omega_n, trum_regions_slopes_out_re_B_addredu_omega_n, trum_regions_slopes_out_im_B_addredu_omega_n, trum_regions_slopes_out_re_B_add_omega_n, trum_regions_slopes_out_im_B_add_omega_n, trum_regions_slopes_out_re_A_redu_Delta_omega, trum_regions_slopes_out_im_A_redu_Delta_omega, trum_regions_slopes_out_re_A_addredu_Delta_omega, trum_regions_slopes_out_im_A_addredu_Delta_omega, trum_regions_slopes_out_re_A_add_Delta_omega, trum_regions_slopes_out_im_A_add_Delta_omega, trum_regions_slopes_out_re_B_redu_Delta_omega, trum_regions_slopes_out_im_B_redu_Delta_omega, trum_regions_slopes_out_re_B_addredu_Delta_omega, trum_regions_slopes_out_im_B_addredu_Delta_omega, trum_regions_slopes_out_re_B_add_Delta_omega, trum_regions_slopes_out_im_B_add_Delta_omega, trum_regions_slopes_n_res };
@@ -213,6 +218,7 @@ enum { trum_interface_out_v_x, trum_interface_out_v_x_slope, trum_interface_out_
   X(trum_start_periodic, 8, 5, "Delta_omega W m n omega_n psi s xi", "a_A b_A a_B b_B repetition") \
   X(trum_start_rest, 5, 4, "Delta_omega W omega_n psi s", "a_A b_A a_B b_B") \
   X(trum_regions, 12, 19, "Delta_omega W a_A a_B b_A b_B m n omega_n psi s xi", "time_redu time_addredu time_add a_A_redu b_A_redu a_B_redu b_B_redu a_A_addredu b_A_addredu a_B_addredu b_B_addredu a_A_add b_A_add a_B_add b_B_add a_A_end b_A_end a_B_end b_B_end") \
+  X(trum_region_phasors, 12, 12, "Delta_omega W a_A a_B b_A b_B m n omega_n psi s xi", "re_A_redu im_A_redu re_A_addredu im_A_addredu re_A_add im_A_add re_B_redu im_B_redu re_B_addredu im_B_addredu re_B_add im_B_add") \
   X(trum_response, 15, 6, "D Delta_omega W a_A a_B b_A b_B g_A g_B k_c omega_n psi s tau xi", "w_A w_B v_A v_B Q Q_rate") \
   X(trum_measures, 5, 4, "T p_minus p_plus q_minus q_plus", "q_ratio q_square_ratio q_average q_volatility") \
   X(trum_phasor, 4, 2, "a b omega_n xi", "re im") \

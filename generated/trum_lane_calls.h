@@ -8,7 +8,7 @@ typedef struct {
   real omega_n, Delta_omega, xi, s, W, D, k_c, p_re, p_im, engagement_per_height, W_full;
 } trum_constants;
 
-/* free motion's phasors at a region's start; the gates */
+/* motions' phasors at a region's start; the gates */
 typedef struct {
   real f_A_re, f_A_im, f_B_re, f_B_im, g_A, g_B;
 } trum_region;
@@ -19,7 +19,7 @@ typedef struct {
       f_B_re_Delta_omega, f_B_im_Delta_omega;
 } trum_region_slopes;
 
-/* free motion's and drive's rotation since then */
+/* free motion's rotation since then, and the drive's beyond it */
 typedef struct {
   real e_re, e_im, d_re, d_im;
 } trum_phasors;
@@ -54,7 +54,7 @@ typedef struct {
   real W_c_rate, step;
 } trum_full_contact_state;
 
-/* Turn of free motion and drive in a time */
+/* Turn of free motion, and the drive's beyond it, in a time */
 static inline void trum_lanes_rotation(const trum_constants* constants, trum_phasors* phasors, real tau) {
   const real* arg[trum_rotation_n_arg] = {&constants->Delta_omega, &constants->omega_n, &tau, &constants->xi};
   real* res[trum_rotation_n_res] = {&phasors->e_re, &phasors->e_im, &phasors->d_re, &phasors->d_im};

@@ -11,6 +11,7 @@
 #undef CASADI_NAMESPACE_CONCAT
 #undef _CASADI_NAMESPACE_CONCAT
 #undef CASADI_PREFIX
+#undef casadi_expm1
 #undef casadi_f0
 #undef casadi_s0
 #undef casadi_sq
@@ -57,6 +58,7 @@
 #undef CASADI_NAMESPACE_CONCAT
 #undef _CASADI_NAMESPACE_CONCAT
 #undef CASADI_PREFIX
+#undef casadi_expm1
 #undef casadi_f0
 #undef casadi_s0
 #undef casadi_sq

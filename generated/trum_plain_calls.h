@@ -39,16 +39,6 @@ typedef struct {
   trum_real w_A, w_B, v_A, v_B, Q, Q_rate;
 } trum_phases;
 
-/* a phase's free motion */
-typedef struct {
-  trum_real a, b, omega_n, xi;
-} trum_phasor_in;
-
-/* the same as a phasor */
-typedef struct {
-  trum_real re, im;
-} trum_phasor_out;
-
 /* Load balance of the Winkler layer and its slope (eq. 31) */
 static inline void trum_plain_winkler_balance(const trum_balance* balance, trum_balance_values* values, trum_real theta)
     {
@@ -70,7 +60,19 @@ static inline void trum_plain_regions(const trum_cycle_constants* constants, con
   trum_regions(arg, res, 0, 0, 0);
 }
 
-/* How the free motion's phasors at the start of the regions follow the frequencies */
+/* Both phases' motions at the start of the regions as phasors (eqs. 9, 10) */
+static inline void trum_plain_region_phasors(const trum_cycle_constants* constants, const trum_free_motion* motion,
+    trum_real* results) {
+  const trum_real* arg[trum_region_phasors_n_arg] = {&constants->Delta_omega, &constants->W, &motion->a_A, &motion->a_B,
+      &motion->b_A, &motion->b_B, &constants->m, &constants->n, &constants->omega_n, &constants->psi, &constants->s,
+      &constants->xi};
+  trum_real* res[trum_region_phasors_n_res];
+  int k;
+  for (k = 0; k < trum_region_phasors_n_res; ++k) res[k] = &results[k];
+  trum_region_phasors(arg, res, 0, 0, 0);
+}
+
+/* How the motion's phasors at the start of the regions follow the frequencies */
 static inline void trum_plain_regions_slopes(const trum_cycle_constants* constants, const trum_free_motion* motion,
     const trum_free_motion_slopes* motion_slopes, trum_real* results) {
   const trum_real* arg[trum_regions_slopes_n_arg] = {&constants->Delta_omega, &constants->W, &motion->a_A,
@@ -93,13 +95,6 @@ static inline void trum_plain_response(const trum_cycle_constants* constants, co
   trum_real* res[trum_response_n_res] = {&phases->w_A, &phases->w_B, &phases->v_A, &phases->v_B, &phases->Q,
       &phases->Q_rate};
   trum_response(arg, res, 0, 0, 0);
-}
-
-/* Free motion as a phasor */
-static inline void trum_plain_phasor(const trum_phasor_in* in, trum_phasor_out* out) {
-  const trum_real* arg[trum_phasor_n_arg] = {&in->a, &in->b, &in->omega_n, &in->xi};
-  trum_real* res[trum_phasor_n_res] = {&out->re, &out->im};
-  trum_phasor(arg, res, 0, 0, 0);
 }
 
 #endif

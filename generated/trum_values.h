@@ -122,16 +122,22 @@ enum {
   trum_at_h_t,
   trum_at_harmonic,
   trum_at_im,
+  trum_at_im_A_add,
   trum_at_im_A_add_Delta_omega,
   trum_at_im_A_add_omega_n,
+  trum_at_im_A_addredu,
   trum_at_im_A_addredu_Delta_omega,
   trum_at_im_A_addredu_omega_n,
+  trum_at_im_A_redu,
   trum_at_im_A_redu_Delta_omega,
   trum_at_im_A_redu_omega_n,
+  trum_at_im_B_add,
   trum_at_im_B_add_Delta_omega,
   trum_at_im_B_add_omega_n,
+  trum_at_im_B_addredu,
   trum_at_im_B_addredu_Delta_omega,
   trum_at_im_B_addredu_omega_n,
+  trum_at_im_B_redu,
   trum_at_im_B_redu_Delta_omega,
   trum_at_im_B_redu_omega_n,
   trum_at_k_N,
@@ -177,16 +183,22 @@ enum {
   trum_at_r_c,
   trum_at_r_t,
   trum_at_re,
+  trum_at_re_A_add,
   trum_at_re_A_add_Delta_omega,
   trum_at_re_A_add_omega_n,
+  trum_at_re_A_addredu,
   trum_at_re_A_addredu_Delta_omega,
   trum_at_re_A_addredu_omega_n,
+  trum_at_re_A_redu,
   trum_at_re_A_redu_Delta_omega,
   trum_at_re_A_redu_omega_n,
+  trum_at_re_B_add,
   trum_at_re_B_add_Delta_omega,
   trum_at_re_B_add_omega_n,
+  trum_at_re_B_addredu,
   trum_at_re_B_addredu_Delta_omega,
   trum_at_re_B_addredu_omega_n,
+  trum_at_re_B_redu,
   trum_at_re_B_redu_Delta_omega,
   trum_at_re_B_redu_omega_n,
   trum_at_repetition,
@@ -311,6 +323,12 @@ static inline void trum_call_regions(trum_real* v) {
   const trum_real* arg[trum_regions_n_arg] = {v + trum_at_Delta_omega, v + trum_at_W, v + trum_at_a_A, v + trum_at_a_B, v + trum_at_b_A, v + trum_at_b_B, v + trum_at_m, v + trum_at_n, v + trum_at_omega_n, v + trum_at_psi, v + trum_at_s, v + trum_at_xi};
   trum_real* res[trum_regions_n_res] = {v + trum_at_time_redu, v + trum_at_time_addredu, v + trum_at_time_add, v + trum_at_a_A_redu, v + trum_at_b_A_redu, v + trum_at_a_B_redu, v + trum_at_b_B_redu, v + trum_at_a_A_addredu, v + trum_at_b_A_addredu, v + trum_at_a_B_addredu, v + trum_at_b_B_addredu, v + trum_at_a_A_add, v + trum_at_b_A_add, v + trum_at_a_B_add, v + trum_at_b_B_add, v + trum_at_a_A_end, v + trum_at_b_A_end, v + trum_at_a_B_end, v + trum_at_b_B_end};
   trum_regions(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_region_phasors(trum_real* v) {
+  const trum_real* arg[trum_region_phasors_n_arg] = {v + trum_at_Delta_omega, v + trum_at_W, v + trum_at_a_A, v + trum_at_a_B, v + trum_at_b_A, v + trum_at_b_B, v + trum_at_m, v + trum_at_n, v + trum_at_omega_n, v + trum_at_psi, v + trum_at_s, v + trum_at_xi};
+  trum_real* res[trum_region_phasors_n_res] = {v + trum_at_re_A_redu, v + trum_at_im_A_redu, v + trum_at_re_A_addredu, v + trum_at_im_A_addredu, v + trum_at_re_A_add, v + trum_at_im_A_add, v + trum_at_re_B_redu, v + trum_at_im_B_redu, v + trum_at_re_B_addredu, v + trum_at_im_B_addredu, v + trum_at_re_B_add, v + trum_at_im_B_add};
+  trum_region_phasors(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_response(trum_real* v) {

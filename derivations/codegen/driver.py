@@ -72,9 +72,9 @@ _LANE_STRUCTS = (
         "omega_n Delta_omega xi s W D k_c p_re p_im engagement_per_height W_full",
         "what all steps of a point share: frequencies, damping, geometry, drive phasor p, contact",
     ),
-    _struct("trum_region", "region", f"{_PHASORS} g_A g_B", "free motion's phasors at a region's start; the gates"),
+    _struct("trum_region", "region", f"{_PHASORS} g_A g_B", "motions' phasors at a region's start; the gates"),
     _struct("trum_region_slopes", "region_slopes", _along(_PHASORS), "the phasors' derivatives by the two frequencies"),
-    _struct("trum_phasors", "phasors", "e_re e_im d_re d_im", "free motion's and drive's rotation since then"),
+    _struct("trum_phasors", "phasors", "e_re e_im d_re d_im", "free motion's rotation since then, and the drive's beyond it"),
     _struct(
         "trum_surface",
         "surface",
@@ -133,15 +133,13 @@ _PLAIN_STRUCTS = (
     ),
     _struct("trum_gates", "gates", "g_A g_B", "which of the phases is driven, 1 or 0"),
     _struct("trum_phases", "phases", "w_A w_B v_A v_B Q Q_rate", "displacement and velocity of both, determinant"),
-    _struct("trum_phasor_in", "in", "a b omega_n xi", "a phase's free motion"),
-    _struct("trum_phasor_out", "out", "re im", "the same as a phasor"),
 )
 _PLAIN_CALLS = (
     Call("trum_winkler_balance", ("trum_balance", "trum_balance_values"), "theta"),
     Call("trum_regions", ("trum_cycle_constants", "trum_free_motion"), array=True),
+    Call("trum_region_phasors", ("trum_cycle_constants", "trum_free_motion"), array=True),
     Call("trum_regions_slopes", ("trum_cycle_constants", "trum_free_motion", "trum_free_motion_slopes"), array=True),
     Call("trum_response", ("trum_cycle_constants", "trum_free_motion", "trum_gates", "trum_phases"), "tau"),
-    Call("trum_phasor", ("trum_phasor_in", "trum_phasor_out")),
 )
 
 

@@ -257,7 +257,8 @@ def _elementary() -> str:
         square = mp.tan(mp.pi / 8) ** 2
         atan = mp.chebyfit(lambda q: mp.atan(mp.sqrt(q)) / mp.sqrt(q) if q else mp.mpf(1), [0, square], 13)
         exponential = [1 / mp.factorial(k) for k in range(14)]
-        tables = {"SIN": sine, "COS": cosine, "EXP": exponential, "ATAN": list(reversed(atan))}
+        less_one = exponential[1:]  # of (exp(r) - 1) / r
+        tables = {"SIN": sine, "COS": cosine, "EXP": exponential, "EXPM1": less_one, "ATAN": list(reversed(atan))}
         lines = [f"/* {_NOTE} */", "/* Polynomial coefficients, lowest power first. */"]
         for name, values in tables.items():
             numbers = ", ".join(mp.nstr(mp.mpf(value), 20) for value in values)

@@ -164,6 +164,12 @@ def _cycle() -> list[Kernel]:
             {**dict.fromkeys(durations, "s"), **{name: free_units[name[0]] for name in region_free}},
         ),
         Kernel(
+            "trum_region_phasors",
+            "Both phases' motions at the start of the regions as phasors (eqs. 9, 10)",
+            phasors := _region_phasors(),
+            dict.fromkeys(phasors, "m"),
+        ),
+        Kernel(
             "trum_response",
             "Both phases within a region (eqs. 9, 10), determinant and its rate (eqs. 24, A5)",
             {
@@ -210,17 +216,21 @@ def _frequencies(*following: str) -> dict[str, dict[sp.Symbol, sp.Expr]]:
     return directions
 
 
+def _region_phasors() -> dict[str, sp.Expr]:
+    """Both phases' motions at the start of the three regions, from their free motion before t1."""
+    found: dict[str, sp.Expr] = {}
+    a, b = sym("a b")
+    for phase in phases.PHASES:
+        states = phases.propagate_cycle(phase, sym(f"a_{phase} b_{phase}"))
+        for region, gate, state in zip(phases.REGIONS, phases.GATES[phase], states, strict=False):
+            motion = (part.subs({a: state[0], b: state[1]}) for part in rotor.motion_phasor(phase, sp.Integer(gate)))
+            found |= {f"{part}_{phase}_{region}": z for part, z in zip(("re", "im"), motion, strict=True)}
+    return found
+
+
 def _slopes() -> list[Kernel]:
     """How phases and wave change with the frequencies, at a fixed share of a drive period."""
-    before = {p: sym(f"a_{p} b_{p}") for p in phases.PHASES}
-    phasors: dict[str, sp.Expr] = {}
-    a, b = sym("a b")
-    for p in phases.PHASES:
-        for region, state in zip(phases.REGIONS, phases.propagate_cycle(p, before[p]), strict=False):
-            at = {a: state[0], b: state[1]}
-            phasors |= {
-                f"{part}_{p}_{region}": z.subs(at) for part, z in zip(("re", "im"), rotor.phasor(), strict=True)
-            }
+    phasors = _region_phasors()
     starts: dict[str, Callable[[str], phases.State]] = {
         "periodic": phases.periodic_start,
         "rest": phases.rest_start,
@@ -243,7 +253,7 @@ def _slopes() -> list[Kernel]:
         ),
         Kernel(
             "trum_regions_slopes",
-            "How the free motion's phasors at the start of the regions follow the frequencies",
+            "How the motion's phasors at the start of the regions follow the frequencies",
             phasors,
             dict.fromkeys(phasors, "m"),
             along=_frequencies("a_A", "b_A", "a_B", "b_B"),
@@ -282,7 +292,7 @@ def _rotor() -> list[Kernel]:
     wave_units = {"W_c": "m", "R_v": "m/s", "phi": "rad", "cos_phi": "1", "sin_phi": "1"}
     return [
         Kernel("trum_phasor", "Free motion as a phasor", phasor, dict.fromkeys(phasor, "m")),
-        Kernel("trum_rotation", "Turn of free motion and drive in a time", rotation, dict.fromkeys(rotation, "1")),
+        Kernel("trum_rotation", "Turn of free motion, and the drive's beyond it, in a time", rotation, dict.fromkeys(rotation, "1")),
         Kernel(
             "trum_rotor_coefficients",
             "What the steps of a point share (eqs. 25, 26, 38)",

@@ -202,11 +202,17 @@ def _rest_slopes(p: Point, m: Maths) -> Found:
 
 
 def _region_phasors(p: Point) -> dict[str, Number]:
+    """Free motion's phasor and, where the phase is on, that of the steady state: Re z = w, Re(i omega_q z) = v."""
     found = {}
+    starts = [sum(_lengths(p)[:k], mp.mpf(0)) for k in range(3)]
     for phase in "AB":
         states = _through(p, phase, (p.values[f"a_{phase}"], p.values[f"b_{phase}"]))
-        for region, state in zip(_REGIONS, states, strict=False):
-            found[f"re_{phase}_{region}"], found[f"im_{phase}_{region}"] = _phasor(p, state)
+        for region, switched, start, state in zip(_REGIONS, _SWITCHED[phase], starts, states, strict=False):
+            re, im = _phasor(p, state)
+            if switched == "on":
+                w, v = steady(p, phase, start)
+                re, im = re + w, im - v / (p.omega_n + p.Delta_omega)
+            found[f"re_{phase}_{region}"], found[f"im_{phase}_{region}"] = re, im
     return found
 
 
@@ -264,6 +270,15 @@ PROOFS = (
         _WHERE,
     ),
     Proof(
+        "trum_region_phasors",
+        _PHASORS,
+        "9 10 12",
+        "oscillator's matrix exponential from switching to switching, and the steady state, as phasors",
+        lambda p, m: _region_phasors(p),  # noqa: ARG005
+        grid(f"{_CYCLE} a_A a_B b_A b_B"),
+        _WHERE,
+    ),
+    Proof(
         "trum_response",
         "w_A w_B v_A v_B Q Q_rate",
         "9 10 24 A5",
@@ -304,7 +319,7 @@ PROOFS = (
         "trum_regions_slopes",
         directed(_PHASORS),
         "9 10",
-        "difference quotients of the regions by the matrix exponential, as phasors",
+        "difference quotients of those phasors, by the matrix exponential",
         _regions_slopes,
         grid(f"{_CYCLE} {_STATES} {directed(_STATES)}", 4),
         _WHERE,

@@ -239,7 +239,14 @@ _REACH: dict[str, Callable[[], Number]] = {
     "ln(2)/2": lambda: mp.log(2) / 2,
     "tan(pi/8)": lambda: mp.tan(mp.pi / 8),
 }
-_SIN, _COS, _EXP, _ATAN = (f"TRUM_{name}_COEFFICIENTS" for name in ("SIN", "COS", "EXP", "ATAN"))
+_SIN, _COS, _EXP, _EXPM1, _ATAN = (f"TRUM_{name}_COEFFICIENTS" for name in ("SIN", "COS", "EXP", "EXPM1", "ATAN"))
+
+
+def _mean_of_exp(x: mp.mpf) -> mp.mpf:
+    """(exp(x) - 1) / x, the mean of exp between 0 and x."""
+    return mp.expm1(x) / x if x else mp.mpf(1)
+
+
 _SHARED = "each phase has n pulses, A is off in the first region, never are both"
 _CHECKED = "with Lobatto's nodes they integrate powers up to 9 exactly"
 TABLES = (
@@ -281,6 +288,14 @@ TABLES = (
         _EXP,
         "Taylor's; off by 1e-17 at most up to ln(2)/2",
         _both(_taylor(_EXP, mp.exp), _close(lambda t, x: _polynomial(t[_EXP], x), mp.exp, "ln(2)/2", "1e-17")),
+    ),
+    Table(
+        _EXPM1,
+        "Taylor's, times x; off by 2e-17 of it at most up to ln(2)/2",
+        _both(
+            _taylor(_EXPM1, mp.expm1),
+            _close(lambda t, x: _polynomial(t[_EXPM1], x), _mean_of_exp, "ln(2)/2", "2e-17"),
+        ),
     ),
     Table(_ATAN, "off by 1e-19 at most up to tan(pi/8)", _close(_odd(_ATAN), mp.atan, "tan(pi/8)", "1e-19")),
     Table("TRUM_REGIONS", "how many regions there are", _gates),

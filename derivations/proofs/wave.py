@@ -27,20 +27,20 @@ def _phasor(p: Point, m: Maths) -> Found:
 
 
 def _rotation(p: Point, m: Maths) -> Found:  # noqa: ARG001
-    """Complex exponentials of the oscillator's eigenvalue and of the drive."""
+    """Complex exponential of the oscillator's eigenvalue, and what the drive's exceeds it by."""
     free, drive = mp.exp(_eigenvalue(p) * p.tau), mp.expj((p.omega_n + p.Delta_omega) * p.tau)
-    return {"e_re": free.real, "e_im": free.imag, "d_re": drive.real, "d_im": drive.imag}
+    return {"e_re": free.real, "e_im": free.imag, "d_re": (drive - free).real, "d_im": (drive - free).imag}
 
 
 def _phases(p: Point, free: Number, drive: Number) -> dict[str, tuple[Number, Number]]:
-    """Displacement and velocity of both phases, of phasors that have turned by ``free`` and ``drive``."""
+    """Displacement and velocity of both phases, of motions whose drive has turned by ``drive`` and the rest by ``free``."""
     eigenvalue, turning = _eigenvalue(p), 1j * (p.omega_n + p.Delta_omega)
     found = {}
     for phase in "AB":
-        z = mp.mpc(p.values[f"f_{phase}_re"], p.values[f"f_{phase}_im"]) * free
-        on = p.values[f"g_{phase}"] * p.W * mp.mpc(p.p_re, p.p_im) * drive
+        on = p.values[f"g_{phase}"] * p.W * mp.mpc(p.p_re, p.p_im)
         on *= mp.mpc(0, p.s) if phase == "B" else 1  # s quarter turns ahead
-        found[phase] = (z + on).real, (eigenvalue * z + turning * on).real
+        z = (mp.mpc(p.values[f"f_{phase}_re"], p.values[f"f_{phase}_im"]) - on) * free
+        found[phase] = (z + on * drive).real, (eigenvalue * z + turning * on * drive).real
     return found
 
 
@@ -63,7 +63,8 @@ def _seen(p: Point, phases: Mapping[str, tuple[Number, Number]]) -> dict[str, Nu
 
 
 def _wave(p: Point, m: Maths) -> Found:  # noqa: ARG001
-    return _seen(p, _phases(p, mp.mpc(p.e_re, p.e_im), mp.mpc(p.d_re, p.d_im)))
+    free = mp.mpc(p.e_re, p.e_im)
+    return _seen(p, _phases(p, free, free + mp.mpc(p.d_re, p.d_im)))
 
 
 def _standing_still() -> list[Point]:
@@ -155,7 +156,7 @@ PROOFS = (
         "trum_rotation",
         "e_re e_im d_re d_im",
         "9 10 12",
-        "complex exponentials of eigenvalue and drive",
+        "complex exponential of the eigenvalue, and the drive's less it",
         _rotation,
         grid("Delta_omega omega_n tau xi"),
         "random times",

@@ -6,6 +6,7 @@
 using ::atan2;
 using ::cos;
 using ::exp;
+using ::expm1;
 using ::fabs;
 using ::fmax;
 using ::fmin;
@@ -130,6 +131,18 @@ inline Lane exp(Lane x) {
   const Lane n = shifted - Lane(magic);
   const Lane r = (bounded - n * Lane(0.69314718055994528623)) - n * Lane(2.3190468138462995584e-17);
   return (Vector)((Bits)polynomial(coefficients, r).v + ((Bits)shifted.v << 52));
+}
+
+// exp(x) - 1, as exact near 0.
+inline Lane expm1(Lane x) {
+  static constexpr double coefficients[] = TRUM_EXPM1_COEFFICIENTS;
+  const double magic = 6755399441055744.0;
+  const Lane bounded = fmax(x, Lane(-700.0));
+  const Lane shifted = bounded * Lane(1.4426950408889634074) + Lane(magic);
+  const Lane n = shifted - Lane(magic);
+  const Lane r = (bounded - n * Lane(0.69314718055994528623)) - n * Lane(2.3190468138462995584e-17);
+  const Lane scale = (Vector)((Bits)Lane(1.0).v + ((Bits)shifted.v << 52));
+  return scale * (r * polynomial(coefficients, r)) + (scale - Lane(1.0));
 }
 
 // Cube root of a positive number to 1e-4: a first guess is all that it serves as.

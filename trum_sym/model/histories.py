@@ -163,10 +163,10 @@ def _cycle(
 def surface_and_contact(values: Mapping[str, ArrayLike], found: Mapping[str, ArrayLike]) -> dict[str, ArrayLike]:
     """Wave, surface speed and contact at instants of known displacement and velocity."""
     now: dict[str, ArrayLike] = {**values, "g_A": 0.0, "g_B": 0.0}
-    for phase in "AB":  # the wave's kernel takes the phases as free motions that turn: here by nothing
+    for phase in "AB":  # the wave's kernel takes the phases as motions that turn: here by nothing
         phasor = call("trum_phasor", {**values, "a": found[f"w_{phase}"], "b": found[f"v_{phase}"]})
         now |= {f"f_{phase}_re": phasor["re"], f"f_{phase}_im": phasor["im"]}
-    now |= {"e_re": 1.0, "e_im": 0.0, "d_re": 1.0, "d_im": 0.0, "p_re": 1.0, "p_im": 0.0}
+    now |= {"e_re": 1.0, "e_im": 0.0, "d_re": 0.0, "d_im": 0.0, "p_re": 1.0, "p_im": 0.0}
     now |= call("trum_wave", now)
     if values["hertz"]:
         return {**now, **call("trum_contact_hertz", now)}

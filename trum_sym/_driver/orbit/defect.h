@@ -69,14 +69,17 @@ static void trum_evaluate_defect(const trum_lanes* lanes, const trum_trial_step*
 }
 
 /* What rounding makes of a step's integral of f: friction is a difference of two shares of the pressure, each rounded,
- * the more so the narrower the contact.  A wave that begins from rest is a difference of two motions, of unknown phase
- * while it is lost in their rounding: what of friction depends on the phase is then unknown, which is all of it for a
- * held rotor (where the layer is elastic, no more than there is) and none where the rotor is faster than all of the
- * surface. */
+ * the more so the narrower the contact.  A wave that is small beside its phases' amplitude has an uncertain phase, of
+ * which all of a held rotor's friction depends (where the layer is elastic, no more than there is) and none of it where
+ * the rotor is faster than all of the surface.  After a start from rest (exactly no displacement) the rounding is as
+ * small as the time; else it is that of the amplitude. */
 static real trum_rounding(const trum_lanes* lanes, const trum_trial_step* trial) {
   const real theta = lanes->start.theta, h = lanes->step.h;
   const mask held = at_most(lanes->equation.push, REAL(0));
-  const real phase = minimum(REAL(2), REAL(40.0 * trum_unit) * lanes->constants.W * reciprocal(trial->at[1].W_c + REAL(trum_tiny)));
+  const mask from_rest = at_most(absolute(lanes->region.f_A_re) + absolute(lanes->region.f_B_re), REAL(0));
+  const real turn = (lanes->constants.omega_n + absolute(lanes->constants.Delta_omega)) * (lanes->step.tau + h);
+  const real scale = lanes->constants.W * where(from_rest, minimum(REAL(1), turn), REAL(1));
+  const real phase = minimum(REAL(2), REAL(40.0 * trum_unit) * scale * reciprocal(trial->at[1].W_c + REAL(trum_tiny)));
   real at_stake = REAL(0);
   int j;
   for (j = 0; j < NODES; ++j) {

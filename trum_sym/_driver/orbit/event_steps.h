@@ -30,15 +30,24 @@ static trum_next_step trum_adjust_to_events(trum_lanes* lanes, trum_trial_step* 
   trum_next_step next;
   trum_cubic cubic[EVENT_COUNT];
   real location, event, tolerance;
-  mask meets_event, is_root, ahead, at_start, misses = mask_all(0);
+  mask meets_event, is_root, close, ahead, at_start, misses = mask_all(0);
   int j, k;
   next.h = lanes->step.h, next.curvature = lanes->step.curvature, next.target_event = lanes->step.target_event;
   next.at_target = mask_all(0), next.root_error = REAL(0);
   trum_locate_first_event(lanes, trial->z, trial->events, cubic, &location, &event);
   /* stiff motion goes to and fro over events until it is damped */
   meets_event = may_retry & less_than(location, REAL(1.5)) & mask_not(trial->damped);
+  is_root = trum_is_event(event, REAL(EVENT_SATURATION)) | trum_is_event(event, REAL(EVENT_FULL_CONTACT));
+  tolerance = trum_event_tolerance(lanes, event, lanes->tolerances.slope_start);
+  { /* the error of passing a kink is in proportion to its distance times the pressure there */
+    const real weight =
+        where(trum_is_event(event, REAL(EVENT_LARGER_PRESSURE)), absolute(trial->events[0][EVENT_LARGER_PRESSURE]),
+              absolute(trial->events[0][EVENT_SMALLER_PRESSURE]));
+    close = at_most(location * lanes->step.h * where(is_root, REAL(1), weight), tolerance); /* to the step's start */
+  }
   if (any_lane(aimed)) {
     real root = REAL(1), distance = REAL(0);
+    mask same;
     trum_cubic q = cubic[0];
     for (k = 0; k < EVENT_COUNT; ++k) {
       const mask is_this = trum_is_event(lanes->step.target_event, REAL(k));
@@ -52,7 +61,8 @@ static trum_next_step trum_adjust_to_events(trum_lanes* lanes, trum_trial_step* 
       root = where(usable, root - trum_cubic_at(&q, root) * reciprocal(where(usable, slope, REAL(1))), root);
       root = maximum(REAL(1), minimum(REAL(1.25), root));
     }
-    root = where(trum_is_event(event, lanes->step.target_event), location, root);
+    same = trum_is_event(event, lanes->step.target_event) & mask_not(close);
+    root = where(same, location, root);
     is_root = trum_is_event(lanes->step.target_event, REAL(EVENT_SATURATION)) |
               trum_is_event(lanes->step.target_event, REAL(EVENT_FULL_CONTACT));
     distance = absolute(root - REAL(1)) * lanes->step.h * where(is_root, REAL(1), distance);
@@ -67,17 +77,11 @@ static trum_next_step trum_adjust_to_events(trum_lanes* lanes, trum_trial_step* 
     }
     next.at_target = next.at_target & mask_not(misses);
     /* another event before the target comes first */
-    meets_event = meets_event & mask_not((next.at_target | misses) & trum_is_event(event, lanes->step.target_event));
+    meets_event = meets_event & mask_not((next.at_target | misses) & same);
     next.h = where(misses, lanes->step.h * root, next.h);
   }
   is_root = trum_is_event(event, REAL(EVENT_SATURATION)) | trum_is_event(event, REAL(EVENT_FULL_CONTACT));
-  tolerance = trum_event_tolerance(lanes, event, lanes->tolerances.slope_start);
-  { /* the error of passing a kink is in proportion to its distance times the pressure there */
-    const real weight =
-        where(trum_is_event(event, REAL(EVENT_LARGER_PRESSURE)), absolute(trial->events[0][EVENT_LARGER_PRESSURE]),
-              absolute(trial->events[0][EVENT_SMALLER_PRESSURE]));
-    ahead = meets_event & less_than(tolerance, location * lanes->step.h * where(is_root, REAL(1), weight));
-  }
+  ahead = meets_event & mask_not(close);
   at_start = meets_event & mask_not(ahead);
   { /* a step has curvature at one end only, so one that begins at a square root goes half the way to the next */
     const mask half = ahead & starts_at_root & is_root;

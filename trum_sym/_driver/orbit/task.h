@@ -61,7 +61,7 @@ static int trum_load_task(trum_lanes* lanes, int i, trum_search* search, const t
   const double period = 6.283185307179586477 / (in->omega_n + in->Delta_omega);
   trum_cycle_constants cycle;
   trum_free_motion before;
-  trum_real results[trum_regions_n_res];
+  trum_real results[trum_regions_n_res], phasors[trum_region_phasors_n_res];
   int r, phase;
   set_lane(&lanes->constants.omega_n, i, in->omega_n), set_lane(&lanes->constants.Delta_omega, i, in->Delta_omega);
   set_lane(&lanes->constants.xi, i, in->xi);
@@ -73,16 +73,12 @@ static int trum_load_task(trum_lanes* lanes, int i, trum_search* search, const t
   set_lane(&lanes->equation.period, i, period), set_lane(&lanes->equation.cycle_time, i, period * in->m);
   trum_load_cycle(in, &cycle, &before);
   trum_plain_regions(&cycle, &before, results);
+  trum_plain_region_phasors(&cycle, &before, phasors);
   for (r = 0; r < TRUM_REGIONS; ++r) {
     search->cycle.pulses[r] = floor(results[trum_regions_out_time_redu + r] / period + 0.5);
     for (phase = 0; phase < 2; ++phase) {
-      trum_phasor_in at;
-      trum_phasor_out z;
-      at.a = results[trum_regions_out_a_A_redu + 4 * r + 2 * phase];
-      at.b = results[trum_regions_out_a_A_redu + 4 * r + 2 * phase + 1];
-      at.omega_n = (trum_real)in->omega_n, at.xi = (trum_real)in->xi;
-      trum_plain_phasor(&at, &z);
-      search->cycle.start[r][2 * phase] = z.re, search->cycle.start[r][2 * phase + 1] = z.im;
+      const trum_real* z = &phasors[2 * TRUM_REGIONS * phase + 2 * r];
+      search->cycle.start[r][2 * phase] = z[0], search->cycle.start[r][2 * phase + 1] = z[1];
     }
   }
   search->in = in, search->out = out;
