@@ -34,6 +34,28 @@ typedef struct {
 /* Whether two event numbers are the same. */
 static mask trum_is_event(real a, real b) { return at_most(absolute(a - b), REAL(0.25)); }
 
+/* A first guess of the speed's change at a node: the rate at the start goes on; stiff motion keeps its share of the
+ * surface's speed, as it follows the balance of torques. */
+static real trum_guess(const trum_lanes* lanes, const trum_trial_step* trial, int j) {
+  const real v = lanes->equation.v0 + lanes->start.x, lead = lanes->start.events[EVENT_SATURATION];
+  const real R_v = square_root(maximum(lead + v * v, REAL(trum_tiny)));
+  const real rate = lanes->equation.push * lanes->start.f - lanes->equation.drag;
+  return lanes->start.x + where(trial->damped & less_than(REAL(0), lead), v * (trial->at[j].R_v * reciprocal(R_v) - REAL(1)),
+                                lanes->step.h * trial->z[j] * rate);
+}
+
+/* Newton's next speed change at a node: |f| <= 1 bounds it; stiff motion that is slower than the surface goes most of
+ * the way at most to where friction is saturated and has no slope. */
+static real trum_limited(const trum_lanes* lanes, const trum_trial_step* trial, int j, real next) {
+  const real drift = lanes->start.x - lanes->step.h * trial->z[j] * lanes->equation.drag;
+  const real reach = lanes->step.h * trial->z[j] * lanes->equation.push;
+  const real v = lanes->equation.v0 + trial->x[j], R_v = trial->at[j].R_v;
+  const real to_top = REAL(0.75) * (R_v - v), to_bottom = REAL(-0.75) * (R_v + v);
+  const real kept = maximum(trial->x[j] + to_bottom, minimum(trial->x[j] + to_top, next));
+  next = where(trial->damped & less_than(absolute(v), R_v), kept, next);
+  return maximum(drift - reach, minimum(drift + reach, next));
+}
+
 /* Solves x_i = x_0 + sum_j A_ij T_j (push f(x_j) - drag) for the three nodes after the first. */
 static void trum_solve_collocation(const trum_lanes* lanes, trum_trial_step* trial) {
   static const double A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS, c[NODES] = TRUM_COLLOCATION_POINTS;
@@ -52,8 +74,7 @@ static void trum_solve_collocation(const trum_lanes* lanes, trum_trial_step* tri
   for (k = 0; k < EVENT_COUNT; ++k) trial->events[0][k] = lanes->start.events[k];
   for (j = 1; j < NODES; ++j) {
     trum_evaluate_surface(lanes, lanes->step.tau + lanes->step.h * trial->z[j], &trial->at[j]);
-    trial->x[j] =
-        lanes->start.x + lanes->step.h * trial->z[j] * (lanes->equation.push * lanes->start.f - lanes->equation.drag);
+    trial->x[j] = trum_guess(lanes, trial, j);
     trial->f[j] = lanes->start.f, trial->f_v[j] = REAL(0), trial->events[j][EVENT_LARGER_PRESSURE] = REAL(0);
     trial->events[j][EVENT_SMALLER_PRESSURE] = REAL(0);
   }
@@ -80,10 +101,8 @@ static void trum_solve_collocation(const trum_lanes* lanes, trum_trial_step* tri
     }
     equations = trum_factorise(slope, trial->damped);
     trum_substitute(&equations, right, y);
-    for (j = 1; j < NODES; ++j) { /* |f| <= 1 bounds the change of speed */
-      const real drift = lanes->start.x - lanes->step.h * trial->z[j] * lanes->equation.drag;
-      const real reach = lanes->step.h * trial->z[j] * lanes->equation.push;
-      const real next = maximum(drift - reach, minimum(drift + reach, trial->x[j] + y[j]));
+    for (j = 1; j < NODES; ++j) {
+      const real next = trum_limited(lanes, trial, j, trial->x[j] + y[j]);
       change = maximum(change, absolute(next - trial->x[j]));
       trial->f[j] = where(trial->not_converged, trial->f[j] + trial->f_v[j] * (next - trial->x[j]), trial->f[j]);
       trial->x[j] = where(trial->not_converged, next, trial->x[j]);
