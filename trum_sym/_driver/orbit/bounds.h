@@ -39,7 +39,7 @@ static void trum_store_bounds(const trum_lanes* lanes, int i, trum_search* searc
   /* by the triangle inequality the deviation is off by no more than the deviation of the error */
   out->deviation_error = sqrt(square > 0.0 ? square : 0.0) + share * (fabs(mean_error) + fabs(end_error)) +
                          sqrt(SS > S * S ? SS - S * S : 0.0) * start_remainder +
-                         lane_value(&lap->largest_remainder, i) +
+                         sqrt(lane_value(&lap->remainder_square, i) / cycle_time) +
                          0.05 * lane_value(&lap->inside, i) / cycle_time + rounding;
   out->mean_error *= trum_bound_safety, out->deviation_error *= trum_bound_safety;
   out->low_error *= trum_bound_safety, out->high_error *= trum_bound_safety;

@@ -132,14 +132,16 @@ static void trum_add_defect(trum_lanes* lanes, const trum_defect* d, const real*
   trum_lap* lap = &lanes->lap;
   const real h = lanes->step.h, half = REAL(0.5) * h;
   const real error = lap->error * d->kept + d->x, remainder = lap->remainder * d->kept + d->remainder;
+  real within;
   lap->error_sum = where(accepted, lap->error_sum + h * lap->error * d->mean_kept + d->x_integral, lap->error_sum);
   lap->error_square =
       where(accepted, lap->error_square + half * (lap->error * lap->error + error * error), lap->error_square);
   lap->error_S = where(accepted, lap->error_S + half * (lap->error * S[0] + error * S[LAST_NODE]), lap->error_S);
   lap->remainder_sum = where(accepted, lap->remainder_sum + h * (lap->remainder * d->mean_kept + d->remainder),
                              lap->remainder_sum);
-  lap->largest_remainder =
-      where(accepted, maximum(lap->largest_remainder, remainder), lap->largest_remainder);
+  /* within the step what is left of the start's decays, and the defect adds its own */
+  within = lap->remainder * square_root(d->mean_kept) + d->remainder;
+  lap->remainder_square = where(accepted, lap->remainder_square + h * (within * within), lap->remainder_square);
   lap->inside = where(accepted, lap->inside + h * d->inside, lap->inside);
   lap->error = where(accepted, error, lap->error), lap->remainder = where(accepted, remainder, lap->remainder);
   lap->friction_error = where(accepted, lap->friction_error + d->friction, lap->friction_error);

@@ -108,7 +108,7 @@ static void trum_clear_lap_errors(trum_lap* lap, int i) {
   set_lane(&lap->error, i, 0.0), set_lane(&lap->remainder, i, 0.0);
   set_lane(&lap->error_sum, i, 0.0), set_lane(&lap->remainder_sum, i, 0.0);
   set_lane(&lap->error_square, i, 0.0), set_lane(&lap->error_S, i, 0.0), set_lane(&lap->SS, i, 0.0);
-  set_lane(&lap->largest_remainder, i, 0.0), set_lane(&lap->inside, i, 0.0);
+  set_lane(&lap->remainder_square, i, 0.0), set_lane(&lap->inside, i, 0.0);
   set_lane(&lap->low_error, i, 0.0), set_lane(&lap->low_remainder, i, 0.0);
   set_lane(&lap->high_error, i, 0.0), set_lane(&lap->high_remainder, i, 0.0);
   set_lane(&lap->friction_error, i, 0.0), set_lane(&lap->friction_remainder, i, 0.0);

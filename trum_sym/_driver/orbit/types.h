@@ -32,7 +32,7 @@ typedef struct {
   /* First-order errors of the lap by the steps' defects, and bounds of what these leave out (defect.h): of x at its end
    * so far; integrals over time of those, of the error's square and of its product with S; at the extremes; of the
    * integrals of f and theta.  Integrals of S^2 and of the interpolants' error inside the steps. */
-  real error, remainder, error_sum, remainder_sum, error_square, error_S, largest_remainder, SS, inside;
+  real error, remainder, error_sum, remainder_sum, error_square, error_S, remainder_square, SS, inside;
   real low_error, low_remainder, high_error, high_remainder;
   real friction_error, friction_remainder, angle_error, angle_remainder;
   real d_x[PARAMETERS], d_xx[PARAMETERS];           /* sensitivities of all of these: integrals of dx and x dx, */
