@@ -41,8 +41,6 @@ EXTENSION = {
 # warning, where, why it stays
 EXCEPTIONS = (
     ("-Wmissing-prototypes", "generated/trum_*.c", "CasADi's functions beside each kernel, which nothing calls"),
-    ("-Wdouble-promotion", "trum_sym/_driver/orbit/*.h", "NAN is a float; it becomes the double that is meant"),
-    ("-Wdouble-promotion", "trum_sym/_driver/trum_point.h", "NAN is a float; it becomes the double that is meant"),
     ("-W*enum-float-conversion", "trum_sym/_driver/orbit/*.h", "flags are small whole numbers, kept as doubles"),
 )
 _WARNING = re.compile(r"^([^\s:]+):(\d+):\d+: (?:warning|error): (.*?)(?: \[(-W[\w+-]+)\])?$", re.M)

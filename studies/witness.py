@@ -83,24 +83,36 @@ def _half_angle(y, guess):
 
 
 @njit(cache=True)
+def _phase(re, im, gate, begun, turn, drive, excess, rate, omega_q):
+    """Displacement and velocity of a phase: from its state at the region's start, and from its drive."""
+    stopped = (omega_q * begun.imag + (rate * begun).real) / rate.imag  # i times it has the velocity of the excess
+    free = complex(re, im) * turn
+    held = complex(0.0, stopped) * turn
+    w = free.real + gate * ((begun * excess).real - held.real)
+    v = (rate * free).real + gate * ((begun * (complex(0.0, omega_q) * drive - rate * turn)).real - (rate * held).real)
+    return w, v
+
+
+@njit(cache=True)
 def _surface(p, z, tau, out):
     """Fastest speed R, tilt, theta, weight, constant, even share, height of the wave at a time in a region.
 
     p: 0 omega_n, 1 xi, 2 omega_q, 3 psi, 4 s, 5 W, 6 D k, 7 F_c k/(2 n_j k_N), 8 Hertz's theta sqrt(W_c), 9 Hertz?,
-    10 push, 11 drag.  z: free phasors of A and B (re, im), gates.
+    10 push, 11 drag.  z: states of A and B at the region's start as phasors of free motion (re, im), gates.
+
+    What the drive makes of a phase at rest is W (exp(i omega_q tau) - exp(lambda tau)) and the free motion that stops
+    it at first; the difference is taken by exp(x) - 1, as it is small after a start from rest.
     """
     omega_d = p[0] * math.sqrt(1 - p[1] * p[1])
     decay = math.exp(-p[1] * p[0] * tau)
     turn = decay * complex(math.cos(omega_d * tau), math.sin(omega_d * tau))
     rate = complex(-p[1] * p[0], omega_d)
-    angle = p[2] * tau + p[3]
-    on = p[5] * complex(math.cos(angle), math.sin(angle))
-    free_a, free_b = complex(z[0], z[1]) * turn, complex(z[2], z[3]) * turn
-    on_b = on * complex(0.0, p[4])
-    w_a = free_a.real + z[4] * on.real
-    w_b = free_b.real + z[5] * on_b.real
-    v_a = (rate * free_a).real - z[4] * p[2] * on.imag
-    v_b = (rate * free_b).real - z[5] * p[2] * on_b.imag
+    drive = complex(math.cos(p[2] * tau), math.sin(p[2] * tau))
+    x, y = p[1] * p[0] * tau, (p[2] - omega_d) * tau
+    excess = turn * complex(math.expm1(x) * math.cos(y) - 2 * math.sin(0.5 * y) ** 2, math.exp(x) * math.sin(y))
+    begun = p[5] * complex(math.cos(p[3]), math.sin(p[3]))
+    w_a, v_a = _phase(z[0], z[1], z[4], begun, turn, drive, excess, rate, p[2])
+    w_b, v_b = _phase(z[2], z[3], z[5], begun * complex(0.0, p[4]), turn, drive, excess, rate, p[2])
     height = math.hypot(w_a, w_b)
     fastest = p[6] * math.hypot(v_a, v_b)
     tilted = complex(w_b, w_a) * complex(v_a, v_b)
@@ -399,7 +411,7 @@ def _lap(c, a, e, to_powers, p, phasors, durations, v0, allowed, push_only, reco
 
 @njit(cache=True)
 def _phasors(p, m, n, start):
-    """Free phasors of A and B with their gates at the start of the regions.  start: 0 steady, 1 rest, 2 periodic."""
+    """States of A and B as phasors of free motion, with their gates, at the start of the regions.  start: 0 steady, 1 rest, 2 periodic."""
     omega_d = p[0] * math.sqrt(1 - p[1] * p[1])
     gates = ((0.0, 1.0, 1.0), (1.0, 0.0, 1.0))
     pulses = (m - n, m - n, 2 * n - m)
@@ -427,7 +439,8 @@ def _phasors(p, m, n, start):
             first = through / (1.0 - whole)
         z = first
         for r in range(3):
-            out[r, 2 * phase], out[r, 2 * phase + 1], out[r, 4 + phase] = z.real, z.imag, g[r]
+            state = z + g[r] * steady
+            out[r, 2 * phase], out[r, 2 * phase + 1], out[r, 4 + phase] = state.real, state.imag, g[r]
             if r < 2:
                 z = z * turns[r] + (g[r] - g[r + 1]) * steady
     return out

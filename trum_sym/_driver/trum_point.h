@@ -267,8 +267,8 @@ enum trum_status trum_simulate(const struct trum_motor* motor, const struct trum
   long i;
   if (status == TRUM_OK && count > 0) trum_history(&in, &out, speed, angle, count);
   for (i = 0; i < count; ++i) {
-    speed[i] = status == TRUM_OK ? speed[i] / (double)motor->contact_radius : NAN;
-    angle[i] = status == TRUM_OK ? angle[i] / (double)motor->contact_radius : NAN;
+    speed[i] = status == TRUM_OK ? speed[i] / (double)motor->contact_radius : (double)NAN;
+    angle[i] = status == TRUM_OK ? angle[i] / (double)motor->contact_radius : (double)NAN;
   }
   return status;
 }

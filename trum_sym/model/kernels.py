@@ -11,6 +11,8 @@ from trum_sym.inputs.checks import ArrayLike
 try:
     from trum_sym import _kernels
 except ImportError as error:  # pragma: no cover - an installed package has them
+    if error.name != "trum_sym":  # they are there and do not load
+        raise
     raise ImportError(
         f"the compiled kernels are not beside {__file__}: this is a source tree; install it with "
         "`pip install -e .`, or leave its folder to use the installed package"

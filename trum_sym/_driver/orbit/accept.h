@@ -152,13 +152,14 @@ static mask trum_advance_step(trum_lanes* lanes) {
   trum_trial_step trial;
   trum_next_step next;
   trum_defect defect;
-  real ratio, factor;
+  real ratio, factor, longest;
   mask wrong, accepted, shrink;
   int k;
   trum_solve_collocation(lanes, &trial);
   next = trum_adjust_to_events(lanes, &trial, minimal);
   trum_step_defect(lanes, &trial, next.root_error, &defect);
-  ratio = trum_error_ratio(lanes, &trial, minimal, &defect);
+  longest = trum_longest_step(lanes, &trial);
+  ratio = trum_error_ratio(lanes, &trial, minimal, &defect, longest);
   wrong = mask_not(at_most(ratio, REAL(1))) & mask_not(minimal);
   factor = REAL(trum_step_safety) * reciprocal(square_root(square_root(maximum(ratio, REAL(1e-5)))));
   factor = minimum(REAL(trum_step_growth), maximum(REAL(0.15), factor));
@@ -170,7 +171,6 @@ static mask trum_advance_step(trum_lanes* lanes) {
   if (lanes->slopes) accepted = accepted & mask_not(trum_extend_to_root(lanes, &trial, accepted, shrink, &next));
   lanes->step.retries = where(next.retry, lanes->step.retries + REAL(1), where(accepted, REAL(0), lanes->step.retries));
   if (any_lane(accepted)) {
-    const real longest = trum_longest_step(lanes, &trial);
     const real grown = minimum(longest, lanes->step.h * factor);
     const mask finished = accepted & at_most(lanes->step.time_left, lanes->step.h * REAL(1.0000001));
     const mask cut_short = finished | at_most(REAL(0), lanes->step.target_event);

@@ -32,10 +32,9 @@ static int trum_solve_balance(trum_lanes* lanes, int i, trum_search* search) {
   trum_orbit_out* out = search->out;
   double a, R_v, theta, sense, pressure, error;
   trum_surface at;
-  int k;
+  const double none = 1e-15 * in->W, slow = none * in->omega_n;
   if (in->m > in->n) return 0;
-  for (k = 0; k < 4; ++k)
-    if (!(fabs(search->cycle.start[TRUM_REGIONS - 1][k]) <= 1e-15 * in->W)) return 0;
+  if (!(fabs(in->a_A) <= none && fabs(in->a_B) <= none && fabs(in->b_A) <= slow && fabs(in->b_B) <= slow)) return 0;
   trum_start_lap(lanes, i, search);
   trum_evaluate_surface(lanes, lanes->step.tau, &at);
   R_v = lane_value(&at.R_v, i), theta = lane_value(&at.theta, i);
@@ -44,7 +43,7 @@ static int trum_solve_balance(trum_lanes* lanes, int i, trum_search* search) {
                         0.5 * (1.0 + sense * in->drag / in->push), &pressure);
   /* rounding, of the shares of the pressure where the contact is narrow and of what is given; the pressure is zero at the
    * contact's edge, where the root is double */
-  error = 2.5e-15 * (6.0 + 3.0 / (theta * theta));
+  error = 4e-15 * (6.0 + 3.0 / (theta * theta));
   error = error < 0.5 * pressure * (theta - a)
               ? error / pressure
               : sqrt(error / (lane_value(&at.engagement, i) * sin(theta) + 1e-300)) + error;

@@ -15,7 +15,7 @@ typedef struct {
   double change, uncertainty, rival;
 } trum_start_change;
 
-/* Bounds of a lap's errors: at its start, of its mean, and of its deviation. */
+/* Bounds of a lap's errors: at its start, of its mean, and of its deviation, whose variance is stored. */
 static void trum_store_bounds(const trum_lanes* lanes, int i, trum_search* search, trum_start_change start,
                               double top) {
   const trum_lap* lap = &lanes->lap;
@@ -30,6 +30,7 @@ static void trum_store_bounds(const trum_lanes* lanes, int i, trum_search* searc
   const double whole_error = mean_error + S * start_error;
   const double square = lane_value(&lap->error_square, i) / cycle_time - whole_error * whole_error +
                         start_error * (2.0 * lane_value(&lap->error_S, i) / cycle_time + start_error * SS);
+  const double of_variance = 1e-15 * (lane_value(&lap->xx, i) / cycle_time + start.change * start.change * SS);
   trum_orbit_out* out = search->out;
   out->mean_error = fabs(whole_error) + mean_remainder + S * start_remainder + rounding;
   out->low_error = lane_value(&lap->S_low, i) * of_start + (1.0 + share) * lane_value(&lap->low_error, i) +
@@ -40,7 +41,8 @@ static void trum_store_bounds(const trum_lanes* lanes, int i, trum_search* searc
   out->deviation_error = sqrt(square > 0.0 ? square : 0.0) + share * (fabs(mean_error) + fabs(end_error)) +
                          sqrt(SS > S * S ? SS - S * S : 0.0) * start_remainder +
                          sqrt(lane_value(&lap->remainder_square, i) / cycle_time) +
-                         0.05 * lane_value(&lap->inside, i) / cycle_time + rounding;
+                         0.05 * lane_value(&lap->inside, i) / cycle_time + rounding +
+                         of_variance / (sqrt(out->variance) + sqrt(of_variance) + trum_tiny);
   out->mean_error *= trum_bound_safety, out->deviation_error *= trum_bound_safety;
   out->low_error *= trum_bound_safety, out->high_error *= trum_bound_safety;
   out->error = trum_larger(trum_larger(out->low_error, out->high_error),

@@ -25,8 +25,9 @@ static real trum_longest_step(const trum_lanes* lanes, const trum_trial_step* tr
                where(near, REAL(trum_max_nearly_saturated_step), REAL(trum_max_saturated_step)), REAL(trum_max_step));
 }
 
-/* Error over tolerance of a step.  Marks lanes whose step cannot be evaluated as failed. */
-static real trum_error_ratio(trum_lanes* lanes, const trum_trial_step* trial, mask minimal, const trum_defect* d) {
+/* Error over tolerance of a step, which may be at most `longest`.  Marks lanes whose step cannot be evaluated as failed. */
+static real trum_error_ratio(trum_lanes* lanes, const trum_trial_step* trial, mask minimal, const trum_defect* d,
+                             real longest) {
   const mask held = at_most(lanes->equation.push, REAL(0));
   const real of_friction = absolute(d->friction) + d->friction_remainder;
   const real of_angle = REAL(0.31830988618379067154) * (absolute(d->angle) + d->angle_remainder);
@@ -75,7 +76,7 @@ static real trum_error_ratio(trum_lanes* lanes, const trum_trial_step* trial, ma
   phase_unresolved =
       phase_unresolved & less_than(REAL(trum_min_step_for_phase) * lanes->equation.period, lanes->step.h);
   ratio = where(phase_unresolved, maximum(ratio, REAL(40)), ratio);
-  return where(less_than(REAL(1.01) * trum_longest_step(lanes, trial), lanes->step.h), maximum(ratio, REAL(10)), ratio);
+  return where(less_than(REAL(1.01) * longest, lanes->step.h), maximum(ratio, REAL(10)), ratio);
 }
 
 #endif

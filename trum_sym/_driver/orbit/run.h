@@ -27,11 +27,11 @@ static void trum_advance_lanes(trum_lanes* lanes, trum_search* searches, int* bu
 /* Sets all results to NaN, and the flags to none. */
 static void trum_set_unknown(trum_orbit_out* out, trum_slopes_out* slopes) {
   int of, parameter;
-  out->mean = out->low = out->high = out->variance = out->start = out->level = out->error = NAN;
-  out->mean_error = out->low_error = out->high_error = out->deviation_error = NAN;
-  out->contact = out->held = out->contact_error = out->held_error = NAN, out->flags = 0;
+  out->mean = out->low = out->high = out->variance = out->start = out->level = out->error = (double)NAN;
+  out->mean_error = out->low_error = out->high_error = out->deviation_error = (double)NAN;
+  out->contact = out->held = out->contact_error = out->held_error = (double)NAN, out->flags = 0;
   for (of = 0; slopes && of < FIGURES; ++of)
-    for (parameter = 0; parameter < PARAMETERS; ++parameter) slopes->of[of][parameter] = NAN;
+    for (parameter = 0; parameter < PARAMETERS; ++parameter) slopes->of[of][parameter] = (double)NAN;
 }
 
 /* The first task from `task` on that is wanted: even ones are the held rotors, odd ones the orbits. */
@@ -61,7 +61,7 @@ static void trum_run_tasks(const trum_orbit_in* in, trum_orbit_out* out, const t
         searches[i].slopes_out = slopes_out && has_task ? &slopes_out[point] : &unused;
         if (to_scratch) trum_set_unknown(&own[i], 0);
         busy[i] = trum_load_task(&lanes, i, &searches[i], &in[point], to_scratch ? &own[i] : &out[point],
-                                 !has_task || next % 2 == 0, slopes_in ? out[point].start : NAN);
+                                 !has_task || next % 2 == 0, slopes_in ? out[point].start : (double)NAN);
         busy[i] = busy[i] && has_task, used[i] = 1, next += has_task;
         if (!busy[i]) set_lane_mask(&lanes.status.active, i, 0);
       }
@@ -96,7 +96,7 @@ static void trum_history(const trum_orbit_in* in, const trum_orbit_out* orbit, d
   int i;
   trum_initialise_lanes(&lanes, in->hertz > 0.5, 0);
   for (i = 0; i < TRUM_LANES; ++i) {
-    trum_load_task(&lanes, i, &searches[i], in, &unused, 1, NAN);
+    trum_load_task(&lanes, i, &searches[i], in, &unused, 1, (double)NAN);
     if (i > 0) set_lane_mask(&lanes.status.active, i, 0);
   }
   searches[0].stage = STAGE_FINE, searches[0].level = orbit->level, searches[0].start_speed = orbit->start;
@@ -114,7 +114,7 @@ static void trum_history(const trum_orbit_in* in, const trum_orbit_out* orbit, d
         !trum_enter_next_region(&lanes, 0, &searches[0]))
       break;
   }
-  for (; record.written < count; ++record.written) speed[record.written] = distance[record.written] = NAN;
+  for (; record.written < count; ++record.written) speed[record.written] = distance[record.written] = (double)NAN;
 }
 
 #endif
