@@ -69,9 +69,9 @@ def phasor() -> tuple[sp.Expr, sp.Expr]:
 
 
 def rotation() -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
-    """exp(lambda tau) of the free motion, and by how much exp(i omega_q tau) of the drive exceeds it; real and imaginary parts.
+    """exp(lambda tau) of the free motion, and by how much exp(i omega_q tau) of the drive exceeds it.
 
-    The difference is taken without cancellation, from half the sum and half the difference of the two angles: after a
+    Real and imaginary parts of both.  The difference is taken without cancellation, from half the sum and half the difference of the two angles: after a
     start from rest it is all that there is of the wave.
     """
     omega_d, omega_q = omega_n * sp.sqrt(1 - xi**2), omega_n + Delta_omega
@@ -111,8 +111,8 @@ def _led(phase: str, of_A: tuple[sp.Expr, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
 def wave() -> dict[str, sp.Expr]:
     """Wave height, surface speed amplitude and phase, a time after the motion had the phasor f (eqs. 11, 20).
 
-    The motion's phasor has become z = f e + g W p d, with e the free motion's turn, d what the drive's exceeds it by and
-    p the drive's phasor; w = Re z and w' = Re(lambda z) + g W Re((i omega_q - lambda) p (e + d)).
+    The motion's phasor has become z = f e + g W p d, with e the free motion's turn, d what the drive's exceeds it by
+    and p the drive's phasor; w = Re z and w' = Re(lambda z) + g W Re((i omega_q - lambda) p (e + d)).
     W_c = sqrt(w_A^2 + w_B^2); with q = w_A' w_B - w_B' w_A the surface speed is
     D k_c (q cos u - W_c W_c' sin u) / W_c = R_v cos(u - phi).
     """

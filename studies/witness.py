@@ -411,7 +411,10 @@ def _lap(c, a, e, to_powers, p, phasors, durations, v0, allowed, push_only, reco
 
 @njit(cache=True)
 def _phasors(p, m, n, start):
-    """States of A and B as phasors of free motion, with their gates, at the start of the regions.  start: 0 steady, 1 rest, 2 periodic."""
+    """States of A and B as phasors of free motion, with their gates, at the start of the regions.
+
+    start: 0 steady, 1 rest, 2 periodic.
+    """
     omega_d = p[0] * math.sqrt(1 - p[1] * p[1])
     gates = ((0.0, 1.0, 1.0), (1.0, 0.0, 1.0))
     pulses = (m - n, m - n, 2 * n - m)

@@ -74,7 +74,9 @@ _LANE_STRUCTS = (
     ),
     _struct("trum_region", "region", f"{_PHASORS} g_A g_B", "motions' phasors at a region's start; the gates"),
     _struct("trum_region_slopes", "region_slopes", _along(_PHASORS), "the phasors' derivatives by the two frequencies"),
-    _struct("trum_phasors", "phasors", "e_re e_im d_re d_im", "free motion's rotation since then, and the drive's beyond it"),
+    _struct(
+        "trum_phasors", "phasors", "e_re e_im d_re d_im", "free motion's rotation since then, and the drive's beyond it"
+    ),
     _struct(
         "trum_surface",
         "surface",

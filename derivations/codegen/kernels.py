@@ -292,7 +292,12 @@ def _rotor() -> list[Kernel]:
     wave_units = {"W_c": "m", "R_v": "m/s", "phi": "rad", "cos_phi": "1", "sin_phi": "1"}
     return [
         Kernel("trum_phasor", "Free motion as a phasor", phasor, dict.fromkeys(phasor, "m")),
-        Kernel("trum_rotation", "Turn of free motion, and the drive's beyond it, in a time", rotation, dict.fromkeys(rotation, "1")),
+        Kernel(
+            "trum_rotation",
+            "Turn of free motion, and the drive's beyond it, in a time",
+            rotation,
+            dict.fromkeys(rotation, "1"),
+        ),
         Kernel(
             "trum_rotor_coefficients",
             "What the steps of a point share (eqs. 25, 26, 38)",

@@ -33,7 +33,7 @@ def _rotation(p: Point, m: Maths) -> Found:  # noqa: ARG001
 
 
 def _phases(p: Point, free: Number, drive: Number) -> dict[str, tuple[Number, Number]]:
-    """Displacement and velocity of both phases, of motions whose drive has turned by ``drive`` and the rest by ``free``."""
+    """Displacement and velocity of both phases, whose drive has turned by ``drive`` and the rest by ``free``."""
     eigenvalue, turning = _eigenvalue(p), 1j * (p.omega_n + p.Delta_omega)
     found = {}
     for phase in "AB":

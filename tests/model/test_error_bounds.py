@@ -5,6 +5,7 @@ from __future__ import annotations
 import datetime
 import math
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,7 +14,7 @@ from lazily import lazily
 import trum_sym as ts
 from trum_sym.console import main
 
-bounds = lazily("studies.bounds")
+bounds, fuzz_points = lazily("studies.bounds"), lazily("studies.fuzz_points")
 FIGURES = ("mean_speed", "min_speed", "max_speed", "speed_volatility", "stall_torque")
 
 
@@ -186,3 +187,31 @@ def test_a_daily_sample_of_the_studies_holds(box, count):
     assert found.points == count
     assert found.converged == count, f"seed {seed}: {found.text()}"
     assert found.beyond == 0, f"seed {seed}: {found.text()}"
+
+
+def test_random_points_are_told_right_alone_and_in_a_batch():
+    """Other points every day, as ``python -m studies.fuzz_points`` does it in full."""
+    seed = datetime.datetime.now(datetime.UTC).date().toordinal()
+    assert not fuzz_points.study(600, seed, batch=200), f"seed {seed}"
+
+
+@pytest.mark.parametrize(
+    ("figure", "value", "kind"),
+    [
+        ("mean_speed", np.nan, "mean_speed is no number, without a reason"),
+        ("contact_fraction", 1 + 1e-15, "a contact fraction outside"),
+        ("mean_speed", 1e9, "a mean outside the extremes"),
+        ("stall_torque", 2.0, "a stall torque beyond"),
+        ("mean_speed_error", -1.0, "the bound of mean_speed is negative"),
+    ],
+)
+def test_the_random_points_study_sees_what_is_wrong(monkeypatch, figure, value, kind):
+    evaluate = ts.evaluate
+
+    def wrong(*given, **options):
+        point = evaluate(*given, **options)
+        return replace(point, **{figure: np.full_like(point.mean_speed, value)}) if np.ndim(point.mean_speed) else point
+
+    monkeypatch.setattr(ts, "evaluate", wrong)
+    found = fuzz_points.study(20, 1)
+    assert any(kind in name for name in found), found
