@@ -71,8 +71,8 @@ def phasor() -> tuple[sp.Expr, sp.Expr]:
 def rotation() -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
     """exp(lambda tau) of the free motion, and by how much exp(i omega_q tau) of the drive exceeds it.
 
-    Real and imaginary parts of both.  The difference is taken without cancellation, from half the sum and half the difference of the two angles: after a
-    start from rest it is all that there is of the wave.
+    Real and imaginary parts of both.  The difference is taken without cancellation, from half the sum and half the
+    difference of the two angles: after a start from rest it is all that there is of the wave.
     """
     omega_d, omega_q = omega_n * sp.sqrt(1 - xi**2), omega_n + Delta_omega
     mean = (omega_q + omega_d) / 2 * tau

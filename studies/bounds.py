@@ -187,6 +187,8 @@ def rows(box: str, columns: dict[str, np.ndarray], wanted: np.ndarray, accuracy:
             m, n, start = (int(columns[name][i]) for name in ("periods", "on_periods", "start"))
             needed = float(np.clip(1e-5 * columns["tolerance"][i], accuracy, 1e-9))
             held, _, reached = witness.held(p, m, n, start, accuracy)
+            if abs(ours[4] - held) > stated[4] + _WITNESS * reached:  # it may have missed an event
+                held, _, reached = witness.held(p, m, n, start, _FINEST)
             of_held, doubts = _WITNESS * reached, None
             if box == "wave":
                 limit = mp.mpf(columns["friction_coefficient"][i]) * mp.mpf(columns["prepressure"][i]) * mp.mpf(radius)
@@ -196,7 +198,7 @@ def rows(box: str, columns: dict[str, np.ndarray], wanted: np.ndarray, accuracy:
                 guess = raw["start"][k] if np.isfinite(raw["start"][k]) else 0.0
                 speeds, doubt = _witnessed(p, (m, n, start), float(guess), needed)
                 if speeds is not None and (np.abs(ours[:4] - speeds) > np.array(stated[:4]) + doubt).any():
-                    speeds, doubt = _witnessed(p, (m, n, start), float(guess), _FINEST)  # it may have missed an event
+                    speeds, doubt = _witnessed(p, (m, n, start), float(guess), _FINEST)  # likewise
                 if speeds is not None:
                     doubts = [doubt] * 4 + [of_held]
             row = {

@@ -2,11 +2,11 @@
 
 python -m studies.fuzz_points [COUNT] [--seed N] [--batch N]
 
-Batches of points, one in fifty of them wide: inertias from 1e-9 to 1 kg m^2, 1 to 200 periods, loads beyond the limit.
-Tolerances are 1e-2 to 1e-9, in wide ones to 1e-6.  Wrong are: an error, a figure that is NaN and has no reason, a
-contact fraction outside [0, 1], a speed outside its extremes, a stall torque beyond friction's, a negative bound, a batch that takes more than
-10 s for 1,000 points, and points that are not, alone, what they are in their batch, to the last bit.  The exit code is
-1 if anything was.
+Batches of points, one in fifty of them wide: inertias from 1e-9 to 1 kg m^2, 1 to 200 periods, loads beyond the
+limit. Tolerances are 1e-2 to 1e-9, in wide ones to 1e-6. Wrong are: an error, a figure that is NaN and has no reason,
+a contact fraction outside [0, 1], a speed outside its extremes, a stall torque beyond friction's, a negative bound, a
+batch that takes more than 10 s for 1,000 points, and points that are not, alone, what they are in their batch, to the
+last bit. The exit code is 1 if anything was.
 """
 
 from __future__ import annotations

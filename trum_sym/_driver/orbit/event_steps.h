@@ -39,10 +39,11 @@ static trum_next_step trum_adjust_to_events(trum_lanes* lanes, trum_trial_step* 
   meets_event = may_retry & less_than(location, REAL(1.5)) & mask_not(trial->damped);
   is_root = trum_is_event(event, REAL(EVENT_SATURATION)) | trum_is_event(event, REAL(EVENT_FULL_CONTACT));
   tolerance = trum_event_tolerance(lanes, event, lanes->tolerances.slope_start);
-  { /* the error of passing a kink is in proportion to its distance times the pressure there */
-    const real weight =
-        where(trum_is_event(event, REAL(EVENT_LARGER_PRESSURE)), absolute(trial->events[0][EVENT_LARGER_PRESSURE]),
-              absolute(trial->events[0][EVENT_SMALLER_PRESSURE]));
+  { /* the error of passing a kink is in proportion to its distance times the pressure on the way there */
+    real weight = REAL(0);
+    for (k = EVENT_LARGER_PRESSURE; k <= EVENT_SMALLER_PRESSURE; ++k)
+      weight = where(trum_is_event(event, REAL(k)),
+                     absolute(where(lanes->start.at_event[k], trial->events[1][k], trial->events[0][k])), weight);
     close = at_most(location * lanes->step.h * where(is_root, REAL(1), weight), tolerance); /* to the step's start */
   }
   if (any_lane(aimed)) {
