@@ -49,6 +49,21 @@ typedef struct {
   trum_real re, im;
 } trum_phasor_out;
 
+/* the layer as a brush; where a bristle sticks from */
+typedef struct {
+  trum_real grip, ratio, theta, u_0, t_0;
+} trum_bristle;
+
+/* its stress and friction's limit, their integrals */
+typedef struct {
+  trum_real stress, limit, stuck, slid;
+} trum_passage;
+
+/* where a sliding bristle could begin to stick */
+typedef struct {
+  trum_real delay, span;
+} trum_turns;
+
 /* Load balance of the Winkler layer and its slope (eq. 31) */
 static inline void trum_plain_winkler_balance(const trum_balance* balance, trum_balance_values* values, trum_real theta)
     {
@@ -100,6 +115,21 @@ static inline void trum_plain_phasor(const trum_phasor_in* in, trum_phasor_out* 
   const trum_real* arg[trum_phasor_n_arg] = {&in->a, &in->b, &in->omega_n, &in->xi};
   trum_real* res[trum_phasor_n_res] = {&out->re, &out->im};
   trum_phasor(arg, res, 0, 0, 0);
+}
+
+/* Stress of a bristle that sticks and friction's limit, and their integrals from where it began to */
+static inline void trum_plain_brush_passage(const trum_bristle* bristle, trum_passage* passage, trum_real u) {
+  const trum_real* arg[trum_brush_passage_n_arg] = {&bristle->grip, &bristle->ratio, &bristle->t_0, &bristle->theta, &u,
+      &bristle->u_0};
+  trum_real* res[trum_brush_passage_n_res] = {&passage->stress, &passage->limit, &passage->stuck, &passage->slid};
+  trum_brush_passage(arg, res, 0, 0, 0);
+}
+
+/* Where a sliding bristle could begin to stick */
+static inline void trum_plain_brush_turns(const trum_bristle* bristle, trum_turns* turns) {
+  const trum_real* arg[trum_brush_turns_n_arg] = {&bristle->grip, &bristle->ratio};
+  trum_real* res[trum_brush_turns_n_res] = {&turns->delay, &turns->span};
+  trum_brush_turns(arg, res, 0, 0, 0);
 }
 
 #endif

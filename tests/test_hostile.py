@@ -167,7 +167,7 @@ GOOD = {
 }
 NOT_ASKED = ("progress",)  # any truth will do
 EXTRA = {
-    "evaluate": ("contact", "resonance", "foundation", "amplitude"),
+    "evaluate": ("contact", "resonance", "foundation", "amplitude", "compliance", "tangential"),
     "sweep": ("frequency_difference", "contact_radius", "phase_lead", "contact", "amplitude", "sampling_period"),
     "calibrate": ("contact",),
 }
