@@ -142,13 +142,22 @@ def test_histories_of_a_brush_are_those_of_a_steady_rotor(trum60):
         ({"on_periods": 14}, {}, "tangential: got brush, need rigid in pulse drive"),
         ({"start": "rest"}, {}, "tangential: got brush, need rigid where start is rest"),
         ({}, {"friction_coefficient": 0}, "friction_coefficient: got 0, need a number > 0 where tangential is brush"),
-        ({}, {"layer_stiffness": 1e8}, "tangential: got brush, need rigid where the whole wave touches"),
     ],
 )
 @pytest.mark.filterwarnings("ignore::trum_sym.ImplausibleWarning")
 def test_where_bristles_are_not_known_they_are_refused(trum60, drive, values, naming):
     with pytest.raises(ts.ParameterError, match=naming):
         ts.evaluate(trum60.with_values(values), ts.Drive(**{"on_periods": 20, **drive}), tangential="brush")
+
+
+@pytest.mark.filterwarnings("ignore::trum_sym.ImplausibleWarning")
+def test_where_the_whole_wave_touches_there_is_no_figure_and_a_reason(trum60):
+    soft = trum60.with_values({"layer_stiffness": np.array([1e8, 3e10])})
+    point = ts.evaluate(soft, PLAIN, tangential="brush")
+    assert np.isnan(point.mean_speed).tolist() == np.isnan(point.stall_torque).tolist() == [True, False]
+    assert point.contact_fraction[0] == 1
+    assert point.converged.tolist() == [False, True]
+    assert point.reason.tolist() == ["the whole wave touches: no bristle of the layer leaves the contact", ""]
 
 
 def test_slopes_of_a_brush_are_refused(trum60):

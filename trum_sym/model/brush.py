@@ -38,14 +38,12 @@ def brush_values(symbols: Mapping[str, ArrayLike]) -> dict[str, ArrayLike]:
     Raises
     ------
     ParameterError
-        Without friction, and where the whole wave touches, so that no bristle leaves the contact.
+        Without friction.
     """
     if np.any(np.asarray(symbols["mu"]) == 0):
         raise ParameterError("friction_coefficient", 0, "a number > 0 where tangential is brush")
     with_layer = {**call("trum_tangential_stiffness", symbols), **symbols}
-    theta = np.asarray(call("contact_half_angle", symbols)["theta"])
-    if np.any(theta >= np.pi):
-        raise ParameterError("tangential", "brush", "rigid where the whole wave touches: no bristle leaves the contact")
+    theta = call("contact_half_angle", symbols)["theta"]
     most = call("trum_stall_torque", {**symbols, "f": 1.0})["torque"]
     with np.errstate(all="ignore"):
         fraction = np.asarray(symbols["T_load"]) / np.asarray(most)
@@ -55,6 +53,8 @@ def brush_values(symbols: Mapping[str, ArrayLike]) -> dict[str, ArrayLike]:
 def solve_brush(values: Mapping[str, ArrayLike]) -> dict[str, Array]:
     """The figures of the orbit's driver for the steady speed over a brush.
 
+    Where the whole wave touches, no bristle leaves the contact, and they are NaN.
+
     Parameters
     ----------
     values : mapping
@@ -63,7 +63,7 @@ def solve_brush(values: Mapping[str, ArrayLike]) -> dict[str, Array]:
     side = np.asarray(values["s"])  # with it the wave, its friction and its speed turn round
     wanted = side * np.asarray(values["f"])
     found = call("brush_speed", {**values, "f": wanted})
-    runaway = np.abs(wanted) >= 1
+    runaway = (np.abs(wanted) >= 1) & (np.asarray(values["theta"]) < np.pi)
     at_rest = call("brush_friction", {**values, "ratio": 0.0})
     held = side * np.asarray(at_rest["f"])
     mean, error = (np.asarray(found[name]) * np.asarray(values["R_v"]) for name in ("ratio", "ratio_error"))
@@ -72,12 +72,13 @@ def solve_brush(values: Mapping[str, ArrayLike]) -> dict[str, Array]:
     raw: dict[str, ArrayLike] = {
         **dict.fromkeys(("mean", "low", "high", "start"), mean),
         **dict.fromkeys(("mean_error", "low_error", "high_error"), error),
-        **dict.fromkeys(("variance", "deviation_error"), np.where(runaway, np.nan, 0.0)),
+        **dict.fromkeys(("variance", "deviation_error"), np.where(np.isnan(mean), np.nan, 0.0)),
         "contact": np.asarray(values["theta"]) / np.pi,
         "held": held,
         **dict.fromkeys(("contact_error", "held_error"), at_rest["f_error"]),
         "level": np.nan,
         "error": np.asarray(found["ratio_error"]),
         "runaway": runaway,
+        "whole": np.asarray(values["theta"]) >= np.pi,
     }
     return {name: np.array(np.broadcast_to(value, shape), np.float64) for name, value in raw.items()}

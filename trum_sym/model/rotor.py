@@ -67,6 +67,7 @@ _OUTPUTS = (
     "held_error",
     "flags",
 )
+_WHOLE = "the whole wave touches: no bristle of the layer leaves the contact"
 RUNAWAY = "no speed balances the load: it exceeds what friction can transmit"
 # Why an orbit is not converged, by the driver's flags
 _REASONS = {
@@ -188,6 +189,8 @@ def reasons(raw: Mapping[str, Array]) -> np.ndarray[tuple[int, ...], np.dtype[np
     found = np.full(flags.shape, _MISSED, dtype=object)
     for name, reason in reversed(_REASONS.items()):
         found[(flags & _FLAG[name]) > 0] = reason
+    if "whole" in raw:
+        found[np.asarray(raw["whole"]) > 0] = _WHOLE
     found[(flags & _FLAG["converged"]) > 0] = ""
     return found.astype(np.str_)
 
