@@ -142,6 +142,7 @@ GOOD = {
     "evaluate": (ts.evaluate, {"motor": MOTOR, "drive": ts.Drive()}),
     "simulate": (ts.simulate, {"motor": MOTOR, "drive": ts.Drive(), "samples_per_period": 4}),
     "sensitivities": (ts.sensitivities, {"motor": MOTOR, "drive": ts.Drive()}),
+    "characteristics": (ts.characteristics, {"motor": MOTOR, "drive": ts.Drive(), "points": 2, "tolerance": 1e-2}),
     "sweep": (ts.sweep, {"motor": MOTOR, "outputs": ["amplitude"], "prepressure": [170.0, 180.0]}),
     "tolerance": (
         ts.tolerance,

@@ -431,7 +431,7 @@ def test_console_refuses_what_a_decay_does_not_know(console_refuses, csv_file):
 
 
 def test_speed_under_load_identifies_the_contact_stiffness():
-    """Synthetic: of a contact of 1.4 GN/m^2, speeds scattered by 0.3 %; the fit begins at the bare layer's 30 GN/m^2."""
+    """Synthetic: of a contact of 1.4 GN/m^2, speeds scattered by 0.3 %; the fit begins at the flange's 1.0 GN/m^2."""
     loads, drive = np.linspace(0.0, 0.9, 12), {"on_periods": 20, "frequency_difference": 500.0}
     true = ts.load_motor().with_values({"contact_stiffness": 1.4e9})
     speed = np.asarray(ts.evaluate(true, ts.Drive(load_torque=loads, **drive)).mean_speed)

@@ -1,4 +1,4 @@
-"""Characteristics: curves against single points, the power balance by its own sums, measured points read and refused."""
+"""Characteristics: curves against single points, power by sums of its own, measured points read and refused."""
 
 from __future__ import annotations
 

@@ -131,6 +131,16 @@ static inline void trum_resonate(const struct trum_motor* motor, const struct tr
   v[trum_at_omega_q] = v[trum_at_omega_n] + v[trum_at_Delta_omega];
 }
 
+/* Let k_N be the stiffness of the whole contact, as measured or in series; 0 if it has no size. */
+static inline int trum_contact_of(const struct trum_motor* motor, const struct trum_drive* drive, trum_real* v) {
+  if (!(motor->contact_stiffness > 0)) {
+    if (drive->compliance != TRUM_COMPLIANCE_FLANGE) return 1;
+    trum_call_contact_stiffness(v);
+  }
+  v[trum_at_k_N] = v[trum_at_k_con];
+  return trum_is_size(v[trum_at_k_con]);
+}
+
 /* Section, resonance and amplitude under prepressure. */
 static inline enum trum_status trum_stator(const struct trum_motor* motor, const struct trum_drive* drive,
                                            struct trum_point* point, trum_real* v) {
@@ -141,11 +151,7 @@ static inline enum trum_status trum_stator(const struct trum_motor* motor, const
   if (!(motor->neutral_axis > 0)) trum_call_neutral_axis(v);
   if (!(motor->wavenumber > 0)) trum_call_wavenumber(v);
   if (!(motor->layer_stiffness > 0)) trum_call_layer_stiffness(v);
-  if (motor->contact_stiffness > 0 || drive->compliance == TRUM_COMPLIANCE_FLANGE) {
-    if (!(motor->contact_stiffness > 0)) trum_call_contact_stiffness(v);
-    if (!trum_is_size(v[trum_at_k_con])) return TRUM_NO_SIZE;
-    v[trum_at_k_N] = v[trum_at_k_con];
-  }
+  if (!trum_contact_of(motor, drive, v)) return TRUM_NO_SIZE;
   trum_call_section(v);
   point->outside_fit = modelled && (drive->prepressure < motor->fit_prepressure_min ||
                                     drive->prepressure > motor->fit_prepressure_max);

@@ -60,8 +60,8 @@ def characteristics(
 ) -> None:
     """Speed, power and contact efficiency under load, speed by frequency and prepressure, stall by prepressure.
 
-    For the plain wave (both phases always on), and for pulse drive where --on-periods is less than --periods.  Loads run
-    from none to what friction can carry; --load-torque is not looked at.
+    For the plain wave (both phases always on), and for pulse drive where --on-periods is less than --periods.  Loads
+    run from none to what friction can carry; --load-torque is not looked at.
     """
     from trum_sym.inputs.measured_points import load_measured, measured_of
     from trum_sym.output.files import check_packages, check_target
@@ -175,4 +175,4 @@ def _compared(found: xr.Dataset) -> str:
         scale = _RPM if curve.startswith("speed") else 1.0
         table.append((curve, form, x, scale * y, scale * computed, source, note))
     head = ("curve", "drive", "at", "measured (rpm, N m)", "computed", "source", "note")
-    return tabulate(table, head, floatfmt=".4g")
+    return str(tabulate(table, head, floatfmt=".4g"))

@@ -78,7 +78,7 @@ def solve_brush(values: Mapping[str, ArrayLike]) -> dict[str, Array]:
         **dict.fromkeys(("contact_error", "held_error"), at_rest["f_error"]),
         "level": np.nan,
         "error": np.asarray(found["ratio_error"]),
-        "runaway": runaway,
-        "whole": np.asarray(values["theta"]) >= np.pi,
+        "runaway": runaway.astype(float),
+        "whole": (np.asarray(values["theta"]) >= np.pi).astype(float),
     }
     return {name: np.array(np.broadcast_to(value, shape), np.float64) for name, value in raw.items()}

@@ -15,6 +15,7 @@ from trum_sym.plots.tolerance import check_picture
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 __all__ = ["check_picture", "draw"]
 
@@ -48,7 +49,7 @@ def draw(name: str, curves: xr.Dataset, target: Path) -> None:
 
 
 @styled
-def _figure(curves: xr.Dataset, kind: str, content: BytesIO) -> object:
+def _figure(curves: xr.Dataset, kind: str, content: BytesIO) -> Figure:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
 
     panels = blank(3, 2, 7.0)

@@ -1,4 +1,4 @@
-"""Characteristics of a motor: speed, power and contact efficiency under load, speed by frequency and prepressure, stall."""
+"""Characteristics of a motor: speed, power and efficiency under load, speed by frequency and prepressure, stall."""
 
 from __future__ import annotations
 
@@ -77,9 +77,12 @@ def characteristics(
     frequencies : (n,) array, Hz, optional
         Frequency differences.
     prepressures : (n,) array, N, optional
+        Forces between rotor and stator.
     measured : sequence of MeasuredPoint
         From :func:`trum_sym.inputs.measured_points.load_measured`, kept beside the curves; nothing is fitted to them.
-    tolerance, contact, resonance, foundation, amplitude, compliance, tangential
+    tolerance : float
+        As for :func:`trum_sym.evaluate`.
+    contact, resonance, foundation, amplitude, compliance, tangential
         As for :func:`trum_sym.evaluate`.  The brush counts for the plain wave; pulses take the layer as rigid.
 
     Returns
@@ -237,6 +240,8 @@ def _lost_by_bristles(symbols: dict[str, ArrayLike], values: dict[str, ArrayLike
 
 def _measured(points: Sequence[MeasuredPoint]) -> dict[str, Any]:
     """Measured points as variables along a dimension of their own."""
+    if not isinstance(points, Sequence):
+        raise ParameterError("measured", points, "a list of points from load_measured")
     for point in points:
         if not isinstance(point, MeasuredPoint):
             raise ParameterError("measured", point, "points from load_measured")

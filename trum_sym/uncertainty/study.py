@@ -50,13 +50,18 @@ def _spec_of(name: str) -> Spec:
     return spec(name)
 
 
+def _uncertain(motor: Motor, levels: Levels) -> dict[str, Distribution]:
+    """What the motor file gives a range or a distribution, but for a flange that the levels leave out."""
+    counts = levels.compliance == "flange" and motor.contact_stiffness is None
+    own = {name: p.spread() for name, p in motor.parameters() if counts or name not in FLANGE}
+    return {name: found for name, found in own.items() if found is not None}
+
+
 def _chosen(
     motor: Motor, parameters: Mapping[str, Given] | Sequence[str] | None, levels: Levels
 ) -> dict[str, Distribution]:
-    """The uncertain parameters, as given; the motor file's own without a flange that the levels leave out."""
-    counts = levels.compliance == "flange" and motor.contact_stiffness is None
-    own = {name: p.spread() for name, p in motor.parameters() if counts or name not in FLANGE}
-    uncertain = {name: found for name, found in own.items() if found is not None}
+    """The uncertain parameters, as given."""
+    uncertain = _uncertain(motor, levels)
     if parameters is None:
         parameters = [MOTOR_FILE]
     if isinstance(parameters, str) or not isinstance(parameters, Mapping | Sequence):
