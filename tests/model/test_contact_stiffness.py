@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import orbit_reference
 import pytest
 from scipy.optimize import brentq
 
@@ -144,6 +145,46 @@ def test_all_harmonics_of_the_pressure_agree_with_the_level_where_the_plate_is_o
     crest = point.neutral_axis * point.wavenumber * point.amplitude * 2 * np.pi * point.drive_frequency / 0.0265
     assert point.mean_speed / crest == pytest.approx(speeds[True], abs=3e-3)
     assert (np.array(speeds[False]) > speeds[True]).all()
+
+
+def random_flange(number):
+    """A flange, a drive in pulses and a load below stall, all at random."""
+    draw = np.random.default_rng([20, number])
+    m = int(draw.integers(8, 24))
+    values = {
+        "flange_thickness": draw.uniform(0.7e-3, 1.5e-3),
+        "flange_length": draw.uniform(2e-3, 4e-3),
+        "rotor_inertia": 10 ** draw.uniform(-5.4, -3),
+    }
+    drive = ts.Drive(
+        prepressure=draw.uniform(120, 210),
+        frequency_difference=draw.uniform(500, 3500),
+        periods=m,
+        on_periods=int(draw.integers(m // 2 + 1, m + 1)),
+        load_torque=draw.uniform(-0.2, 0.2),
+        start=("periodic", "steady", "rest")[number % 3],
+        phase_lead=1 - 2 * (number % 2),
+    )
+    return values, drive
+
+
+@pytest.mark.parametrize("number", [*range(3), *(pytest.param(k, marks=pytest.mark.slow) for k in range(3, 100))])
+@pytest.mark.filterwarnings("ignore::trum_sym.ImplausibleWarning")
+def test_orbits_over_a_flange_are_those_of_another_integration(trum60, number):
+    """The reference knows one layer: one of the series' stiffness, which the annular test and the ledger stand for."""
+    values, drive = random_flange(number)
+    motor = trum60.with_values(values)
+    point = ts.evaluate(motor, drive, compliance="flange", tolerance=1e-8)
+    bending = 70e9 * values["flange_thickness"] ** 3 / (12 * (1 - 0.33**2))
+    a = 300 * values["flange_length"]
+    shape = (3.33 * 0.67 * np.cosh(a) ** 2 + 0.67**2 * a**2 + 1.33**2) / (2 * (np.sinh(a) * np.cosh(a) - a))
+    whole = 1 / (1 / 3e10 + 2e-3 / (155e9 * 8e-3 * (1 - 57.6 / 188.4)) + 1 / (bending * 300**3 * shape))
+    alike = motor.with_values({"layer_young_modulus": whole * 0.2e-3 / 1.2e-3})
+    orbit = orbit_reference.Reference(alike, drive, point).orbit()
+    size = max(abs(orbit.low), abs(orbit.high))
+    assert point.mean_speed == pytest.approx(orbit.mean, abs=1e-6 * size)
+    assert point.min_speed == pytest.approx(orbit.low, abs=1e-6 * size)
+    assert point.max_speed == pytest.approx(orbit.high, abs=1e-6 * size)
 
 
 @pytest.mark.parametrize(

@@ -5,11 +5,14 @@ from __future__ import annotations
 import json
 
 import numpy as np
+import orbit_reference
 import pytest
 
 import trum_sym as ts
 from trum_sym.console import main
 from trum_sym.inputs.measured_points import load_measured, measured_of
+from trum_sym.inputs.plausible import unquestioned
+from trum_sym.model.kernels import call
 from trum_sym.studies.characteristics import predicted
 
 pytest.importorskip("xarray")
@@ -62,6 +65,19 @@ def test_efficiency_is_what_the_surface_gives_against_what_the_rotor_takes(curve
     assert float(plain["contact_efficiency"][3]) == pytest.approx(load * point.mean_speed / given, rel=1e-4)
     efficiency = curves["contact_efficiency"].values
     assert ((efficiency[np.isfinite(efficiency)] >= 0) & (efficiency[np.isfinite(efficiency)] < 1)).all()
+
+
+def test_the_heat_of_a_pulse_drive_is_that_of_another_integration(curves, trum60):
+    pulse = curves.sel(drive="pulse")
+    drive = ts.Drive(frequency_difference=500.0, load_torque=float(pulse["torque"][2]))
+    point = ts.evaluate(trum60, drive, tolerance=1e-7, **LEVELS)
+    values = {**trum60.symbols(), "k_N": 3e10, "k_c": 300.0}
+    whole = float(call("trum_contact_stiffness", values)["k_con"])
+    with unquestioned():
+        alike = trum60.with_values({"layer_young_modulus": whole * 0.2e-3 / 1.2e-3})
+    orbit = orbit_reference.Reference(alike, drive, point).orbit()
+    power = float(pulse["output_power"][2])
+    assert float(pulse["contact_efficiency"][2]) == pytest.approx(power / (power + orbit.heat), rel=2e-3)
 
 
 def test_a_stiff_brush_has_the_efficiency_of_the_rigid_layer(trum60):
