@@ -46,6 +46,13 @@ G           | Pa       | + | G | eq. 2 | shear modulus of the composite section 
 A           | m^2      | + | A | eq. 2 | area of the composite section
 E_eq        | Pa       | + | E_{eq} | eq. 1 | Young's modulus of the toothed beam, reduced for its grooves
 k_f         | N/m^2    | + | k_f | ours | stiffness per length of the foundation under the beam
+k_tooth     | N/m^2    | + | k_{tooth} | ours | stiffness of the stator's teeth per length of the circumference
+k_flange    | N/m^2    | + | k_{flange} | ours | stiffness of the rotor's flange under the wave's load, per length
+grip        | 1        | + | \lambda_T | ours | tangential over normal stiffness of the contact, times D k_c / mu
+ratio       | 1        | r | r_v | ours | speed of the rotor's rim over the greatest of the surface
+u           | rad      | r | u | ours | place in the contact, as an angle of the wave from its crest
+u_0         | rad      | r | u_0 | ours | where a bristle began to stick
+t_0         | 1        | r | t_0 | ours | its shear stress there, over mu k_N W
 k_dx        | N/m      | + | k_{dx} | eq. 5 | the paper's foundation stiffness (below eq. 5)
 theta       | rad      | + | \vartheta | ours | contact half-angle k_c x_m
 F_c         | N        | + | F_c | eq. 8 | prepressure

@@ -48,6 +48,12 @@ static const struct trum_motor trum60 = {
   (trum_real)0.0, /* neutral_axis, m: not measured */
   (trum_real)0.0, /* wavenumber, 1/m: not measured */
   (trum_real)0.0, /* layer_stiffness, N/m^2: not measured */
+  (trum_real)0.0, /* contact_stiffness, N/m^2: not measured */
+  (trum_real)0.0, /* tangential_stiffness, N/m^2: not measured */
+  (trum_real)0.001, /* flange_thickness, m: assumed */
+  (trum_real)0.003, /* flange_length, m: assumed */
+  (trum_real)70000000000.0, /* flange_young_modulus, Pa: assumed */
+  (trum_real)0.33, /* flange_poisson_ratio, 1: assumed */
 };
 
 /* the paper's Table 3 */
@@ -64,6 +70,8 @@ static const struct trum_drive trum_table3 = {
   TRUM_RESONANCE_QUARTIC,
   TRUM_FOUNDATION_HARMONIC,
   TRUM_AMPLITUDE_MEASURED,
+  TRUM_COMPLIANCE_LAYER,
+  TRUM_TANGENTIAL_RIGID,
   (trum_real)(TRUM_FINEST_TOLERANCE > 1e-6 ? TRUM_FINEST_TOLERANCE : 1e-6), /* tolerance */
 };
 

@@ -46,7 +46,13 @@
   X(amplitude, W_maxf, "m", 0.0, 0.01, 1, 1, 0, 0) \
   X(neutral_axis, D, "m", 0.0, 10.0, 1, 1, 0, 0) \
   X(wavenumber, k_c, "1/m", 0.0, HUGE_VAL, 1, 1, 0, 0) \
-  X(layer_stiffness, k_N, "N/m^2", 0.0, HUGE_VAL, 1, 1, 0, 0)
+  X(layer_stiffness, k_N, "N/m^2", 0.0, HUGE_VAL, 1, 1, 0, 0) \
+  X(contact_stiffness, k_con, "N/m^2", 0.0, HUGE_VAL, 1, 1, 0, 0) \
+  X(tangential_stiffness, k_T, "N/m^2", 0.0, HUGE_VAL, 1, 1, 0, 0) \
+  X(flange_thickness, h_f, "m", 0.0, 10.0, 1, 1, 0, 0) \
+  X(flange_length, l_f, "m", 0.0, 10.0, 1, 1, 0, 0) \
+  X(flange_young_modulus, E_f, "Pa", 0.0, HUGE_VAL, 1, 1, 0, 0) \
+  X(flange_poisson_ratio, mu_f, "1", 0.0, 0.5, 1, 0, 0, 0)
 #define TRUM_DRIVE_FIELDS(X) \
   X(prepressure, F_c, "N", 0.0, 1000000.0, 1, 1, 0, 1) \
   X(frequency_difference, Delta_f, "Hz", -1000000000.0, 1000000000.0, 1, 1, 0, 1) \
@@ -84,11 +90,15 @@
   X(contact, 2, "winkler hertz") \
   X(resonance, 4, "quartic eq6 printed euler") \
   X(foundation, 4, "harmonic smeared printed none") \
-  X(amplitude, 2, "measured forced")
+  X(amplitude, 2, "measured forced") \
+  X(compliance, 2, "layer flange") \
+  X(tangential, 2, "rigid brush")
 enum { TRUM_START_PERIODIC, TRUM_START_STEADY, TRUM_START_REST };
 enum { TRUM_CONTACT_WINKLER, TRUM_CONTACT_HERTZ };
 enum { TRUM_RESONANCE_QUARTIC, TRUM_RESONANCE_EQ6, TRUM_RESONANCE_PRINTED, TRUM_RESONANCE_EULER };
 enum { TRUM_FOUNDATION_HARMONIC, TRUM_FOUNDATION_SMEARED, TRUM_FOUNDATION_PRINTED, TRUM_FOUNDATION_NONE };
 enum { TRUM_AMPLITUDE_MEASURED, TRUM_AMPLITUDE_FORCED };
+enum { TRUM_COMPLIANCE_LAYER, TRUM_COMPLIANCE_FLANGE };
+enum { TRUM_TANGENTIAL_RIGID, TRUM_TANGENTIAL_BRUSH };
 
 #endif

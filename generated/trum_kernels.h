@@ -67,6 +67,31 @@ int trum_foundation(const trum_real** arg, trum_real** res, long long int* iw, t
 enum { trum_foundation_in_k_N, trum_foundation_in_k_c, trum_foundation_in_n_j, trum_foundation_in_theta, trum_foundation_n_arg };
 enum { trum_foundation_out_harmonic, trum_foundation_out_smeared, trum_foundation_out_printed, trum_foundation_n_res };
 
+/* Stiffness of layer, tooth and rotor flange in series */
+int trum_contact_stiffness(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_contact_stiffness_in_E_e, trum_contact_stiffness_in_E_f, trum_contact_stiffness_in_b_e, trum_contact_stiffness_in_b_s, trum_contact_stiffness_in_h_f, trum_contact_stiffness_in_h_t, trum_contact_stiffness_in_k_N, trum_contact_stiffness_in_k_c, trum_contact_stiffness_in_l_f, trum_contact_stiffness_in_l_s, trum_contact_stiffness_in_mu_f, trum_contact_stiffness_in_n_s, trum_contact_stiffness_n_arg };
+enum { trum_contact_stiffness_out_k_tooth, trum_contact_stiffness_out_k_flange, trum_contact_stiffness_out_k_con, trum_contact_stiffness_n_res };
+
+/* Stiffness of the layer in shear along the circumference */
+int trum_tangential_stiffness(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_tangential_stiffness_in_E_m, trum_tangential_stiffness_in_b_m, trum_tangential_stiffness_in_h_m, trum_tangential_stiffness_in_mu_m, trum_tangential_stiffness_n_arg };
+enum { trum_tangential_stiffness_out_k_T, trum_tangential_stiffness_n_res };
+
+/* Grip of the layer as a brush, and the surface speed's amplitude of a plain wave (eqs. 16, 20) */
+int trum_brush_coefficient(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_brush_coefficient_in_D, trum_brush_coefficient_in_W, trum_brush_coefficient_in_k_N, trum_brush_coefficient_in_k_T, trum_brush_coefficient_in_k_c, trum_brush_coefficient_in_mu, trum_brush_coefficient_in_omega_q, trum_brush_coefficient_n_arg };
+enum { trum_brush_coefficient_out_grip, trum_brush_coefficient_out_R_v, trum_brush_coefficient_n_res };
+
+/* Stress of a bristle that sticks and friction's limit, and their integrals from where it began to */
+int trum_brush_passage(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_brush_passage_in_grip, trum_brush_passage_in_ratio, trum_brush_passage_in_t_0, trum_brush_passage_in_theta, trum_brush_passage_in_u, trum_brush_passage_in_u_0, trum_brush_passage_n_arg };
+enum { trum_brush_passage_out_stress, trum_brush_passage_out_limit, trum_brush_passage_out_stuck, trum_brush_passage_out_slid, trum_brush_passage_n_res };
+
+/* Where a sliding bristle could begin to stick */
+int trum_brush_turns(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_brush_turns_in_grip, trum_brush_turns_in_ratio, trum_brush_turns_n_arg };
+enum { trum_brush_turns_out_delay, trum_brush_turns_out_span, trum_brush_turns_n_res };
+
 /* Drive frequency and cycle time */
 int trum_drive(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_drive_in_Delta_omega, trum_drive_in_m, trum_drive_in_omega_n, trum_drive_n_arg };
@@ -214,6 +239,11 @@ enum { trum_interface_out_v_x, trum_interface_out_v_x_slope, trum_interface_out_
   X(trum_winkler_balance, 6, 2, "F_c W k_N k_c n_j theta", "residual slope") \
   X(trum_hertz_half_angle, 10, 1, "E_eq E_m F_c W b_m k_c mu_e mu_m n_j r_t", "theta") \
   X(trum_foundation, 4, 3, "k_N k_c n_j theta", "harmonic smeared printed") \
+  X(trum_contact_stiffness, 12, 3, "E_e E_f b_e b_s h_f h_t k_N k_c l_f l_s mu_f n_s", "k_tooth k_flange k_con") \
+  X(trum_tangential_stiffness, 4, 1, "E_m b_m h_m mu_m", "k_T") \
+  X(trum_brush_coefficient, 7, 2, "D W k_N k_T k_c mu omega_q", "grip R_v") \
+  X(trum_brush_passage, 6, 4, "grip ratio t_0 theta u u_0", "stress limit stuck slid") \
+  X(trum_brush_turns, 2, 2, "grip ratio", "delay span") \
   X(trum_drive, 3, 2, "Delta_omega m omega_n", "omega_q T") \
   X(trum_start_periodic, 8, 5, "Delta_omega W m n omega_n psi s xi", "a_A b_A a_B b_B repetition") \
   X(trum_start_rest, 5, 4, "Delta_omega W omega_n psi s", "a_A b_A a_B b_B") \

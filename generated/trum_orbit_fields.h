@@ -32,6 +32,18 @@
   X(k_c, "1/m") \
   X(n_j, "1")
 
+/* what the friction of a brush depends on */
+#define TRUM_BRUSH_IN(X) \
+  X(theta, "rad") \
+  X(grip, "1") \
+  X(ratio, "1")
+
+/* what the rotor's speed over a brush depends on */
+#define TRUM_BRUSH_SPEED_IN(X) \
+  X(theta, "rad") \
+  X(grip, "1") \
+  X(f, "1")
+
 /* what the determinant's sums over a cycle need */
 #define TRUM_CYCLE_SUMS_IN(X) \
   X(omega_n, "rad/s") \
@@ -158,6 +170,20 @@
   X(high, "m/s") \
   X(start, "m/s") \
   X(level, "1")
+
+/* what the friction of a brush depends on */
+typedef struct {
+  double theta; /* rad: contact half-angle k_c x_m */
+  double grip; /* 1: tangential over normal stiffness of the contact, times D k_c / mu */
+  double ratio; /* 1: speed of the rotor's rim over the greatest of the surface */
+} trum_brush_in;
+
+/* what the rotor's speed over a brush depends on */
+typedef struct {
+  double theta; /* rad: contact half-angle k_c x_m */
+  double grip; /* 1: tangential over normal stiffness of the contact, times D k_c / mu */
+  double f; /* 1: net friction fraction, of mu F_c */
+} trum_brush_speed_in;
 
 /* what the determinant's sums over a cycle need */
 typedef struct {

@@ -39,6 +39,21 @@ typedef struct {
   trum_real w_A, w_B, v_A, v_B, Q, Q_rate;
 } trum_phases;
 
+/* the layer as a brush; where a bristle sticks from */
+typedef struct {
+  trum_real grip, ratio, theta, u_0, t_0;
+} trum_bristle;
+
+/* its stress and friction's limit, their integrals */
+typedef struct {
+  trum_real stress, limit, stuck, slid;
+} trum_passage;
+
+/* where a sliding bristle could begin to stick */
+typedef struct {
+  trum_real delay, span;
+} trum_turns;
+
 /* Load balance of the Winkler layer and its slope (eq. 31) */
 static inline void trum_plain_winkler_balance(const trum_balance* balance, trum_balance_values* values, trum_real theta)
     {
@@ -95,6 +110,21 @@ static inline void trum_plain_response(const trum_cycle_constants* constants, co
   trum_real* res[trum_response_n_res] = {&phases->w_A, &phases->w_B, &phases->v_A, &phases->v_B, &phases->Q,
       &phases->Q_rate};
   trum_response(arg, res, 0, 0, 0);
+}
+
+/* Stress of a bristle that sticks and friction's limit, and their integrals from where it began to */
+static inline void trum_plain_brush_passage(const trum_bristle* bristle, trum_passage* passage, trum_real u) {
+  const trum_real* arg[trum_brush_passage_n_arg] = {&bristle->grip, &bristle->ratio, &bristle->t_0, &bristle->theta, &u,
+      &bristle->u_0};
+  trum_real* res[trum_brush_passage_n_res] = {&passage->stress, &passage->limit, &passage->stuck, &passage->slid};
+  trum_brush_passage(arg, res, 0, 0, 0);
+}
+
+/* Where a sliding bristle could begin to stick */
+static inline void trum_plain_brush_turns(const trum_bristle* bristle, trum_turns* turns) {
+  const trum_real* arg[trum_brush_turns_n_arg] = {&bristle->grip, &bristle->ratio};
+  trum_real* res[trum_brush_turns_n_res] = {&turns->delay, &turns->span};
+  trum_brush_turns(arg, res, 0, 0, 0);
 }
 
 #endif

@@ -14,6 +14,7 @@ enum {
   trum_at_E,
   trum_at_E_e,
   trum_at_E_eq,
+  trum_at_E_f,
   trum_at_E_height,
   trum_at_E_m,
   trum_at_E_p,
@@ -88,6 +89,7 @@ enum {
   trum_at_d_31,
   trum_at_d_im,
   trum_at_d_re,
+  trum_at_delay,
   trum_at_drag,
   trum_at_e_im,
   trum_at_e_re,
@@ -116,7 +118,9 @@ enum {
   trum_at_fullness_root,
   trum_at_g_A,
   trum_at_g_B,
+  trum_at_grip,
   trum_at_h_e,
+  trum_at_h_f,
   trum_at_h_m,
   trum_at_h_p,
   trum_at_h_t,
@@ -141,14 +145,21 @@ enum {
   trum_at_im_B_redu_Delta_omega,
   trum_at_im_B_redu_omega_n,
   trum_at_k_N,
+  trum_at_k_T,
   trum_at_k_c,
+  trum_at_k_con,
   trum_at_k_dx,
   trum_at_k_f,
+  trum_at_k_flange,
+  trum_at_k_tooth,
   trum_at_kappa,
+  trum_at_l_f,
   trum_at_l_s,
+  trum_at_limit,
   trum_at_m,
   trum_at_mu,
   trum_at_mu_e,
+  trum_at_mu_f,
   trum_at_mu_m,
   trum_at_mu_p,
   trum_at_n,
@@ -182,6 +193,7 @@ enum {
   trum_at_quartic,
   trum_at_r_c,
   trum_at_r_t,
+  trum_at_ratio,
   trum_at_re,
   trum_at_re_A_add,
   trum_at_re_A_add_Delta_omega,
@@ -212,9 +224,14 @@ enum {
   trum_at_share,
   trum_at_sin_phi,
   trum_at_sin_theta,
+  trum_at_slid,
   trum_at_slope,
   trum_at_smeared,
+  trum_at_span,
   trum_at_step,
+  trum_at_stress,
+  trum_at_stuck,
+  trum_at_t_0,
   trum_at_tau,
   trum_at_theta,
   trum_at_theta_E,
@@ -223,6 +240,8 @@ enum {
   trum_at_time_redu,
   trum_at_torque,
   trum_at_traction,
+  trum_at_u,
+  trum_at_u_0,
   trum_at_v,
   trum_at_v_A,
   trum_at_v_B,
@@ -299,6 +318,36 @@ static inline void trum_call_foundation(trum_real* v) {
   const trum_real* arg[trum_foundation_n_arg] = {v + trum_at_k_N, v + trum_at_k_c, v + trum_at_n_j, v + trum_at_theta};
   trum_real* res[trum_foundation_n_res] = {v + trum_at_harmonic, v + trum_at_smeared, v + trum_at_printed};
   trum_foundation(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_contact_stiffness(trum_real* v) {
+  const trum_real* arg[trum_contact_stiffness_n_arg] = {v + trum_at_E_e, v + trum_at_E_f, v + trum_at_b_e, v + trum_at_b_s, v + trum_at_h_f, v + trum_at_h_t, v + trum_at_k_N, v + trum_at_k_c, v + trum_at_l_f, v + trum_at_l_s, v + trum_at_mu_f, v + trum_at_n_s};
+  trum_real* res[trum_contact_stiffness_n_res] = {v + trum_at_k_tooth, v + trum_at_k_flange, v + trum_at_k_con};
+  trum_contact_stiffness(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_tangential_stiffness(trum_real* v) {
+  const trum_real* arg[trum_tangential_stiffness_n_arg] = {v + trum_at_E_m, v + trum_at_b_m, v + trum_at_h_m, v + trum_at_mu_m};
+  trum_real* res[trum_tangential_stiffness_n_res] = {v + trum_at_k_T};
+  trum_tangential_stiffness(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_brush_coefficient(trum_real* v) {
+  const trum_real* arg[trum_brush_coefficient_n_arg] = {v + trum_at_D, v + trum_at_W, v + trum_at_k_N, v + trum_at_k_T, v + trum_at_k_c, v + trum_at_mu, v + trum_at_omega_q};
+  trum_real* res[trum_brush_coefficient_n_res] = {v + trum_at_grip, v + trum_at_R_v};
+  trum_brush_coefficient(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_brush_passage(trum_real* v) {
+  const trum_real* arg[trum_brush_passage_n_arg] = {v + trum_at_grip, v + trum_at_ratio, v + trum_at_t_0, v + trum_at_theta, v + trum_at_u, v + trum_at_u_0};
+  trum_real* res[trum_brush_passage_n_res] = {v + trum_at_stress, v + trum_at_limit, v + trum_at_stuck, v + trum_at_slid};
+  trum_brush_passage(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_brush_turns(trum_real* v) {
+  const trum_real* arg[trum_brush_turns_n_arg] = {v + trum_at_grip, v + trum_at_ratio};
+  trum_real* res[trum_brush_turns_n_res] = {v + trum_at_delay, v + trum_at_span};
+  trum_brush_turns(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_drive(trum_real* v) {

@@ -64,6 +64,8 @@ WORDS = {
     "resonance": ("quartic", "eq6", "printed", "euler"),
     "foundation": ("harmonic", "smeared", "printed", "none"),
     "amplitude": ("measured", "forced"),
+    "compliance": ("layer", "flange"),
+    "tangential": ("rigid", "brush"),
 }
 
 

@@ -19,7 +19,14 @@ MOTOR_TEXT = files("trum_sym").joinpath("data/trum60.toml").read_text("utf-8")
 VOLTAGE_LINE = re.search(r"^voltage .*$", MOTOR_TEXT, re.MULTILINE)[0]
 WITHOUT_PUBLISHED = MOTOR_TEXT[: MOTOR_TEXT.index("[[published]]")]
 NUMERIC_FIELDS = tuple(ts.Drive().numbers())
-MEASURED_NAMES = ("resonance_frequency", "amplitude", "neutral_axis", "wavenumber", "layer_stiffness")
+MEASURED_NAMES = (
+    "resonance_frequency",
+    "amplitude",
+    "neutral_axis",
+    "wavenumber",
+    "layer_stiffness",
+    "contact_stiffness",
+)
 PARAMETER_NAMES = (*dict(MOTOR.parameters()), *MEASURED_NAMES)
 POINT_NUMBERS = tuple(name for name, value in ts.evaluate(MOTOR).as_dict().items() if isinstance(value, float))
 SEARCH = settings(
@@ -44,6 +51,8 @@ CHOICES = {
     "resonance": ("quartic", "eq6", "printed", "euler"),
     "foundation": ("harmonic", "smeared", "printed", "none"),
     "amplitude": ("measured", "forced"),
+    "compliance": ("layer", "flange"),
+    "tangential": ("rigid", "brush"),
 }
 
 

@@ -142,6 +142,7 @@ GOOD = {
     "evaluate": (ts.evaluate, {"motor": MOTOR, "drive": ts.Drive()}),
     "simulate": (ts.simulate, {"motor": MOTOR, "drive": ts.Drive(), "samples_per_period": 4}),
     "sensitivities": (ts.sensitivities, {"motor": MOTOR, "drive": ts.Drive()}),
+    "characteristics": (ts.characteristics, {"motor": MOTOR, "drive": ts.Drive(), "points": 2, "tolerance": 1e-2}),
     "sweep": (ts.sweep, {"motor": MOTOR, "outputs": ["amplitude"], "prepressure": [170.0, 180.0]}),
     "tolerance": (
         ts.tolerance,
@@ -167,7 +168,7 @@ GOOD = {
 }
 NOT_ASKED = ("progress",)  # any truth will do
 EXTRA = {
-    "evaluate": ("contact", "resonance", "foundation", "amplitude"),
+    "evaluate": ("contact", "resonance", "foundation", "amplitude", "compliance", "tangential"),
     "sweep": ("frequency_difference", "contact_radius", "phase_lead", "contact", "amplitude", "sampling_period"),
     "calibrate": ("contact",),
 }

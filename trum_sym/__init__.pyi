@@ -19,6 +19,7 @@ from .model.operating_point import evaluate as evaluate
 from .model.sensitivities import sensitivities as sensitivities
 from .optimiser.result import Optimum as Optimum
 from .optimiser.search import optimize as optimize
+from .studies.characteristics import characteristics as characteristics
 from .studies.pareto import pareto as pareto
 from .studies.robust import robust as robust
 from .studies.speed_table import speed_table as speed_table
@@ -40,6 +41,7 @@ __all__ = [
     "UnfinishedError",
     "ValidityWarning",
     "calibrate",
+    "characteristics",
     "evaluate",
     "load_motor",
     "optimize",

@@ -135,6 +135,9 @@ _PLAIN_STRUCTS = (
     ),
     _struct("trum_gates", "gates", "g_A g_B", "which of the phases is driven, 1 or 0"),
     _struct("trum_phases", "phases", "w_A w_B v_A v_B Q Q_rate", "displacement and velocity of both, determinant"),
+    _struct("trum_bristle", "bristle", "grip ratio theta u_0 t_0", "the layer as a brush; where a bristle sticks from"),
+    _struct("trum_passage", "passage", "stress limit stuck slid", "its stress and friction's limit, their integrals"),
+    _struct("trum_turns", "turns", "delay span", "where a sliding bristle could begin to stick"),
 )
 _PLAIN_CALLS = (
     Call("trum_winkler_balance", ("trum_balance", "trum_balance_values"), "theta"),
@@ -142,6 +145,8 @@ _PLAIN_CALLS = (
     Call("trum_region_phasors", ("trum_cycle_constants", "trum_free_motion"), array=True),
     Call("trum_regions_slopes", ("trum_cycle_constants", "trum_free_motion", "trum_free_motion_slopes"), array=True),
     Call("trum_response", ("trum_cycle_constants", "trum_free_motion", "trum_gates", "trum_phases"), "tau"),
+    Call("trum_brush_passage", ("trum_bristle", "trum_passage"), "u"),
+    Call("trum_brush_turns", ("trum_bristle", "trum_turns")),
 )
 
 
@@ -278,6 +283,8 @@ _LISTS = {
     "TRUM_CYCLE_IN": ("a drive cycle", _CYCLE),
     "TRUM_SIZE_IN": ("amplitude and geometry of its waves", _SIZE),
     "TRUM_HALF_ANGLE_IN": ("what the Winkler layer's half-angle depends on", _named("F_c k_N W k_c n_j")),
+    "TRUM_BRUSH_IN": ("what the friction of a brush depends on", _named("theta grip ratio")),
+    "TRUM_BRUSH_SPEED_IN": ("what the rotor's speed over a brush depends on", _named("theta grip f")),
     "TRUM_CYCLE_SUMS_IN": ("what the determinant's sums over a cycle need", (*_CYCLE, _PANELS)),
     "TRUM_CYCLE_SUMS_OUT": ("what a cycle's determinant sums to", _SUMS),
     "TRUM_CYCLE_RESPONSE_IN": ("an instant of a cycle", (*_named("t"), *_CYCLE, *_SIZE)),
@@ -294,6 +301,8 @@ _LISTS = {
 }
 # Lists that are structs as well
 _STRUCTS = (
+    "TRUM_BRUSH_IN",
+    "TRUM_BRUSH_SPEED_IN",
     "TRUM_CYCLE_SUMS_IN",
     "TRUM_CYCLE_SUMS_OUT",
     "TRUM_CYCLE_RESPONSE_IN",

@@ -12,7 +12,19 @@ from functools import cache
 
 import sympy as sp
 
-from derivations import amplitude, beam, contact, determinant, phases, rotor, section, square_roots, surface
+from derivations import (
+    amplitude,
+    beam,
+    brush,
+    contact,
+    determinant,
+    flange,
+    phases,
+    rotor,
+    section,
+    square_roots,
+    surface,
+)
 from derivations.nomenclature import CONSTANTS, NOMENCLATURE, sym
 
 __all__ = ["Kernel", "kernels"]
@@ -119,6 +131,41 @@ def _contact() -> list[Kernel]:
         ),
         Kernel("trum_hertz_half_angle", "Hertz half-angle (eqs. 25, 26)", {"theta": theta}, {"theta": "rad"}),
         Kernel("trum_foundation", "Foundation stiffness by level", contact.foundation(), units),
+        Kernel(
+            "trum_contact_stiffness",
+            "Stiffness of layer, tooth and rotor flange in series",
+            flange.contact_stiffness(),
+            dict.fromkeys(flange.contact_stiffness(), "N/m^2"),
+        ),
+        Kernel(
+            "trum_tangential_stiffness",
+            "Stiffness of the layer in shear along the circumference",
+            {"k_T": flange.tangential_stiffness()},
+            {"k_T": "N/m^2"},
+        ),
+    ]
+
+
+def _brush() -> list[Kernel]:
+    return [
+        Kernel(
+            "trum_brush_coefficient",
+            "Grip of the layer as a brush, and the surface speed's amplitude of a plain wave (eqs. 16, 20)",
+            {"grip": brush.coefficient(), "R_v": brush.speed_amplitude()},
+            {"grip": "1", "R_v": "m/s"},
+        ),
+        Kernel(
+            "trum_brush_passage",
+            "Stress of a bristle that sticks and friction's limit, and their integrals from where it began to",
+            brush.passage(),
+            {"stress": "1", "limit": "1", "stuck": "rad", "slid": "rad"},
+        ),
+        Kernel(
+            "trum_brush_turns",
+            "Where a sliding bristle could begin to stick",
+            brush.turns(),
+            {"delay": "rad", "span": "rad"},
+        ),
     ]
 
 
@@ -378,4 +425,6 @@ def _surface() -> list[Kernel]:
 @cache
 def kernels() -> tuple[Kernel, ...]:
     """All kernels, in the order of the manifest."""
-    return tuple(_section() + _resonance() + _amplitude() + _contact() + _cycle() + _rotor() + _slopes() + _surface())
+    return tuple(
+        _section() + _resonance() + _amplitude() + _contact() + _brush() + _cycle() + _rotor() + _slopes() + _surface()
+    )

@@ -10,7 +10,7 @@ from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import DRIVE_DOMAINS, LEAD, STARTS, Drive
 from trum_sym.inputs.motor import SPECS
 from trum_sym.inputs.motor_file import load_motor
-from trum_sym.model.levels import AMPLITUDES, CONTACTS, FOUNDATIONS, RESONANCES
+from trum_sym.model.levels import AMPLITUDES, COMPLIANCES, CONTACTS, FOUNDATIONS, RESONANCES, TANGENTIALS
 from trum_sym.quantities import ERRORS, QUANTITIES
 
 __all__ = ["headers"]
@@ -21,6 +21,8 @@ _CHOICES = {
     "resonance": RESONANCES,
     "foundation": FOUNDATIONS,
     "amplitude": AMPLITUDES,
+    "compliance": COMPLIANCES,
+    "tangential": TANGENTIALS,
 }
 # Fields of the drive by the symbols of the equations; the frequency difference becomes Delta_omega
 _DRIVE_SYMBOLS = {

@@ -18,6 +18,9 @@ _ELEMENTARY: dict[type, Callable[..., ca.SX]] = {
     sp.sin: ca.sin,
     sp.cos: ca.cos,
     sp.exp: ca.exp,
+    sp.sinh: ca.sinh,
+    sp.cosh: ca.cosh,
+    sp.atan: ca.atan,
     sp.atan2: ca.atan2,
     sp.Abs: ca.fabs,
 }

@@ -671,6 +671,46 @@ def _reverse() -> list[Any]:
     return [2 * _v("mu") * _v("F_c")]
 
 
+@_route("rotor-flange")
+def _flange() -> list[Any]:
+    """The plate's edge by Taylor's series of its equation, from two clamped starts; the half-angle by bisection."""
+    p = motor()
+    k, nu, length = stator()["k_c"], p["mu_f"], p["l_f"]
+
+    def slopes(_: Any, w: Any) -> list[Any]:  # noqa: ANN401
+        return [w[1], w[2], w[3], 2 * k**2 * w[2] - k**4 * w[0]]
+
+    ends = [mp.odefun(slopes, 0, [0, 0, *start])(length) for start in ((1, 0), (0, 1))]
+    moments = [w[2] - nu * k**2 * w[0] for w in ends]
+    forces = [(2 - nu) * k**2 * w[1] - w[3] for w in ends]
+    share = -moments[0] / moments[1]
+    bending = p["E_f"] * p["h_f"] ** 3 / 12 / (1 - nu**2)
+    plate = bending * (forces[0] + share * forces[1]) / (ends[0][0] + share * ends[1][0])
+    tooth = p["E_e"] * p["b_e"] * (p["l_s"] / p["n_s"] - p["b_s"]) / (p["l_s"] / p["n_s"]) / p["h_t"]
+    layer = p["E_m"] * p["b_m"] / p["h_m"]
+    whole = 1 / (1 / plate + 1 / tooth + 1 / layer)
+    scale = 2 * p["n_j"] * _v("W") / (k * _v("F_c"))
+
+    def angle(stiffness: Any) -> Any:  # noqa: ANN401
+        low, high = mp.mpf(0), +mp.pi
+        for _ in range(80):
+            middle = (low + high) / 2
+            carried = scale * stiffness * (mp.sin(middle) - middle * mp.cos(middle))
+            low, high = (middle, high) if carried < 1 else (low, middle)
+        return low
+
+    return [
+        1e3 * p["h_f"],
+        1e3 * length,
+        plate / 1e9,
+        tooth / 1e9,
+        layer / 1e9,
+        whole / 1e9,
+        angle(whole),
+        angle(layer),
+    ]
+
+
 @_route("rotor-orbit")
 def _orbit() -> list[Any]:
     """Two rotors through a lap by the midpoint rule, friction summed point by point."""

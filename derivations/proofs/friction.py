@@ -187,7 +187,71 @@ _PLACES: dict[str, tuple[tuple[float, float], tuple[float, float], tuple[float, 
 _LIMIT = "R_v R_v_rate p_larger p_smaller step v v_rate"
 _INSIDE = "64 states: each of both points inside, beside, far from the contact, about half a turn"
 _BEYOND = "16 random states with a rotor beyond the surface's speeds"
+
+
+def _grip(p: Point, m: Maths) -> Found:
+    """Stress of a bristle on a held rotor, carried from the side of the wave to its top, over friction's scale."""
+    quarter = m.pi / 2 / p.omega_q
+    fastest = p.omega_q * (p.D * p.k_c * p.W)  # a point of the surface goes D k_c W to either side
+    carried = m.integral(lambda t: fastest * m.cos(p.omega_q * t), -quarter, 0 * quarter)
+    return {"grip": p.k_T * carried / (p.mu * p.k_N * p.W), "R_v": fastest}
+
+
+def _passage(p: Point, m: Maths) -> Found:
+    """The stress grows with the slip; both are integrated over the way."""
+
+    def stress(at: Number) -> Number:
+        return p.t_0 + m.integral(lambda s: p.grip * (m.cos(s) - p.ratio), p.u_0, at)
+
+    def limit(at: Number) -> Number:
+        return m.cos(at) - m.cos(p.theta)
+
+    return {
+        "stress": stress(p.u),
+        "limit": limit(p.u),
+        "stuck": m.integral(stress, p.u_0, p.u),
+        "slid": m.integral(limit, p.u_0, p.u),
+    }
+
+
+def _turns(p: Point, m: Maths) -> Found:  # noqa: ARG001
+    """Half of the zeros' sum and difference of what grows faster, stress or limit; none: all the way or nowhere."""
+    whole = mp.mpc(p.grip, 1)  # grip cos u + sin u is its part along exp(i u)
+    share = p.grip * p.ratio / abs(whole)
+    span = mp.mpf(0) if share >= 1 else +mp.pi if share <= -1 else mp.acos(share)
+    return {"delay": mp.arg(whole), "span": span}
+
+
 PROOFS = (
+    Proof(
+        "trum_brush_coefficient",
+        "grip R_v",
+        "16 36",
+        "stress of a bristle that a quarter period carries along",
+        _grip,
+        grid("D W k_N k_T k_c mu omega_q"),
+        "random points around TRUM-60",
+        symbolic=True,
+    ),
+    Proof(
+        "trum_brush_passage",
+        "stress limit stuck slid",
+        "30 36",
+        "slip and stress integrated over the way",
+        _passage,
+        grid("grip ratio t_0 theta u u_0"),
+        "random places and states",
+        symbolic=True,
+    ),
+    Proof(
+        "trum_brush_turns",
+        "delay span",
+        "36",
+        "argument and part of a complex number; all the way or nowhere beyond",
+        _turns,
+        grid("grip ratio", 12),
+        "random states, some in which a bristle slides all the way",
+    ),
     Proof(
         "trum_friction",
         "f f_v p_1 p_2",

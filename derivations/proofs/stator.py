@@ -153,6 +153,37 @@ def _proof(
     return Proof(kernel, outputs, rests_on, statement, wanted, grid(names), _ANYWHERE, symbolic)
 
 
+def _edge(p: Point) -> Number:
+    """Deflection of a plate's edge under a unit load: the exponential carries its state (w, w', w'', w''') across.
+
+    The plate's equation for w cos(k x) is w'''' - 2 k^2 w'' + k^4 w = 0.  Clamped at one edge; at the other no moment,
+    and the shear and the change of twist along the edge balance the load.
+    """
+    k, nu = p.k_c, p.mu_f
+    bending = p.E_f * p.h_f**3 / 12 / (1 - nu) / (1 + nu)
+    across = mp.expm(mp.matrix([[0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1], [-(k**4), 0, 2 * k**2, 0]]) * p.l_f)
+    moment = [across[2, j] - nu * k**2 * across[0, j] for j in (2, 3)]
+    force = [-bending * (across[3, j] - (2 - nu) * k**2 * across[1, j]) for j in (2, 3)]
+    size = moment[0] * force[1] - moment[1] * force[0]
+    start = -moment[1] / size, moment[0] / size  # w'' and w''' at the clamped edge
+    return across[0, 2] * start[0] + across[0, 3] * start[1]
+
+
+def _series(p: Point, m: Maths) -> Found:  # noqa: ARG001
+    """A unit load per length shortens layer, tooth and flange, and their approaches add."""
+    pitch = p.l_s / p.n_s
+    tooth = p.h_t / (p.E_e * p.b_e * (pitch - p.b_s) / pitch)  # one strut a pitch
+    flange = _edge(p)
+    return {"k_tooth": 1 / tooth, "k_flange": 1 / flange, "k_con": 1 / (1 / p.k_N + tooth + flange)}
+
+
+def _sheared(p: Point, m: Maths) -> Found:  # noqa: ARG001
+    """Shear is a tension and an equal pressure across it, at 45 degrees: the angle is twice the strain of either."""
+    stress = p.E_m / 1000
+    strain = (stress + p.mu_m * stress) / p.E_m
+    return {"k_T": stress * p.b_m / (2 * strain * p.h_m)}
+
+
 _BEAM = "A E G I_z k_c k_dx k_f kappa rho"
 PROOFS = (
     _proof(
@@ -207,6 +238,23 @@ PROOFS = (
         "A C_f D F_c I_z U_s b_p beta d_31 h_e h_p k_c omega_n omega_q rho s_11E varsigma xi",
     ),
     _proof("trum_layer_stiffness", "k_N", "30", "force of a strip pressed by a thousandth", _layer, "E_m b_m h_m"),
+    _proof(
+        "trum_contact_stiffness",
+        "k_tooth k_flange k_con",
+        "30 rotor-flange",
+        "approaches of layer, strut and plate under a unit load, the plate's by the exponential of its equation",
+        _series,
+        "E_e E_f b_e b_s h_f h_t k_N k_c l_f l_s mu_f n_s",
+        symbolic=False,
+    ),
+    _proof(
+        "trum_tangential_stiffness",
+        "k_T",
+        "30",
+        "shear as tension and pressure at 45 degrees",
+        _sheared,
+        "E_m b_m h_m mu_m",
+    ),
     _proof(
         "trum_winkler_balance",
         "residual slope",

@@ -33,6 +33,22 @@ def test_the_docs_show_what_the_examples_print(example):
     assert lines(shown("docs/operating-point.md", f"examples/{example}")) == lines(done.stdout)
 
 
+def test_the_characteristics_are_what_their_example_prints():
+    """To the digits shown, which are few; the last may differ where another processor rounds otherwise."""
+    done = subprocess.run(
+        [sys.executable, ROOT / "examples" / "characteristics.py"],
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        check=True,
+    )
+    theirs, ours = (
+        skeleton(text) for text in (shown("docs/characteristics.md", "examples/characteristics.py"), done.stdout)
+    )
+    assert theirs[0].strip() == ours[0].strip()
+    assert ours[1] == pytest.approx(theirs[1], rel=0.02)
+
+
 def figure(line):
     """A row without its figure and error if it has both, the figure, the error."""
     row = re.match(

@@ -121,6 +121,12 @@ static void edges(void) {
   for (i = -1; i <= TRUM_STATUSES; ++i)
     expect((trum_status_text(i) != 0) == (i >= 0 && i < TRUM_STATUSES), "status texts");
 
+  expect(!(trum_brush_friction(NAN, 1, 0) <= 1) && !(trum_brush_friction(0, 1, 0) <= 1), "brush without a contact");
+  expect(!(trum_brush_friction(4, 1, 0) <= 1) && !(trum_brush_friction(1, 0, 0) <= 1), "brush all round, of no grip");
+  expect(!(trum_brush_friction(1, 1, (trum_real)NAN) <= 1) && !(trum_brush_speed(4, 1, 0) <= 2), "brush at no speed");
+  expect(trum_brush_friction(1, 1, 2) == -1 && trum_brush_friction(1, 1, -2) == 1, "brush that slides all the way");
+  expect(trum_brush_friction(3, (trum_real)0.1, (trum_real)-9.9) <= 1, "brush that slides at once");
+  expect(trum_brush_speed_error(1, 1, (trum_real)(1e-16 - 1), -1) > 0, "brush at its most friction");
   expect(trum_half_angle(NAN, 1, 1, 1, 1) != trum_half_angle(NAN, 1, 1, 1, 1), "half-angle at no force");
   expect(trum_half_angle(1, 1, NAN, 1, 1) != trum_half_angle(1, 1, NAN, 1, 1), "half-angle at no amplitude");
   for (contact = 0; contact < 2; ++contact) { /* orbits of several points, of none, and with slopes */

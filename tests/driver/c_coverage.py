@@ -30,6 +30,7 @@ ONE_LANE = "one lane: the batches of the Python package take it"
 LAPS = "a limit of the search for the orbit that no point tried has met"
 NEVER = {
     "trum_point.h": {"point->speed_volatility_error": "no mean speed that was tried has an open sign"},
+    "trum_brush.h": {"for (k = 0; k < 16": "a bristle sticks and slides three times at most"},
     "trum_cycle.h": {"for (i = 0; i < 200": "a bracket halved this often is closed before"},
     "orbit": {
         "static int mask_in_lane(": ONE_LANE,
@@ -125,6 +126,23 @@ def edges() -> list[str]:
         "frequency_difference=-3000 phase_lead=-1 switching_phase=0.5 load_torque=-0.05",
         "resonance_frequency=39703 amplitude=5.5e-6 neutral_axis=2.9e-3 wavenumber=300 layer_stiffness=3e10",
         "resonance_frequency=39703 frequency_difference=3000 amplitude=5.5e-6 foundation=none",
+        "compliance=flange load_torque=0.05",
+        "contact_stiffness=2e9 load_torque=0.05",
+        *(f"compliance=flange flange_{x}=0" for x in ("thickness", "length", "young_modulus", "poisson_ratio")),
+        "compliance=flange flange_young_modulus=1e-300",
+        "compliance=flange contact=hertz",
+        "compliance=flange contact_stiffness=2e9 load_torque=0.05",
+        "on_periods=20 tangential=brush load_torque=-2",
+        "flange_thickness=4.5e-3",
+        "flange_length=0.03",
+        *(f"on_periods=20 tangential=brush load_torque={x}" for x in (0, 0.4, 1.19, 1.1925, 2, -0.4)),
+        *(f"on_periods=20 tangential=brush tangential_stiffness={x} load_torque=0.8" for x in (1e3, 1e9, 1e25)),
+        "on_periods=20 tangential=brush layer_stiffness=1e9 load_torque=1.19 amplitude=2e-6 tangential_stiffness=1e8",
+        "on_periods=20 tangential=brush contact=hertz",
+        "on_periods=20 tangential=brush start=rest",
+        "on_periods=20 tangential=brush friction_coefficient=0",
+        "on_periods=20 tangential=brush prepressure=5000",  # the whole wave in contact
+        "tangential=brush",
         "tooth_height=4.5e-3",
         "fit_prepressure_min=220",
         "slot_width=2.7e-3",
@@ -202,6 +220,7 @@ def script() -> str:
     lines = [f"point {line}" for line in ("", *levels(), *edges(), *wild(120), *wild(40, 7, (-14, 5)), *limits(60))]
     lines += friction()
     lines += [f"simulate {count} load_torque=0.05 {more}" for count in (0, 1, 1000) for more in ("", "contact=hertz")]
+    lines += ["simulate 100 load_torque=0.05 on_periods=20 tangential=brush"]
     lines += ["simulate 700 load_torque=0.05 start=rest tolerance=1e-6", "simulate 3 load_torque=2", "edges"]
     return "\n".join(lines) + "\n"
 

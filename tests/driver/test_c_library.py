@@ -33,6 +33,9 @@ DRIVES = [
     "load_torque=0.1 contact=hertz amplitude=forced",
     "load_torque=0.05 resonance_frequency=39703 damping_ratio=0.008 rotor_inertia=1e-3",
     "on_periods=20 load_torque=0.1",
+    "load_torque=0.05 compliance=flange",
+    "on_periods=20 load_torque=0.3 contact_stiffness=2e9 amplitude=forced frequency_difference=500",
+    "on_periods=20 load_torque=-0.3 phase_lead=-1 compliance=flange tangential=brush flange_thickness=1.4e-3",
     "load_torque=2",
 ]
 
@@ -87,7 +90,7 @@ def python(arguments, tolerance):
     levels, drive, motor = {}, {}, {}
     for argument in arguments:
         name, value = argument.split("=")
-        if name in ("contact", "resonance", "foundation") or value == "forced":
+        if name in ("contact", "resonance", "foundation", "compliance", "tangential") or value == "forced":
             levels[name] = value
         elif name == "start":
             drive[name] = value

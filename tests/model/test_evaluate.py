@@ -22,7 +22,8 @@ JSON_KEYS = [
 ]
 OPTIONS = [
     *("motor", "set", "prepressure", "frequency-difference", "periods", "on-periods", "load-torque", "start"),
-    *("switching-phase", "phase-lead", "contact", "resonance", "foundation", "amplitude", "sampling-period", "json"),
+    *("switching-phase", "phase-lead", "contact", "resonance", "foundation", "amplitude", "compliance", "tangential"),
+    *("sampling-period", "json"),
 ]
 
 
@@ -114,7 +115,7 @@ def test_motor_and_drive_are_frozen(trum60):
 
 def test_every_parameter_of_the_motor_has_a_unit_and_a_source(trum60):
     named = dict(trum60.parameters())
-    assert len(named) == 37
+    assert len(named) == 41
     for name, parameter in named.items():
         assert parameter.unit, name
         assert parameter.source, name

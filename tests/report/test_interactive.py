@@ -14,6 +14,7 @@ import trum_sym as ts
 from derivations.codegen import wasm
 from trum_sym.console import main
 from trum_sym.inputs.drive import Drive
+from trum_sym.model.levels import LEVEL_NAMES
 from trum_sym.quantities import QUANTITIES
 from trum_sym.report.interactive import fragment
 
@@ -23,6 +24,7 @@ SETTINGS = [
     {"prepressure": 165, "frequency_difference": 2800, "on_periods": 12},
     {"start": "rest", "phase_lead": -1, "load_torque": 0.1},
     {"start": "steady", "frequency_difference": -1500, "load_torque": -0.05, "prepressure": 210},
+    {"compliance": "flange", "load_torque": 0.05, "frequency_difference": 2000},
     {"periods": 31, "on_periods": 22, "load_torque": 0, "frequency_difference": 1234.5},
 ]
 
@@ -78,7 +80,7 @@ def test_it_asks_nothing_of_any_network(text):
 def test_every_control_sets_a_field_of_the_drive_and_every_cell_shows_a_figure(text):
     settings = set(re.findall(r'data-setting="(\w+)"', text))
     assert {"prepressure", "frequency_difference", "on_periods", "load_torque", "start"} <= settings
-    assert settings <= {*Drive().numbers(), "start"}
+    assert settings <= {*Drive().numbers(), "start", *LEVEL_NAMES}
     cells = dict(re.findall(r'data-figure="(\w+)"(?: data-factor="([\d.e]+)")?></td><td>', text))
     assert {"mean_speed", "speed_volatility", "q_average", "contact_fraction"} <= set(cells)
     for name, factor in cells.items():
@@ -153,7 +155,7 @@ def enter(browser, settings):
     from selenium.webdriver.support.ui import Select
 
     for name, value in settings.items():
-        if name in ("start", "phase_lead"):
+        if name in ("start", "phase_lead", *LEVEL_NAMES):
             Select(browser.find_element(By.CSS_SELECTOR, f"select[data-setting={name}]")).select_by_value(str(value))
         else:
             field = browser.find_element(By.CSS_SELECTOR, f"input[type=number][data-setting={name}]")
@@ -165,7 +167,9 @@ def enter(browser, settings):
 def evaluated(settings):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ts.ValidityWarning)
-        return ts.evaluate(ts.load_motor(), Drive(**settings), tolerance=TOLERANCE).as_dict()
+        levels = {name: value for name, value in settings.items() if name in LEVEL_NAMES}
+        drive = {name: value for name, value in settings.items() if name not in LEVEL_NAMES}
+        return ts.evaluate(ts.load_motor(), Drive(**drive), tolerance=TOLERANCE, **levels).as_dict()
 
 
 @pytest.mark.browser

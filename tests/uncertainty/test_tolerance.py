@@ -226,10 +226,14 @@ def test_a_volatility_without_a_variance_is_said_to_be_one():
 
 def test_the_motor_file_says_what_is_uncertain():
     found = ts.tolerance(MOTOR.with_values({"piezo_width": 7e-3}), SHORT, samples=64)
-    assumed = {name for name, p in MOTOR.parameters() if p.source == "assumed"}
+    every = {name for name, p in MOTOR.parameters() if p.source == "assumed"}
+    flange = {"flange_thickness", "flange_length", "flange_young_modulus", "flange_poisson_ratio"}
+    assumed = every - flange  # which the layer alone leaves out
     assert set(found.distributions) == assumed - {"piezo_width"}
     more = ts.tolerance(MOTOR, SHORT, samples=64, parameters={"motor": None, "load_torque": "normal:0.05:0.01"})
     assert set(more.distributions) == assumed | {"load_torque"}
+    whole = ts.tolerance(MOTOR, SHORT, samples=64, compliance="flange")
+    assert set(whole.distributions) == every
     assert "no effect at any point: piezo_strain_constant, piezo_compliance, curvature_radius" in as_text(found)
 
 

@@ -156,7 +156,7 @@ BROWSER_EXPORT(solve) int browser_solve(int count) {
   if (status != TRUM_OK && status != TRUM_RUNAWAY && status != TRUM_NOT_CONVERGED) return status;
   browser_vibrate(&in, count);
   if (status == TRUM_RUNAWAY) return status;
-  trum_history(&in, &out, speed + 1, distance, count);
+  trum_ride(&drive, &point, &in, &out, speed + 1, distance, count);
   for (i = 1; i <= count; ++i) speed[i] /= (double)motor.contact_radius;
   speed[0] = speed[count]; /* the orbit repeats itself */
   return status;

@@ -2,6 +2,7 @@
 #ifndef TRUM_POINT_H
 #define TRUM_POINT_H
 
+#include "trum_brush.h"
 #include "trum_cycle.h"
 #include "trum_orbit.h"
 #include "trum_values.h"
@@ -52,6 +53,26 @@ static inline int trum_inside(double x, double low, double high, int low_open, i
   return !integer || floor(x) == x;
 }
 
+/* A level that does not go with another, the motor or the drive; -1 if all is well. */
+static inline int trum_unlike_levels(const struct trum_motor* motor, const struct trum_drive* drive) {
+  const int hertz = drive->contact == TRUM_CONTACT_HERTZ;
+  if (drive->compliance == TRUM_COMPLIANCE_FLANGE) {
+    if (hertz) return trum_drive_compliance;
+    if (!(motor->contact_stiffness > 0)) {
+      if (!(motor->flange_thickness > 0)) return trum_motor_flange_thickness;
+      if (!(motor->flange_length > 0)) return trum_motor_flange_length;
+      if (!(motor->flange_young_modulus > 0)) return trum_motor_flange_young_modulus;
+      if (!(motor->flange_poisson_ratio > 0)) return trum_motor_flange_poisson_ratio;
+    }
+  }
+  if (drive->tangential == TRUM_TANGENTIAL_BRUSH) {
+    if (hertz || drive->start == TRUM_START_REST) return trum_drive_tangential;
+    if (drive->on_periods < drive->periods) return trum_drive_tangential;
+    if (!(motor->friction_coefficient > 0)) return trum_motor_friction_coefficient;
+  }
+  return -1;
+}
+
 /* The first field outside its domain, or one that does not fit another; -1 if all is well. */
 static inline int trum_wrong_field(const struct trum_motor* motor, const struct trum_drive* drive) {
   int field = 0;
@@ -76,11 +97,13 @@ static inline int trum_wrong_field(const struct trum_motor* motor, const struct 
   if (!trum_inside((double)drive->tolerance, TRUM_FINEST_TOLERANCE * (1.0 - 1e-7), 1e-2 * (1.0 + 1e-7), 0, 0, 0))
     return field;
   if (motor->tooth_height >= motor->beam_thickness) return trum_motor_tooth_height;
+  if (motor->flange_thickness >= motor->beam_thickness) return trum_motor_flange_thickness;
+  if (motor->flange_length >= motor->radius) return trum_motor_flange_length;
   if (motor->fit_prepressure_min >= motor->fit_prepressure_max) return trum_motor_fit_prepressure_min;
   if (motor->tooth_count * motor->slot_width >= motor->perimeter) return trum_motor_slot_width;
   if (2 * drive->on_periods < drive->periods || drive->on_periods > drive->periods) return trum_drive_on_periods;
   if (!(drive->phase_lead * drive->phase_lead > 0)) return trum_drive_phase_lead;
-  return -1;
+  return trum_unlike_levels(motor, drive);
 }
 
 static inline int trum_is_size(trum_real x) { return x - x == 0 && x > 0; }
@@ -108,6 +131,16 @@ static inline void trum_resonate(const struct trum_motor* motor, const struct tr
   v[trum_at_omega_q] = v[trum_at_omega_n] + v[trum_at_Delta_omega];
 }
 
+/* Let k_N be the stiffness of the whole contact, as measured or in series; 0 if it has no size. */
+static inline int trum_contact_of(const struct trum_motor* motor, const struct trum_drive* drive, trum_real* v) {
+  if (!(motor->contact_stiffness > 0)) {
+    if (drive->compliance != TRUM_COMPLIANCE_FLANGE) return 1;
+    trum_call_contact_stiffness(v);
+  }
+  v[trum_at_k_N] = v[trum_at_k_con];
+  return trum_is_size(v[trum_at_k_con]);
+}
+
 /* Section, resonance and amplitude under prepressure. */
 static inline enum trum_status trum_stator(const struct trum_motor* motor, const struct trum_drive* drive,
                                            struct trum_point* point, trum_real* v) {
@@ -118,6 +151,7 @@ static inline enum trum_status trum_stator(const struct trum_motor* motor, const
   if (!(motor->neutral_axis > 0)) trum_call_neutral_axis(v);
   if (!(motor->wavenumber > 0)) trum_call_wavenumber(v);
   if (!(motor->layer_stiffness > 0)) trum_call_layer_stiffness(v);
+  if (!trum_contact_of(motor, drive, v)) return TRUM_NO_SIZE;
   trum_call_section(v);
   point->outside_fit = modelled && (drive->prepressure < motor->fit_prepressure_min ||
                                     drive->prepressure > motor->fit_prepressure_max);
@@ -189,6 +223,47 @@ static inline void trum_orbit_of(const struct trum_drive* drive, trum_real* v, t
   in->tolerance = (double)drive->tolerance, in->held = 1.0;
 }
 
+/* The steady speed over a brush: what trum_orbits finds of a rigid layer; theta pi leaves it NaN. */
+static inline void trum_brush_orbit(const struct trum_motor* motor, const struct trum_drive* drive, trum_real* v,
+                                    trum_orbit_out* out) {
+  const double side = (double)drive->phase_lead;
+  trum_real ratio, error, most, wanted;
+  memset(out, 0, sizeof *out);
+  v[trum_at_theta] = trum_half_angle(v[trum_at_F_c], v[trum_at_k_N], v[trum_at_W], v[trum_at_k_c], v[trum_at_n_j]);
+  if (!(motor->tangential_stiffness > 0)) trum_call_tangential_stiffness(v);
+  trum_call_brush_coefficient(v);
+  v[trum_at_f] = 1;
+  trum_call_stall_torque(v);
+  most = v[trum_at_torque];
+  wanted = drive->phase_lead * drive->load_torque / most;
+  ratio = trum_brush_speed(v[trum_at_theta], v[trum_at_grip], wanted);
+  error = trum_brush_speed_error(v[trum_at_theta], v[trum_at_grip], wanted, ratio);
+  out->mean = out->low = out->high = out->start = side * (double)(ratio * v[trum_at_R_v]);
+  out->mean_error = out->low_error = out->high_error = (double)(error * v[trum_at_R_v]);
+  out->contact = (double)v[trum_at_theta] / 3.14159265358979323846;
+  out->held = side * (double)trum_brush_friction(v[trum_at_theta], v[trum_at_grip], 0);
+  out->error = (double)error, out->contact_error = out->held_error = (double)trum_brush_rounding(v[trum_at_grip]);
+  if (!(wanted > -1 && wanted < 1)) {
+    out->flags = trum_runaway, out->variance = out->deviation_error = NAN;
+  } else if ((double)error <= (double)drive->tolerance) {
+    out->flags = trum_converged;
+  }
+}
+
+/* Speed and way of the rim at count equal times of a cycle, the last at its end. */
+static inline void trum_ride(const struct trum_drive* drive, const struct trum_point* point, const trum_orbit_in* in,
+                             const trum_orbit_out* out, double* speed, double* distance, long count) {
+  long i;
+  if (drive->tangential != TRUM_TANGENTIAL_BRUSH) {
+    trum_history(in, out, speed, distance, count);
+    return;
+  }
+  for (i = 0; i < count; ++i) {
+    speed[i] = out->mean;
+    distance[i] = out->mean * (double)point->cycle_time * (double)(i + 1) / (double)count;
+  }
+}
+
 static inline enum trum_status trum_solve_point(const struct trum_motor* motor, const struct trum_drive* drive,
                                                 struct trum_point* point, trum_orbit_in* in, trum_orbit_out* out) {
   const trum_real turn = (trum_real)6.283185307179586;
@@ -229,7 +304,15 @@ static inline enum trum_status trum_solve_point(const struct trum_motor* motor, 
 
   v[trum_at_W] = W;
   trum_orbit_of(drive, v, in);
-  trum_orbits(in, out, 0, 0, 1);
+  if (drive->tangential == TRUM_TANGENTIAL_BRUSH) {
+    trum_brush_orbit(motor, drive, v, out);
+    if (!(out->held <= 1)) {
+      point->field = trum_drive_tangential;
+      return TRUM_BAD_INPUT;
+    }
+  } else {
+    trum_orbits(in, out, 0, 0, 1);
+  }
   flags = (int)out->flags;
   v[trum_at_f] = (trum_real)out->held;
   trum_call_stall_torque(v);
@@ -265,7 +348,7 @@ enum trum_status trum_simulate(const struct trum_motor* motor, const struct trum
   trum_orbit_out out;
   const enum trum_status status = trum_solve_point(motor, drive, point, &in, &out);
   long i;
-  if (status == TRUM_OK && count > 0) trum_history(&in, &out, speed, angle, count);
+  if (status == TRUM_OK && count > 0) trum_ride(drive, point, &in, &out, speed, angle, count);
   for (i = 0; i < count; ++i) {
     speed[i] = status == TRUM_OK ? speed[i] / (double)motor->contact_radius : (double)NAN;
     angle[i] = status == TRUM_OK ? angle[i] / (double)motor->contact_radius : (double)NAN;

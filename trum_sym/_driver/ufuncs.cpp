@@ -13,6 +13,7 @@
 #include <numpy/ufuncobject.h>
 
 #include "orbit.hpp"
+#include "trum_brush.h"
 #include "trum_cycle.h"
 
 namespace {
@@ -64,6 +65,8 @@ class Unlocked {
   inline void write(const type& from, char** args, const npy_intp* steps, npy_intp i) { LIST(WRITE) } \
   static_assert(sizeof(type) == COUNT(LIST) * sizeof(double), #type " has the fields of " #LIST);
 READER(trum_balance, TRUM_HALF_ANGLE_IN)
+READER(trum_brush_in, TRUM_BRUSH_IN)
+READER(trum_brush_speed_in, TRUM_BRUSH_SPEED_IN)
 READER(trum_cycle_sums_in, TRUM_CYCLE_SUMS_IN)
 WRITER(trum_cycle_sums_out, TRUM_CYCLE_SUMS_OUT)
 READER(trum_cycle_response_in, TRUM_CYCLE_RESPONSE_IN)
@@ -87,6 +90,29 @@ void half_angle_loop(char** args, const npy_intp* dimensions, const npy_intp* st
     read(&b, args, steps, i);
     *reinterpret_cast<double*>(args[n_half_angle_in] + i * steps[n_half_angle_in]) =
         trum_half_angle(b.F_c, b.k_N, b.W, b.k_c, b.n_j);
+  }
+}
+
+// Friction of a brush at a speed, and the speed at a friction with what rounding does to it.
+constexpr int n_brush_in = COUNT(TRUM_BRUSH_IN), n_brush_speed_in = COUNT(TRUM_BRUSH_SPEED_IN);
+void brush_friction_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
+  for (npy_intp i = 0; i < dimensions[0]; ++i) {
+    trum_brush_in in;
+    read(&in, args, steps, i);
+    *reinterpret_cast<double*>(args[n_brush_in] + i * steps[n_brush_in]) =
+        trum_brush_friction(in.theta, in.grip, in.ratio);
+    *reinterpret_cast<double*>(args[n_brush_in + 1] + i * steps[n_brush_in + 1]) = trum_brush_rounding(in.grip);
+  }
+}
+void brush_speed_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
+  const Unlocked unlocked;
+  for (npy_intp i = 0; i < dimensions[0]; ++i) {
+    trum_brush_speed_in in;
+    read(&in, args, steps, i);
+    const double ratio = trum_brush_speed(in.theta, in.grip, in.f);
+    const double error = trum_brush_speed_error(in.theta, in.grip, in.f, ratio);
+    *reinterpret_cast<double*>(args[n_brush_speed_in] + i * steps[n_brush_speed_in]) = ratio;
+    *reinterpret_cast<double*>(args[n_brush_speed_in + 1] + i * steps[n_brush_speed_in + 1]) = error;
   }
 }
 
@@ -273,6 +299,8 @@ bool add(PyObject* module, PyObject* signatures, const char* name, PyUFuncGeneri
 TRUM_KERNELS(LOOP)
 #undef LOOP
 PyUFuncGenericFunction loop_half_angle[1] = {half_angle_loop};
+PyUFuncGenericFunction loop_brush_friction[1] = {brush_friction_loop};
+PyUFuncGenericFunction loop_brush_speed[1] = {brush_speed_loop};
 PyUFuncGenericFunction loop_cycle_sums[1] = {cycle_sums_loop};
 PyUFuncGenericFunction loop_cycle_response[1] = {cycle_response_loop};
 PyUFuncGenericFunction loop_rotor_orbit[1] = {rotor_orbit_loop};
@@ -306,6 +334,9 @@ PyMODINIT_FUNC PyInit__kernels() {
   const std::string history = scalars(n_history_in - 1) + ",(k)->(k),(k)";
   if (!add(module, signatures, "contact_half_angle", loop_half_angle, n_half_angle_in, 1, TRUM_HALF_ANGLE_IN(NAME_OF),
            "theta") ||
+      !add(module, signatures, "brush_friction", loop_brush_friction, n_brush_in, 2, TRUM_BRUSH_IN(NAME_OF), "f f_error") ||
+      !add(module, signatures, "brush_speed", loop_brush_speed, n_brush_speed_in, 2, TRUM_BRUSH_SPEED_IN(NAME_OF),
+           "ratio ratio_error") ||
       !add(module, signatures, "cycle_sums", loop_cycle_sums, n_sums_in, COUNT(TRUM_CYCLE_SUMS_OUT),
            TRUM_CYCLE_SUMS_IN(NAME_OF), TRUM_CYCLE_SUMS_OUT(NAME_OF)) ||
       !add(module, signatures, "cycle_response", loop_cycle_response, n_response_in, COUNT(TRUM_CYCLE_RESPONSE_OUT),

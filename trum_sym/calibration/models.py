@@ -15,6 +15,7 @@ from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.measurements import UNCERTAINTY, Measurements
 from trum_sym.inputs.motor import SPECS, Motor, spec
 from trum_sym.inputs.units import parse_unit
+from trum_sym.model.kernels import call
 from trum_sym.model.levels import Levels
 from trum_sym.model.operating_point import evaluate
 from trum_sym.model.sensitivities import DIFFERENTIATED, sensitivities
@@ -98,7 +99,7 @@ class PointModel:
         of_rotor = set(self._observed) <= set(DIFFERENTIATED) - (
             {"speed_volatility"} if self._sampling_period else set()
         )
-        return name in _ROTOR_SCALES and of_rotor
+        return name in _ROTOR_SCALES and of_rotor and self._levels.tangential == "rigid"
 
     def _figures(self, motor: Motor, drive: Drive) -> dict[str, ArrayLike]:
         if not self._orbits:
@@ -118,6 +119,8 @@ class PointModel:
             resonance=self._levels.resonance,
             foundation=self._levels.foundation,
             amplitude=self._levels.amplitude,
+            compliance=self._levels.compliance,
+            tangential=self._levels.tangential,
             sampling_period=self._sampling_period,
             tolerance=_TOLERANCE,
         )
@@ -173,6 +176,7 @@ class PointModel:
             resonance=self._levels.resonance,
             foundation=self._levels.foundation,
             amplitude=self._levels.amplitude,
+            compliance=self._levels.compliance,
             tolerance=_TOLERANCE,
         )
         figures = self._figures(motor, self._drive)
@@ -201,8 +205,12 @@ def _start_of(name: str, motor: Motor, drive: Drive, levels: Levels) -> float:
         "amplitude": stator.W,
         "neutral_axis": stator.D,
         "wavenumber": stator.k_c,
-        "layer_stiffness": stator.values["k_N"],
+        "layer_stiffness": call("trum_layer_stiffness", motor.symbols())["k_N"],
+        "contact_stiffness": stator.values["k_N"],
+        "tangential_stiffness": call("trum_tangential_stiffness", motor.symbols())["k_T"],
     }
+    if name not in modelled:
+        raise ParameterError("parameters", name, "what the motor file has a value for, where a search can begin")
     return float(np.mean(modelled[name]))
 
 

@@ -7,6 +7,7 @@ from typing import Any
 import click
 
 from trum_sym.console.calibrate import calibrate
+from trum_sym.console.characteristics import characteristics
 from trum_sym.console.equations import equations
 from trum_sym.console.evaluate import evaluate
 from trum_sym.console.optimize import optimize
@@ -47,6 +48,7 @@ def _cli() -> None:
 for _command in (
     evaluate,
     simulate,
+    characteristics,
     sweep,
     tolerance,
     optimize,

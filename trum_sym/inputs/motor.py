@@ -17,7 +17,7 @@ from trum_sym.inputs.plausible import warn_implausible, warn_outside_range
 from trum_sym.inputs.units import parse_quantity
 from trum_sym.values import Value
 
-__all__ = ["SPECS", "Motor", "Parameter", "Published", "spec"]
+__all__ = ["FLANGE", "SPECS", "Motor", "Parameter", "Published", "spec"]
 
 _POSITIVE = Domain(low=0.0)
 _SIZE = Domain(low=0.0, high=10.0)  # m
@@ -25,6 +25,7 @@ _VIBRATION = Domain(low=0.0, high=1e-2)  # m
 _NOT_NEGATIVE = Domain(low=0.0, low_open=False)
 _COUNT = Domain(low=1, low_open=False, integer=True)
 _POISSON = Domain(low=-1.0, high=0.5, high_open=False)
+_FLANGE_POISSON = Domain(low=0.0, high=0.5, high_open=False)  # not 0, which says in C that it is not given
 _REAL = Domain()
 
 
@@ -94,8 +95,8 @@ class Published(Value):
 class Motor(Value):
     """A travelling-wave rotary ultrasonic motor: every number with unit and source.
 
-    The names are those of the motor file and of ``--set``.  The last five are optional: a measured
-    value there replaces the modelled one.
+    The names are those of the motor file and of ``--set``.  The last eleven are optional: a measured value replaces the
+    modelled one, and the rotor's flange is needed where its compliance counts.
     """
 
     name: str
@@ -147,6 +148,13 @@ class Motor(Value):
     neutral_axis: Parameter | None = _optional("m", "D", _SIZE)
     wavenumber: Parameter | None = _optional("1/m", "k_c")
     layer_stiffness: Parameter | None = _optional("N/m^2", "k_N")
+    contact_stiffness: Parameter | None = _optional("N/m^2", "k_con")
+    tangential_stiffness: Parameter | None = _optional("N/m^2", "k_T")
+    # The rotor's flange, which carries the friction layer: the level compliance = "flange" needs all four
+    flange_thickness: Parameter | None = _optional("m", "h_f", _SIZE)
+    flange_length: Parameter | None = _optional("m", "l_f", _SIZE)
+    flange_young_modulus: Parameter | None = _optional("Pa", "E_f")
+    flange_poisson_ratio: Parameter | None = _optional("1", "mu_f", _FLANGE_POISSON)
     published: tuple[Published, ...] = ()
     text: str = field(default="", repr=False, compare=False)  # of the motor file, whatever was set since
 
@@ -169,6 +177,8 @@ class Motor(Value):
         broadcast_shape({name: parameter.value for name, parameter in self.parameters()})
         _ordered(self, "tooth_height", "beam_thickness")
         _ordered(self, "fit_prepressure_min", "fit_prepressure_max")
+        _ordered(self, "flange_thickness", "beam_thickness")
+        _ordered(self, "flange_length", "radius")
         gaps = self.tooth_count.value * self.slot_width.value
         if np.any(gaps >= self.perimeter.value):
             raise ParameterError("slot_width", self.slot_width.value, "less than perimeter / tooth_count")
@@ -218,6 +228,8 @@ class Motor(Value):
 
 def _ordered(motor: Motor, low: str, high: str) -> None:
     small, large = getattr(motor, low), getattr(motor, high)
+    if small is None:
+        return
     if np.any(small.value >= large.value):
         raise ParameterError(low, small.value, f"less than {high} ({np.max(large.value):g} {large.unit})")
 
@@ -225,6 +237,10 @@ def _ordered(motor: Motor, low: str, high: str) -> None:
 SPECS: Mapping[str, Spec] = MappingProxyType(
     {f.name: f.metadata["spec"] for f in fields(Motor) if "spec" in f.metadata}
 )
+
+
+FLANGE = tuple(name for name in SPECS if name.startswith("flange_"))
+"""The parameters of the rotor's flange, which the level compliance = "flange" needs."""
 
 
 def spec(name: object) -> Spec:

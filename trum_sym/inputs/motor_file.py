@@ -18,7 +18,10 @@ from trum_sym.inputs.motor import SPECS, Motor, Parameter, Published, spec
 from trum_sym.inputs.units import Unit, parse_unit, unit_for
 from trum_sym.quantities import QUANTITIES
 
-__all__ = ["load_motor", "motor_text"]
+__all__ = ["SHIPPED", "load_motor", "motor_text"]
+
+SHIPPED = ("dual60", "ring60", "trum60")
+"""Motors that ship with the package, by name."""
 
 _MAX_BYTES = 1_000_000  # of a motor file: two hundred times the shipped one
 _KEYS = (
@@ -38,6 +41,7 @@ _KEYS = (
 
 
 _MAX_BYTES = 1_000_000  # a motor takes 10 000
+_NAMES = ", ".join(SHIPPED)
 _MAX_DOTS = 200  # in a line
 _MAX_PUBLISHED = 1000
 
@@ -171,11 +175,11 @@ def _read_published(entry: object) -> Published:
 
 def motor_text(source: str | PathLike[str]) -> str:
     """The text of a motor file, by name or path."""
-    path = Path(__file__).parents[1] / "data" / "trum60.toml" if str(source) == "trum60" else Path(source)
+    path = Path(__file__).parents[1] / "data" / f"{source}.toml" if str(source) in SHIPPED else Path(source)
     try:
         return read_text("motor", path, "a TOML file", _MAX_BYTES)
     except FileNotFoundError:
-        raise ParameterError("motor", str(source), "trum60 or the path of a TOML file that exists") from None
+        raise ParameterError("motor", str(source), f"{_NAMES} or the path of a TOML file that exists") from None
 
 
 def _read_toml(source: str | PathLike[str], text: str) -> dict[str, Any]:
@@ -189,7 +193,7 @@ def _read_toml(source: str | PathLike[str], text: str) -> dict[str, Any]:
 
 
 def load_motor(source: str | PathLike[str] = "trum60") -> Motor:
-    """Read a motor by name (``"trum60"`` ships with the package) or from a TOML file.
+    """Read a motor by name (:data:`SHIPPED` come with the package) or from a TOML file.
 
     Returns
     -------
@@ -202,7 +206,7 @@ def load_motor(source: str | PathLike[str] = "trum60") -> Motor:
         If the file is missing, is not TOML, or an entry is unknown, incomplete, of a wrong unit or
         outside its domain.
     """
-    path_of("motor", source, "trum60 or the path of a TOML file")
+    path_of("motor", source, f"{_NAMES} or the path of a TOML file")
     text = motor_text(source)
     data = _read_toml(source, text)
     unknown = sorted(set(data) - {"name", "parameters", "published"})

@@ -63,6 +63,7 @@ _USUAL = {
     "layer_young_modulus": _Usual(5e5, 1e12, "GPa MPa", "a friction layer"),
     "damping_ratio": _Usual(0.0, 0.2, "%", "a resonator"),
     "free_amplitude": _Usual(1e-9, 1e-3, "um", "a stator"),
+    "flange_young_modulus": _Usual(5e8, 1e12, "GPa MPa", "a rotor"),
     "friction_coefficient": _Usual(0.0, 1.5, "", "a friction layer"),
     "resonance_frequency": _Usual(1e3, 1e7, "kHz", "an ultrasonic stator"),
     "amplitude": _Usual(1e-9, 1e-3, "um", "a stator"),
@@ -183,6 +184,9 @@ def _bodies(motor: Mapping[str, Stated]) -> Iterator[str]:
     yield from beyond("beam_thickness", at("beam_thickness"), radius, "the stator's outer radius")
     yield from beyond("piezo_thickness", at("piezo_thickness"), at("beam_thickness"), "the beam's thickness")
     yield from beyond("layer_thickness", at("layer_thickness"), at("beam_thickness"), "the beam's thickness")
+    yield from beyond(
+        "flange_thickness", at("flange_thickness"), at("flange_length"), "the flange's length, no thin plate"
+    )
     section = at("beam_thickness") + at("piezo_thickness")
     yield from beyond("neutral_axis", at("neutral_axis"), section, "beam and piezoelectric ring together")
     yield from beyond("amplitude", at("amplitude"), at("free_amplitude"), "the free amplitude")

@@ -60,7 +60,7 @@ def simulate(
 
     Parameters
     ----------
-    motor, drive, contact, resonance, foundation, amplitude, sampling_period, tolerance
+    motor, drive, contact, resonance, foundation, amplitude, compliance, tangential, sampling_period, tolerance
         As for :func:`trum_sym.evaluate`, but every number a single one.
     cycles : whole number
         Drive cycles.  The orbit repeats itself, the rotor's angle goes on.
@@ -153,7 +153,11 @@ def _cycle(
         lap = history(arguments, solve_orbit(arguments, case.symbols).raw, count)  # the last one at the cycle's end
         path = lap["distance"] / radius
         speed, angle, advance = np.roll(lap["speed"], 1) / radius, np.append(0.0, path[:-1]), path[-1]
-        columns["friction"] = call("trum_friction", {**touching, "v": speed * radius})["f"]
+        columns["friction"] = (
+            call("trum_friction", {**touching, "v": speed * radius})["f"]
+            if "grip" not in arguments
+            else np.full(count, arguments["f"])  # of a brush: what balances the load
+        )
     columns |= {"rotor_speed": speed, "rotor_angle": angle, "advance": advance}
     off = (int(drive.periods) - int(drive.on_periods)) * count // int(drive.periods)
     region = (samples >= off).astype(np.int8) + (samples >= 2 * off)
@@ -191,6 +195,8 @@ def _attributes(
         "resonance_level": levels.resonance,
         "foundation": levels.foundation,
         "amplitude_level": levels.amplitude,
+        "compliance": levels.compliance,
+        "tangential": levels.tangential,
         **{name: "none" if value is None else value for name, value in settings.items()},
         **figures,
         "converged": int(bool(point.converged)),

@@ -9,19 +9,34 @@ from __future__ import annotations
 from dataclasses import dataclass, field, fields
 from typing import Any, Literal, TypedDict, get_args
 
+from trum_sym.errors import ParameterError
 from trum_sym.inputs.choices import choice
 from trum_sym.values import Value
 
-__all__ = ["AMPLITUDES", "CONTACTS", "FOUNDATIONS", "LEVEL_NAMES", "RESONANCES", "LevelChoice", "Levels"]
+__all__ = [
+    "AMPLITUDES",
+    "COMPLIANCES",
+    "CONTACTS",
+    "FOUNDATIONS",
+    "LEVEL_NAMES",
+    "RESONANCES",
+    "TANGENTIALS",
+    "LevelChoice",
+    "Levels",
+]
 
 Contact = Literal["winkler", "hertz"]
 Resonance = Literal["quartic", "eq6", "printed", "euler"]
 Foundation = Literal["harmonic", "smeared", "printed", "none"]
 Amplitude = Literal["measured", "forced"]
+Compliance = Literal["layer", "flange"]
+Tangential = Literal["rigid", "brush"]
 CONTACTS: tuple[Contact, ...] = get_args(Contact)
 RESONANCES: tuple[Resonance, ...] = get_args(Resonance)
 FOUNDATIONS: tuple[Foundation, ...] = get_args(Foundation)
 AMPLITUDES: tuple[Amplitude, ...] = get_args(Amplitude)
+COMPLIANCES: tuple[Compliance, ...] = get_args(Compliance)
+TANGENTIALS: tuple[Tangential, ...] = get_args(Tangential)
 
 
 class LevelChoice(TypedDict, total=False):
@@ -31,6 +46,8 @@ class LevelChoice(TypedDict, total=False):
     resonance: Resonance
     foundation: Foundation
     amplitude: Amplitude
+    compliance: Compliance
+    tangential: Tangential
 
 
 def _level(words: tuple[str, ...], text: str) -> Any:  # noqa: ANN401
@@ -51,22 +68,35 @@ class Levels(Value):
         How the friction layer stiffens the stator.
     amplitude : {"measured", "forced"}
         Eq. 8 on the measured amplitude, or on the derived forced one (eq. 7 put right).
+    compliance : {"layer", "flange"}
+        What gives in the contact: the friction layer alone (eq. 30), or in series with the stator's teeth and the
+        rotor's flange, whose dimensions the motor file then has to hold.  A ``contact_stiffness`` there stands for
+        either.
+    tangential : {"rigid", "brush"}
+        Whether the layer gives way along the circumference: not at all, or as a brush, which is known for the steady
+        plain wave alone (both phases always on).
 
     Raises
     ------
     ParameterError
-        For a word that is none of them.
+        For a word that is none of them, and for levels that do not go together: the paper's Hertz width knows neither
+        a stiffness nor a brush.
     """
 
     contact: Contact = _level(CONTACTS, "Contact law.")
     resonance: Resonance = _level(RESONANCES, "Level of the resonance.")
     foundation: Foundation = _level(FOUNDATIONS, "How the friction layer stiffens the stator.")
     amplitude: Amplitude = _level(AMPLITUDES, "Level of the amplitude.")
+    compliance: Compliance = _level(COMPLIANCES, "What gives in the contact.")
+    tangential: Tangential = _level(TANGENTIALS, "Whether the layer gives way along the circumference.")
 
     def __post_init__(self) -> None:
         """Checks every word."""
         for level in fields(self):
             choice(level.name, getattr(self, level.name), level.metadata["words"])
+        for name, plain in (("compliance", COMPLIANCES[0]), ("tangential", TANGENTIALS[0])):
+            if self.contact == "hertz" and getattr(self, name) != plain:
+                raise ParameterError(name, getattr(self, name), f"{plain} where contact is hertz")
 
 
 LEVEL_NAMES = tuple(level.name for level in fields(Levels))

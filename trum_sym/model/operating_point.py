@@ -13,6 +13,7 @@ from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
 from trum_sym.inputs.points import check_point, numbers_of, one_number, period_of
+from trum_sym.model.brush import brush_values, check_drive
 from trum_sym.model.cycle import check_steady_state, cycle_sums, modal_values, scaled, warn_next_to_resonance
 from trum_sym.model.kernels import call
 from trum_sym.model.levels import LevelChoice, Levels
@@ -171,7 +172,7 @@ def evaluate(
         1e-6, and a single point goes on until its mean speed has four digits or 1e-9 is reached.
     progress : bool
         Whether to show a bar on the standard error while many points are computed.
-    contact, resonance, foundation, amplitude : str, optional
+    contact, resonance, foundation, amplitude, compliance, tangential : str, optional
         Levels of the model, see :class:`trum_sym.model.levels.Levels`.
 
     Returns
@@ -248,12 +249,16 @@ def prepare(
     shape = broadcast_shape(inputs)
     tolerance = one_number("tolerance", tolerance, "1", TOLERANCES)
     check_steady_state(motor.damping_ratio.value, drive)
+    if levels.tangential == "brush":
+        check_drive(drive)
     stator = solve_stator(motor, drive, levels, warn=warn)
     values = modal_values(stator.omega_n, motor.damping_ratio.value, drive)
     if warn:
         warn_next_to_resonance(values)
     symbols = {**motor.symbols(), **stator.values, **drive.symbols()}
     arguments = orbit_values(scaled(values, stator.W), symbols, levels.contact, tolerance)
+    if levels.tangential == "brush":
+        arguments |= brush_values(symbols)
     return Case(motor, drive, levels, shape, stator, values, symbols, arguments, sampling_period)
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from trum_sym.inputs.checks import Array, ArrayLike
 from trum_sym.model.batch import call_in_blocks
+from trum_sym.model.brush import solve_brush
 from trum_sym.model.kernels import ORBIT_FLAGS, call, expect, signature
 
 __all__ = [
@@ -66,6 +67,7 @@ _OUTPUTS = (
     "held_error",
     "flags",
 )
+_WHOLE = "the whole wave touches: no bristle of the layer leaves the contact"
 RUNAWAY = "no speed balances the load: it exceeds what friction can transmit"
 # Why an orbit is not converged, by the driver's flags
 _REASONS = {
@@ -140,13 +142,19 @@ def solve_orbit(values: Mapping[str, ArrayLike], stator: Mapping[str, ArrayLike]
     Parameters
     ----------
     values : mapping
-        From :func:`orbit_values`.
+        From :func:`orbit_values`; with those of :func:`trum_sym.model.brush.brush_values`, the layer is a brush.
     stator : mapping
         As there; the contact radius turns rim speeds into rotor speeds.
     progress : bool
         Whether to show a bar on the standard error while many points are computed.
     """
-    return as_orbit(call_in_blocks("rotor_orbit", values, "orbits" if progress else None), stator)
+    if "grip" not in values:
+        return as_orbit(call_in_blocks("rotor_orbit", values, "orbits" if progress else None), stator)
+    raw = solve_brush(values)
+    runaway = raw.pop("runaway") > 0
+    converged = ~runaway & (raw["error"] <= np.asarray(values["tolerance"]))
+    raw["flags"] = np.where(runaway, float(_FLAG["runaway"]), np.where(converged, float(_FLAG["converged"]), 0.0))
+    return as_orbit(raw, stator)
 
 
 def as_orbit(raw: Mapping[str, Array], stator: Mapping[str, ArrayLike]) -> Orbit:
@@ -181,6 +189,8 @@ def reasons(raw: Mapping[str, Array]) -> np.ndarray[tuple[int, ...], np.dtype[np
     found = np.full(flags.shape, _MISSED, dtype=object)
     for name, reason in reversed(_REASONS.items()):
         found[(flags & _FLAG[name]) > 0] = reason
+    if "whole" in raw:
+        found[np.asarray(raw["whole"]) > 0] = _WHOLE
     found[(flags & _FLAG["converged"]) > 0] = ""
     return found.astype(np.str_)
 
@@ -193,6 +203,11 @@ def history(values: Mapping[str, ArrayLike], raw: Mapping[str, ArrayLike], count
     dict
         ``speed`` of the rim (m/s), its ``distance`` since t1 (m) and the net ``friction`` fraction.
     """
+    if "grip" in values:
+        steady, shares = float(np.asarray(raw["start"])), np.arange(1, count + 1) / count
+        period = 2 * np.pi / (float(np.asarray(values["omega_n"])) + float(np.asarray(values["Delta_omega"])))
+        cycle = float(np.asarray(values["m"])) * period
+        return {"speed": np.full(count, steady), "distance": steady * cycle * shares}
     point = {name: raw[name] for name in _OF_HISTORY}
     found = call("rotor_history", {**values, **point, "times": np.empty(count)})
     return {name: np.asarray(value) for name, value in found.items()}

@@ -9,7 +9,7 @@ from typing import Unpack
 
 import numpy as np
 
-from trum_sym.errors import ValidityWarning
+from trum_sym.errors import ParameterError, ValidityWarning
 from trum_sym.inputs.checks import Array, ArrayLike
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
@@ -67,7 +67,7 @@ def sensitivities(
 
     Parameters
     ----------
-    motor, drive, contact, resonance, foundation, amplitude
+    motor, drive, contact, resonance, foundation, amplitude, compliance
         As for :func:`trum_sym.evaluate`; arrays broadcast.
     tolerance : float
         Of the orbit that is differentiated.  The slopes' median error is below it; single slopes are much worse
@@ -98,7 +98,14 @@ def orbit_with_slopes(case: Case) -> tuple[Orbit, dict[str, dict[str, Array]]]:
     """The orbit of a case that :func:`trum_sym.model.operating_point.prepare` has checked, and its figures' slopes.
 
     Beside those of :data:`DIFFERENTIATED` stands ``speed_deviation``, the speed's standard deviation in rad/s.
+
+    Raises
+    ------
+    ParameterError
+        For a layer that is a brush, whose slopes are not known.
     """
+    if case.levels.tangential != "rigid":
+        raise ParameterError("tangential", case.levels.tangential, "rigid: the slopes of the other are not known")
     raw = call_in_blocks(
         "rotor_slopes",
         {**case.arguments, **_states(case)},

@@ -11,7 +11,7 @@ import numpy as np
 from trum_sym.errors import ConvergenceError, ParameterError, ValidityWarning
 from trum_sym.inputs.checks import ArrayLike
 from trum_sym.inputs.drive import Drive
-from trum_sym.inputs.motor import Motor
+from trum_sym.inputs.motor import FLANGE, Motor
 from trum_sym.model.kernels import call
 from trum_sym.model.levels import Contact, Levels
 
@@ -99,6 +99,7 @@ def solve_stator(motor: Motor, drive: Drive, levels: Levels, *, warn: bool = Tru
     values = motor.symbols()
     for name in ("trum_neutral_axis", "trum_wavenumber", "trum_layer_stiffness"):
         values = {**call(name, values), **values}
+    _contact_stiffness(motor, values, levels)
     values.update(call("trum_section", values))
     values.update(F_c=drive.prepressure, Delta_omega=_TURN * np.asarray(drive.frequency_difference))
 
@@ -126,6 +127,25 @@ def solve_stator(motor: Motor, drive: Drive, levels: Levels, *, warn: bool = Tru
     for name, symbol in (("amplitude", "W"), ("neutral_axis", "D"), ("wavenumber", "k_c")):
         _check_size(name, values[symbol])
     return Stator(values["omega_n"], values["W"], values["D"], values["k_c"], values)
+
+
+def _contact_stiffness(motor: Motor, values: dict[str, ArrayLike], levels: Levels) -> None:
+    """Let k_N in ``values`` be the stiffness of the whole contact: as measured, or in series with teeth and flange.
+
+    Raises
+    ------
+    ParameterError
+        If the motor says nothing of its flange, or the series has no size.
+    """
+    if motor.contact_stiffness is None:
+        if levels.compliance == "layer":
+            return
+        for name in FLANGE:
+            if getattr(motor, name) is None:
+                raise ParameterError(name, "nothing", "a value in the motor file where compliance is flange")
+        values.update(call("trum_contact_stiffness", values))
+    _check_size("contact_stiffness", values["k_con"])
+    values["k_N"] = values["k_con"]
 
 
 def _resonance(motor: Motor, values: dict[str, ArrayLike], levels: Levels) -> None:

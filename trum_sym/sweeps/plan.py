@@ -113,6 +113,8 @@ class Plan:
             "resonance_level": levels.resonance,
             "foundation": levels.foundation,
             "amplitude_level": levels.amplitude,
+            "compliance": levels.compliance,
+            "tangential": levels.tangential,
             "tolerance": settings.tolerance,
             "outputs": " ".join(settings.outputs),
         }

@@ -15,7 +15,7 @@ from trum_sym.inputs.choices import words
 from trum_sym.inputs.distributions import Distribution, checked, from_text
 from trum_sym.inputs.domain import Spec
 from trum_sym.inputs.drive import DRIVE_DOMAINS, Drive
-from trum_sym.inputs.motor import SPECS, Motor, spec
+from trum_sym.inputs.motor import FLANGE, SPECS, Motor, spec
 from trum_sym.inputs.plausible import unquestioned
 from trum_sym.inputs.points import check_point, check_single, numbers_of, period_of
 from trum_sym.inputs.units import parse_quantity
@@ -50,10 +50,18 @@ def _spec_of(name: str) -> Spec:
     return spec(name)
 
 
-def _chosen(motor: Motor, parameters: Mapping[str, Given] | Sequence[str] | None) -> dict[str, Distribution]:
+def _uncertain(motor: Motor, levels: Levels) -> dict[str, Distribution]:
+    """What the motor file gives a range or a distribution, but for a flange that the levels leave out."""
+    counts = levels.compliance == "flange" and motor.contact_stiffness is None
+    own = {name: p.spread() for name, p in motor.parameters() if counts or name not in FLANGE}
+    return {name: found for name, found in own.items() if found is not None}
+
+
+def _chosen(
+    motor: Motor, parameters: Mapping[str, Given] | Sequence[str] | None, levels: Levels
+) -> dict[str, Distribution]:
     """The uncertain parameters, as given."""
-    own = {name: p.spread() for name, p in motor.parameters()}
-    uncertain = {name: found for name, found in own.items() if found is not None}
+    uncertain = _uncertain(motor, levels)
     if parameters is None:
         parameters = [MOTOR_FILE]
     if isinstance(parameters, str) or not isinstance(parameters, Mapping | Sequence):
@@ -147,7 +155,7 @@ def tolerance(
         What has to hold, such as ``"mean_speed >= 600 arcsec/s"``.
     seed : int
         Of points and bootstrap; the same seed gives the same bits.
-    contact, resonance, foundation, amplitude, sampling_period, tolerance, progress
+    contact, resonance, foundation, amplitude, compliance, tangential, sampling_period, tolerance, progress
         As for :func:`trum_sym.evaluate`.
 
     Returns
@@ -174,7 +182,7 @@ def tolerance(
     if not outputs:
         raise ParameterError("outputs", "none", f"at least one of {', '.join(QUANTITIES)}")
     targets = tuple(map(read_target, _texts("target", target)))
-    distributions = _chosen(motor, parameters)
+    distributions = _chosen(motor, parameters, Levels(**levels))
     sampled = {name: checked(name, given, _spec_of(name)) for name, given in distributions.items()}
     nominal = evaluate(motor, drive, tolerance=tolerance, sampling_period=period, **levels)
     settled = []
