@@ -46,11 +46,11 @@ LONGEST = 30.0  # s
 POINT = ("--load-torque", "0.05")
 SWEEP = ("sweep", "--prepressure", "160:200:6", "--frequency-difference", "2900:3100:4")
 SWEEP += ("--outputs", "q_average,amplitude")
-TOLERANCE = ("tolerance", *POINT, "--vary", "friction_coefficient", "--samples", "64", "--tolerance", "1e-2")
-OPTIMUM = ("optimize", *POINT, "--objective", "q_volatility", "--bounds", "prepressure=175:185")
-OPTIMUM += ("--bounds", "frequency_difference=3000")
+TOLERANCE = ("spread", *POINT, "--spread", "friction_coefficient", "--samples", "64", "--tolerance", "1e-2")
+OPTIMUM = ("optimize", *POINT, "--objective", "q_volatility", "--prepressure", "175:185")
+OPTIMUM += ("--frequency-difference", "3000")
 TABLE = ("speed-table", *POINT, "--from", "2 rad/s", "--to", "2.02 rad/s", "--direction", "positive", "--points", "2")
-TABLE += ("--error", "0.5", "--bounds", "prepressure=175:185", "--bounds", "frequency_difference=3000")
+TABLE += ("--error", "0.5", "--prepressure", "175:185", "--frequency-difference", "3000")
 COMMANDS: dict[str, tuple[str, ...]] = {
     "histories.nc": ("simulate", "--out"),
     "histories.csv": ("simulate", "--samples-per-period", "16", "--out"),

@@ -98,7 +98,7 @@ def unit(content: bytes) -> None:
 
 
 def distribution(content: bytes) -> None:
-    """A distribution of tolerance --vary."""
+    """A distribution of tolerance --spread."""
     import numpy as np
 
     from trum_sym.inputs.distributions import checked, from_text

@@ -23,7 +23,7 @@ from .studies.pareto import pareto as pareto
 from .studies.robust import robust as robust
 from .studies.speed_table import speed_table as speed_table
 from .sweeps.run import sweep as sweep
-from .uncertainty.study import tolerance as tolerance
+from .uncertainty.study import spread as spread
 
 __all__ = [
     "Calibration",
@@ -48,6 +48,6 @@ __all__ = [
     "sensitivities",
     "simulate",
     "speed_table",
+    "spread",
     "sweep",
-    "tolerance",
 ]

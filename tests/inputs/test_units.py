@@ -200,7 +200,7 @@ CONSOLE = [
     ("evaluate", "--set", "resonance_frequency=245 krad/s"),
     ("evaluate", "--set", "friction_coefficient=0.25 rad"),
     ("optimize", "--target-speed", "0.5 Hz"),
-    ("optimize", "--bounds", "frequency_difference=17600 rad/s:20700 rad/s"),
+    ("optimize", "--frequency-difference", "17600 rad/s:20700 rad/s"),
     ("optimize", "--constraint", "mean_speed >= 0.5 Hz"),
     ("optimize", "--constraint", "max_speed - min_speed <= 5 1/s"),
     ("optimize", "--objective", "mean_speed + frequency_difference"),
@@ -210,8 +210,8 @@ CONSOLE = [
     ("speed-table", "--from", "0.1 rad/s", "--to", "1 kHz"),
     ("sweep", "--frequency-difference", "1 rad/s:2 rad/s:3", "--outputs", "amplitude", "--dry-run"),
     ("sweep", "--frequency-difference", "1 rpm,2 rpm", "--outputs", "amplitude", "--dry-run"),
-    ("tolerance", "--vary", "frequency_difference=uniform:18000 rad/s:19000 rad/s"),
-    ("tolerance", "--target", "mean_speed >= 0.5 Hz"),
+    ("spread", "--spread", "frequency_difference=uniform:18000 rad/s:19000 rad/s"),
+    ("spread", "--target", "mean_speed >= 0.5 Hz"),
     ("simulate", "--frequency-difference", "3 deg/s"),
 ]
 

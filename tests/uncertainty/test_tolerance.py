@@ -26,10 +26,10 @@ UNIFORM = {name: f"uniform:{low}:{high}" for name, (low, high) in BOUNDS.items()
 
 @pytest.fixture(scope="module")
 def study():
-    return ts.tolerance(
+    return ts.spread(
         MOTOR,
         SHORT,
-        parameters=UNIFORM,
+        spreads=UNIFORM,
         samples=256,
         outputs=["mean_speed", "speed_volatility"],
         target=["mean_speed >= 7000000 arcsec/s", "speed_volatility < 1.6 %"],
@@ -39,10 +39,10 @@ def study():
 @pytest.fixture(scope="module")
 def overloaded():
     """A load of 1.1 N m: friction transmits mu F_c r_c at most, 1.06 to 1.24 N m here."""
-    return ts.tolerance(
+    return ts.spread(
         MOTOR,
         replace(SHORT, load_torque=1.1),
-        parameters={"friction_coefficient": "uniform:0.222:0.26", "frequency_difference": "uniform:2900:3100"},
+        spreads={"friction_coefficient": "uniform:0.222:0.26", "frequency_difference": "uniform:2900:3100"},
         samples=128,
         outputs=["max_speed", "q_average"],
         target="max_speed > 0 rad/s",
@@ -216,7 +216,7 @@ def test_orbits_that_do_not_settle_are_counted_and_named(study):
 
 def test_a_volatility_without_a_variance_is_said_to_be_one():
     drive = ts.Drive(load_torque=0.16)  # about the stall torque
-    found = ts.tolerance(MOTOR, drive, samples=64, parameters={"friction_coefficient": None})
+    found = ts.spread(MOTOR, drive, samples=64, spreads={"friction_coefficient": None})
     speed = found.propagation.values["mean_speed"]
     assert speed.min() < 0 < speed.max(), "or this test says nothing"
     assert found.unbounded == ("speed_volatility",)
@@ -225,10 +225,10 @@ def test_a_volatility_without_a_variance_is_said_to_be_one():
 
 
 def test_the_motor_file_says_what_is_uncertain():
-    found = ts.tolerance(MOTOR.with_values({"piezo_width": 7e-3}), SHORT, samples=64)
+    found = ts.spread(MOTOR.with_values({"piezo_width": 7e-3}), SHORT, samples=64)
     assumed = {name for name, p in MOTOR.parameters() if p.source == "assumed"}
     assert set(found.distributions) == assumed - {"piezo_width"}
-    more = ts.tolerance(MOTOR, SHORT, samples=64, parameters={"motor": None, "load_torque": "normal:0.05:0.01"})
+    more = ts.spread(MOTOR, SHORT, samples=64, spreads={"motor": None, "load_torque": "normal:0.05:0.01"})
     assert set(more.distributions) == assumed | {"load_torque"}
     assert "no effect at any point: piezo_strain_constant, piezo_compliance, curvature_radius" in as_text(found)
 
@@ -236,7 +236,7 @@ def test_the_motor_file_says_what_is_uncertain():
 def test_the_same_seed_gives_the_same_bits_on_any_number_of_threads(study, monkeypatch):
     monkeypatch.setattr(batch.os, "cpu_count", lambda: 3)
     targets = [target.text for target in study.targets]
-    again = ts.tolerance(MOTOR, SHORT, parameters=UNIFORM, samples=256, outputs=study.outputs, target=targets)
+    again = ts.spread(MOTOR, SHORT, spreads=UNIFORM, samples=256, outputs=study.outputs, target=targets)
     assert as_json_text(again) == as_json_text(study)
     for name, values in study.propagation.values.items():
         assert np.array_equal(values, again.propagation.values[name], equal_nan=True)
@@ -268,35 +268,35 @@ def test_an_interruption_stops_the_work(monkeypatch):
     monkeypatch.setattr(batch, "_BLOCK", 16)
     monkeypatch.setattr(batch.os, "cpu_count", lambda: 2)
     with pytest.raises(KeyboardInterrupt):
-        ts.tolerance(MOTOR, SHORT, parameters=UNIFORM, samples=64)
+        ts.spread(MOTOR, SHORT, spreads=UNIFORM, samples=64)
     assert len(begun) < 15
 
 
 BAD_STUDIES = [
-    ({"parameters": ["frictoin_coefficient"]}, ("parameters: got frictoin_coefficient", "friction_coefficient")),
-    ({"parameters": ["name"]}, ("parameters: got name", "the motor file or the drive")),
-    ({"parameters": ["phase_lead"]}, ("parameters: got phase_lead", "the motor file or the drive")),
-    ({"parameters": ["prepressure"]}, ("prepressure: got no distribution", "uniform:LOW:HIGH")),
-    ({"parameters": ["voltage"]}, ("voltage: got no distribution", "uniform:LOW:HIGH")),
-    ({"parameters": "prepressure"}, ("parameters: got prepressure", "names")),
-    ({"parameters": 3}, ("parameters: got 3", "names")),
-    ({"parameters": []}, ("parameters: got none", "at least one")),
-    ({"parameters": [3]}, ("parameters: got 3", "names")),
-    ({"parameters": {"prepressure": 180.0}}, ("prepressure: got 180", "normal:MEAN")),
-    ({"parameters": {"prepressure": "cauchy:1:2"}}, ("prepressure: got cauchy", "uniform, triangular")),
-    ({"parameters": {"prepressure": "normal:180:-5"}}, ("prepressure: got standard_deviation = -5", "> 0, in N")),
-    ({"parameters": {"prepressure": "uniform:-10:10"}}, ("prepressure: got uniform with low = -10", "> 0")),
-    ({"parameters": {"prepressure": "uniform:200:100"}}, ("prepressure: got uniform from 200 to 100", "low < high")),
-    ({"parameters": {"periods": "uniform:20:30"}}, ("periods: got uniform", "whole number")),
-    ({"parameters": {"damping_ratio": "uniform:0.5:1.5"}}, ("damping_ratio: got uniform with high = 1.5", "< 1")),
-    ({"parameters": {"tooth_height": "uniform:2 mm:6 mm"}}, ("tooth_height: got", "less than beam_thickness")),
-    ({"parameters": {"frequency_difference": "uniform:-40 kHz:0"}}, ("frequency_difference: got", "the resonance")),
+    ({"spreads": ["frictoin_coefficient"]}, ("spreads: got frictoin_coefficient", "friction_coefficient")),
+    ({"spreads": ["name"]}, ("spreads: got name", "the motor file or the drive")),
+    ({"spreads": ["phase_lead"]}, ("spreads: got phase_lead", "the motor file or the drive")),
+    ({"spreads": ["prepressure"]}, ("spread of prepressure: got nothing", "LOW:HIGH")),
+    ({"spreads": ["voltage"]}, ("spread of voltage: got nothing", "LOW:HIGH")),
+    ({"spreads": "prepressure"}, ("spreads: got prepressure", "names")),
+    ({"spreads": 3}, ("spreads: got 3", "names")),
+    ({"spreads": []}, ("spreads: got none", "at least one")),
+    ({"spreads": [3]}, ("spreads: got 3", "names")),
+    ({"spreads": {"prepressure": 180.0}}, ("spread of prepressure: got 180", "< 1")),
+    ({"spreads": {"prepressure": "cauchy:1:2"}}, ("prepressure: got cauchy", "uniform, triangular")),
+    ({"spreads": {"prepressure": "normal:180:-5"}}, ("prepressure: got standard_deviation = -5", "> 0, in N")),
+    ({"spreads": {"prepressure": "uniform:-10:10"}}, ("prepressure: got uniform with low = -10", "> 0")),
+    ({"spreads": {"prepressure": "uniform:200:100"}}, ("prepressure: got uniform from 200 to 100", "low < high")),
+    ({"spreads": {"periods": "uniform:20:30"}}, ("periods: got uniform", "whole number")),
+    ({"spreads": {"damping_ratio": "uniform:0.5:1.5"}}, ("damping_ratio: got uniform with high = 1.5", "< 1")),
+    ({"spreads": {"tooth_height": "uniform:2 mm:6 mm"}}, ("tooth_height: got", "less than beam_thickness")),
+    ({"spreads": {"frequency_difference": "uniform:-40 kHz:0"}}, ("frequency_difference: got", "the resonance")),
     ({"outputs": ["speed"]}, ("outputs: got speed", "mean_speed")),
     ({"outputs": []}, ("outputs: got none", "at least one")),
     ({"outputs": 5}, ("outputs: got 5", "text")),
     ({"outputs": ["converged"]}, ("outputs: got converged", "one of")),
     (
-        {"outputs": ["cycle_time", "mean_speed"], "parameters": ["friction_coefficient"]},
+        {"outputs": ["cycle_time", "mean_speed"], "spreads": ["friction_coefficient"]},
         ("cycle_time", "the same value"),
     ),
     ({"target": "fast"}, ("target: got fast", "mean_speed >= 600 arcsec/s")),
@@ -315,27 +315,27 @@ BAD_STUDIES = [
 @pytest.mark.parametrize(("wishes", "naming"), BAD_STUDIES, ids=[str(wishes) for wishes, _ in BAD_STUDIES])
 def test_bad_studies_are_refused(wishes, naming):
     with refusal(*naming):
-        ts.tolerance(MOTOR, SHORT, **{"samples": 64, **wishes})
+        ts.spread(MOTOR, SHORT, **{"samples": 64, **wishes})
 
 
 def test_a_study_is_of_one_point():
     with refusal("prepressure: got an array of shape (2,)", "one number"):
-        ts.tolerance(MOTOR, ts.Drive(prepressure=[150.0, 160.0]))
+        ts.spread(MOTOR, ts.Drive(prepressure=[150.0, 160.0]))
     with refusal("voltage: got an array of shape (2,)", "one number"):
-        ts.tolerance(MOTOR.with_values({"voltage": [150.0, 160.0]}))
+        ts.spread(MOTOR.with_values({"voltage": [150.0, 160.0]}))
     with refusal("motor: got trum60"):
-        ts.tolerance("trum60")
+        ts.spread("trum60")
     with refusal("drive: got None"):
-        ts.tolerance(MOTOR, "None")
+        ts.spread(MOTOR, "None")
 
 
 def test_a_load_that_nothing_holds_is_refused():
     with refusal("outputs: got mean_speed", "none at any of the 192 points"):
-        ts.tolerance(MOTOR, replace(SHORT, load_torque=50.0), parameters=["friction_coefficient"], samples=64)
+        ts.spread(MOTOR, replace(SHORT, load_torque=50.0), spreads=["friction_coefficient"], samples=64)
 
 
 def test_a_missing_package_is_named(monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "scipy", None)
     with pytest.raises(ts.MissingExtraError) as caught:
-        ts.tolerance(MOTOR, SHORT)
+        ts.spread(MOTOR, SHORT)
     assert_one_clear_line(str(caught.value), "scipy", "trum-sym[sweep]")

@@ -8,13 +8,25 @@ from typing import Any
 
 import click
 
-from trum_sym.console.options import chosen_drive, chosen_levels, chosen_motor, number_option, point_options
+from trum_sym.console.options import (
+    chosen_drive,
+    chosen_levels,
+    chosen_motor,
+    examples,
+    number_option,
+    point_options,
+)
 from trum_sym.console.say import say
 
 __all__ = ["calibrate"]
 
 
-@click.command()
+@click.command(
+    epilog=examples(
+        "trum-sym calibrate examples/data/table2.csv",
+        "trum-sym calibrate examples/data/table2.csv --fit amplitude_factor --errors relative --out my-motor.toml",
+    )
+)
 @click.argument("data", type=click.Path(path_type=Path), metavar="DATA.csv")
 @click.option(
     "--fit",

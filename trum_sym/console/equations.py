@@ -4,12 +4,19 @@ from __future__ import annotations
 
 import click
 
+from trum_sym.console.options import examples
 from trum_sym.console.say import say
 
 __all__ = ["equations"]
 
 
-@click.command()
+@click.command(
+    epilog=examples(
+        "trum-sym equations --verdict erratum",
+        "trum-sym equations --severity structural",
+        "trum-sym equations --equation 24",
+    )
+)
 @click.option("--equation", metavar="ID", help="The paper's number, such as 6 or A13: its derivation written out.")
 @click.option("--verdict", metavar="NAME", help="Only entries of this verdict, such as erratum or verified.")
 @click.option(

@@ -6,13 +6,26 @@ from typing import Any
 
 import click
 
-from trum_sym.console.options import chosen_drive, chosen_levels, chosen_motor, point_options, tolerance_option
+from trum_sym.console.options import (
+    chosen_drive,
+    chosen_levels,
+    chosen_motor,
+    examples,
+    point_options,
+    tolerance_option,
+)
 from trum_sym.console.say import say
 
 __all__ = ["evaluate"]
 
 
-@click.command()
+@click.command(
+    epilog=examples(
+        "trum-sym evaluate",
+        "trum-sym evaluate --load-torque '0.1 N m' --sampling-period '2 ms'",
+        "trum-sym evaluate --set friction_coefficient=0.3 --json",
+    )
+)
 @point_options
 @tolerance_option
 @click.option("--json", "as_json", is_flag=True, help="One JSON object instead of a table; SI units, speeds in rad/s.")
@@ -31,14 +44,14 @@ def evaluate(
     from trum_sym.model.operating_point import evaluate as evaluate_point
 
     machine, drive = chosen_motor(motor, overrides), chosen_drive(options)
-    levels, period = chosen_levels(options), options["sampling_period"]
-    point = evaluate_point(machine, drive, sampling_period=period, tolerance=tolerance, **levels)
+    period = options["sampling_period"]
+    point = evaluate_point(machine, drive, sampling_period=period, tolerance=tolerance, **chosen_levels(options))
+    from trum_sym.console.tables import as_table, compared
+
     if as_json:
-        from trum_sym.console.tables import as_json_text
+        from trum_sym.output.json_text import json_text
 
-        say(as_json_text(point))
+        say(json_text({**point.record(), "published": compared(point)}))
     else:
-        from trum_sym.console.tables import as_table
-
-        say(as_table(machine, drive, point, {**levels, "sampling_period": period}))
+        say(as_table(point))
     return 0 if point.converged else 1

@@ -11,6 +11,7 @@ from trum_sym.console.options import (
     chosen_drive,
     chosen_levels,
     chosen_motor,
+    examples,
     number_option,
     point_options,
     tolerance_option,
@@ -20,7 +21,12 @@ from trum_sym.console.say import say
 __all__ = ["simulate"]
 
 
-@click.command()
+@click.command(
+    epilog=examples(
+        "trum-sym simulate --load-torque '0.1 N m'",
+        "trum-sym simulate --cycles 2 --out histories.csv",
+    )
+)
 @point_options
 @tolerance_option
 @number_option("--cycles", "1", 1, "Drive cycles.", "K")

@@ -9,21 +9,29 @@ from typing import Any
 import click
 
 from trum_sym.console.options import (
-    chosen_drive,
+    box_options,
+    chosen_box,
     chosen_levels,
     chosen_motor,
+    examples,
     number_option,
-    point_options,
-    refuse_sampling_period,
 )
 from trum_sym.console.say import say
 
 __all__ = ["speed_table"]
 
 
-@click.command("speed-table")
-@click.option("--from", "slowest", required=True, metavar="SPEED", help='Slowest speed: "1 arcsec/s".')
-@click.option("--to", "fastest", required=True, metavar="SPEED", help='Fastest speed: "1000 arcsec/s".')
+@click.command(
+    "speed-table",
+    epilog=examples(
+        "trum-sym speed-table --from '500 arcsec/s' --to '50000 arcsec/s' --load-torque '0.05 N m' --prepressure 180 "
+        "--points 3",
+        "trum-sym speed-table --from '500 arcsec/s' --to '50000 arcsec/s' --load-torque 0.05 --prepressure 180 "
+        "--points 3 --out table.h",
+    ),
+)
+@click.option("--from", "slowest", required=True, metavar="SPEED", help='Slowest speed: "500 arcsec/s".')
+@click.option("--to", "fastest", required=True, metavar="SPEED", help='Fastest speed: "50000 arcsec/s".')
 @click.option(
     "--direction",
     type=click.Choice(("both", "positive", "negative")),
@@ -34,14 +42,6 @@ __all__ = ["speed_table"]
 @number_option("--points", "1", 31, "Speeds in each direction, in equal ratios; more are added as needed.", "K")
 @number_option("--error", "1", 0.01, "Allowed error of interpolated speeds, over the speed.", "E")
 @click.option(
-    "--bounds",
-    "bounds",
-    multiple=True,
-    metavar="NAME=LOW:HIGH",
-    help="As for optimize; --bounds prepressure=180 holds the prepressure.  "
-    "[default: prepressure=160:210, frequency_difference=2800:3300]",
-)
-@click.option(
     "--constraint", "constraints", multiple=True, metavar="TEXT", help='"stall_torque >= 0.1 N*m", as for optimize.'
 )
 @click.option(
@@ -51,14 +51,13 @@ __all__ = ["speed_table"]
     help="Write the table: .csv, or .h for a C header that interpolates.",
 )
 @click.option("--json", "as_json", is_flag=True, help="One JSON object instead of a summary; SI units.")
-@point_options
+@box_options
 def speed_table(
     slowest: str,
     fastest: str,
     direction: str,
     points: Any,  # noqa: ANN401  # a number, which has to be an integer
     error: float,
-    bounds: tuple[str, ...],
     constraints: tuple[str, ...],
     out: Path | None,
     as_json: bool,
@@ -70,23 +69,22 @@ def speed_table(
 
     Exit code 1 where the box has none of the speeds; gaps are named.
     """
-    from trum_sym.console.optimize import ranges_of
     from trum_sym.output.files import check_target
     from trum_sym.studies.speed_table import speed_table as make
     from trum_sym.studies.speed_table_text import as_json_text, as_text
 
-    refuse_sampling_period(options, "mean speeds are continuous")
     if out is not None:
         check_target("--out", out, (".csv", ".h"))
+    machine, (drive, bounds) = chosen_motor(motor, overrides), chosen_box(options)
     table = make(
-        chosen_motor(motor, overrides),
-        chosen_drive(options),
+        machine,
+        drive,
         slowest=slowest,
         fastest=fastest,
         direction=direction,
         points=points,
         error=error,
-        bounds=ranges_of(bounds),
+        bounds=bounds,
         constraints=constraints,
         progress=sys.stderr.isatty(),
         **chosen_levels(options),

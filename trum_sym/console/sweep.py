@@ -8,7 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from trum_sym.console.options import QuantityType, chosen_levels, chosen_motor, number_option, point_options
+from trum_sym.console.options import (
+    QuantityType,
+    chosen_levels,
+    chosen_motor,
+    examples,
+    number_option,
+    point_options,
+)
 from trum_sym.console.say import say
 
 if TYPE_CHECKING:
@@ -28,7 +35,13 @@ class Range(click.ParamType):  # type: ignore[type-arg, unused-ignore]
         return str(value)
 
 
-@click.command()
+@click.command(
+    epilog=examples(
+        "trum-sym sweep --prepressure 160:210:6 --out force.csv",
+        "trum-sym sweep --prepressure 160:210:51 --frequency-difference 2800:3300:by=10 --dry-run",
+        "trum-sym sweep --set friction_coefficient=0.2,0.25,0.3 --load-torque 0:0.1:3 --out friction.zarr",
+    )
+)
 @point_options
 @click.option(
     "--out",

@@ -1,30 +1,30 @@
-"""An operating point for people (a table beside the published figures) and for programs (JSON)."""
+"""An operating point for people, a table beside the published figures."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import asdict, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor, Published
+from trum_sym.inputs.plausible import unquestioned
+from trum_sym.inputs.shown import full, quantity_of, readable
 from trum_sym.inputs.units import parse_unit
-from trum_sym.model.operating_point import OperatingPoint
+from trum_sym.model.inputs import Inputs
+from trum_sym.model.operating_point import OF_ORBIT, OperatingPoint, prepare, results
 from trum_sym.output.digits import with_error
-from trum_sym.output.json_text import json_text
 from trum_sym.quantities import QUANTITIES
 from trum_sym.text import one_line
 
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["as_json_text", "as_table", "histories_table", "shown_with_error"]
+__all__ = ["as_table", "compared", "drive_in_words", "histories_table", "reading_in_words", "shown_with_error"]
 
-
-def as_json_text(point: OperatingPoint) -> str:
-    """The point as a JSON object; null where a figure has no meaning or is infinite."""
-    return json_text(point.as_dict())
+_FAR = 10.0  # times: further apart, a difference is given in the figure's unit
 
 
 def histories_table(histories: xr.Dataset) -> str:
@@ -43,7 +43,8 @@ def histories_table(histories: xr.Dataset) -> str:
     )
     count, known = histories.sizes["time"], histories.attrs
     title = (
-        f"{known['title']}, start {known['start']}\n{known['cycles']} cycles of {1e3 * known['cycle_time']:.6g} ms, "
+        f"{known['title']}, start {known['start']}\n"
+        f"{known['cycles']} cycle{'s' * (known['cycles'] != 1)} of {1e3 * known['cycle_time']:.6g} ms, "
         f"{count} times; --out FILE.nc or FILE.csv writes them"
     )
     notes = ["", known["reason"]] if known["reason"] else []
@@ -52,66 +53,145 @@ def histories_table(histories: xr.Dataset) -> str:
 
 def shown_with_error(figures: Mapping[str, Any], name: str) -> tuple[str, str]:
     """A figure in its unit for people to the last digit that its error leaves, and the error; else to six digits."""
-    _, unit, shown = QUANTITIES[name]
     value, error = float(figures[name]), figures.get(f"{name}_error")
     if not np.isfinite(value):
         return "-", ""
-    value = _convert(value, unit, shown)
-    if error is None:
-        return f"{value:.6g}", ""
-    return with_error(value, _convert(float(error), unit, shown))
+    value = readable(name, value)
+    return (f"{value:.6g}", "") if error is None else with_error(value, readable(name, float(error)))
 
 
-def _published(motor: Motor, drive: Drive) -> dict[str, Published]:
-    """What is published for this very drive, by figure."""
-    settings = drive.numbers()
+def _published(inputs: Inputs) -> dict[str, Published]:
+    """What is published for this very drive, by figure: of an encoder only where ours is of the same one."""
+    settings = inputs.drive.numbers()
+    here: float | None = None if inputs.sampling_period is None else float(inputs.sampling_period)
     return {
         entry.output: entry
-        for entry in motor.published
+        for entry in inputs.motor.published
         if all(bool(np.isclose(settings[name], value, rtol=1e-9)) for name, value in entry.drive.items())
+        and (entry.output != "speed_volatility" or _same_encoder(entry.sampling_period, here))
     }
 
 
-def _convert(value: float, unit: str, shown: str) -> float:
-    return parse_unit(unit).to_si(value) / parse_unit(shown).to_si(1.0)
+def _same_encoder(one: float | None, other: float | None) -> bool:
+    return (one is None) == (other is None) and (one is None or bool(np.isclose(one, other or 0.0)))
 
 
-def as_table(motor: Motor, drive: Drive, point: OperatingPoint, levels: Mapping[str, object]) -> str:
-    """The point as a table: our value, the published one where there is one, the difference, the unit."""
+def compared(point: OperatingPoint) -> dict[str, dict[str, object]]:
+    """What is published of the figures, by name, with the unit and place of print: of the same kind only."""
+    return {
+        name: {"value": parse_unit(entry.unit).to_si(entry.value), "source": entry.source}
+        for name, entry in _published(point.inputs).items()
+    }
+
+
+def _difference(name: str, ours: float, theirs: float) -> str:
+    """In percent where the two are near, else in the unit that people read."""
+    if not np.isfinite(ours) or not theirs:
+        return ""
+    if ours * theirs > 0 and 1 / _FAR < ours / theirs < _FAR:
+        return f"{100 * (ours / theirs - 1):+.2f} %"
+    unit = quantity_of(name).shown
+    return f"{ours - theirs:+.6g}" + ("" if unit == "1" else f" {unit}")
+
+
+def drive_in_words(drive: Drive) -> str:
+    """The numbers of a drive, with all of their digits."""
+    return (
+        f"{full(drive.prepressure)} N, {'+' * (drive.frequency_difference >= 0)}{full(drive.frequency_difference)} Hz, "
+        f"{full(drive.on_periods)} of {full(drive.periods)} periods on, load {full(drive.load_torque)} N m"
+    )
+
+
+def reading_in_words(inputs: Inputs) -> list[str]:
+    """The choices that a paper's text leaves open, two lines."""
+    drive = inputs.drive
+    return [
+        f"reading: start {drive.start}, phase lead {drive.phase_lead:+g}, "
+        f"switching phase {full(drive.switching_phase)} rad",
+        "levels: " + ", ".join(f"{name} {level}" for name, level in asdict(inputs.levels).items()),
+    ]
+
+
+def _resting_on_assumed(point: OperatingPoint) -> dict[str, set[str]]:
+    """The figures that change when an assumed value of the motor goes to an end of its range, by that value's name."""
+    inputs, found = point.inputs, dict[str, set[str]]()
+    closed = [name for name in QUANTITIES if name not in OF_ORBIT]
+    tolerance = inputs.tolerance or 1e-6
+    with unquestioned():
+        here = prepare(inputs.motor, inputs.drive, inputs.levels, tolerance, warn=False)
+        figures = results(here, closed)
+        for name, parameter in inputs.motor.assumed().items():
+            ends = parameter.range or (parameter.value, parameter.value)
+            end = ends[0] if ends[0] != parameter.value else ends[1]
+            motor = replace(inputs.motor, **{name: replace(parameter, value=end, range=None)})  # type: ignore[arg-type]
+            moved = prepare(motor, inputs.drive, inputs.levels, tolerance, warn=False)
+            then = results(moved, closed)
+            found[name] = {figure for figure in closed if then[figure] != figures[figure]}
+            orbit = {"r_c"} | set(here.arguments)
+            both = ({**case.symbols, **case.arguments} for case in (here, moved))
+            one, other = both
+            if any(one[key] != other[key] for key in orbit):
+                found[name] |= OF_ORBIT & set(QUANTITIES)
+    return found
+
+
+def as_table(point: OperatingPoint) -> str:
+    """The point as a table: value, bound of its error, unit, and what is published of the same kind."""
     from tabulate import tabulate
 
-    published = _published(motor, drive)
-    rows = []
-    for name, (label, unit, shown) in QUANTITIES.items():
-        value, entry = getattr(point, name), published.get(name)
-        ours, error = shown_with_error(point.as_dict(), name)
-        paper = difference = source = ""
-        if entry is not None:
-            theirs = _convert(entry.value, entry.unit, shown)
-            paper, source = f"{theirs:.6g}", one_line(entry.source)
-            if np.isfinite(value) and theirs:
-                difference = f"{100 * (_convert(value, unit, shown) / theirs - 1):+.2f} %"
-        rows.append((label, ours, error, "" if shown == "1" else shown, paper, difference, source))
-    table = tabulate(
-        rows,
-        headers=("", "ours", "+-", "unit", "paper", "difference", "printed in"),
-        disable_numparse=True,
-        colalign=("left", "right", "left", "left", "right", "right", "left"),
-    )
-    title = (
-        f"{one_line(motor.name)} at "
-        f"{drive.prepressure:g} N, {drive.frequency_difference:+g} Hz, {drive.on_periods:g} of "
-        f"{drive.periods:g} periods on, load {drive.load_torque:g} N m\n"
-        f"start {point.start}, phase lead {drive.phase_lead:+g}, switching phase {drive.switching_phase:g} rad\n"
-        + ", ".join(f"{name} {level}" for name, level in levels.items() if level is not None)
-    )
-    return "\n".join([title, "", table, *_notes(drive, point)])
+    inputs = point.inputs
+    motor, drive, published = inputs.motor, inputs.drive, _published(inputs)
+    resting = _resting_on_assumed(point)
+    marked = set().union(*resting.values()) if resting else set()
+    period = inputs.sampling_period
+    kind = "continuous" if period is None else f"encoder of {full(1e3 * float(period))} ms"
+    rows: list[list[str]] = []
+    figures: dict[str, Any] = point.as_dict()
+    for name, quantity in QUANTITIES.items():
+        label = f"{quantity.label}, {kind}" if name == "speed_volatility" else quantity.label
+        row = [label, *shown_with_error(figures, name), "" if quantity.shown == "1" else quantity.shown]
+        row.append("*" if name in marked else "")
+        if published:
+            entry = published.get(name)
+            theirs = 0.0 if entry is None else readable(name, parse_unit(entry.unit).to_si(entry.value))
+            row += ["", "", ""] if entry is None else [
+                f"{theirs:.6g}", _difference(name, readable(name, float(figures[name])), theirs), one_line(entry.source)
+            ]  # fmt: skip
+        rows.append(row)
+    headers = ["", "value", "+-", "unit", ""] + (["published", "difference", "printed in"] if published else [])
+    align = ["left", "right", "left", "left", "left"] + (["right", "right", "left"] if published else [])
+    table = tabulate(rows, headers=headers, disable_numparse=True, colalign=align)
+    title = [f"{one_line(motor.name)} at {drive_in_words(drive)}", *reading_in_words(inputs)]
+    return "\n".join([*title, "", table, *_notes(point, resting)])
 
 
-def _notes(drive: Drive, point: OperatingPoint) -> list[str]:
-    """What the figures alone do not say about the rotor."""
-    notes = ["", str(point.reason)] if point.reason else []
-    load, speed, stall = (float(x) for x in (drive.load_torque, point.mean_speed, point.stall_torque))
-    if speed * load < 0 and abs(load) > abs(stall):
-        notes += ["", "the load exceeds the stall torque and drives the rotor back"]
-    return notes
+def _notes(point: OperatingPoint, resting: Mapping[str, set[str]]) -> list[str]:
+    """What the figures alone do not say."""
+    notes = ["", *(f"remark: {remark}" for remark in point.remarks)] if point.remarks else []
+    motor = point.inputs.motor
+    names = [name for name, figures in resting.items() if figures]
+    if names:
+        values = [f"{name} {_in_range(motor, name)}" for name in names]
+        notes += ["", "* rests on values that are assumed, not measured: " + values[0] + ",", *_wrapped(values[1:])]
+    other = [e for e in motor.published if e.output == "speed_volatility" and e.sampling_period is not None]
+    shown = _published(point.inputs)
+    if other and "speed_volatility" not in shown and shown:
+        entry = other[0]
+        period = full(1e3 * float(entry.sampling_period or 0))
+        notes += ["", f"published of an encoder: sigma_s {entry.value:g} {entry.unit} ({one_line(entry.source)}); "
+                  f"--sampling-period '{period} ms' compares with it"]  # fmt: skip
+    return [*notes, "", "next: trum-sym motor show says where every value comes from; --json > point.json keeps the point",
+            "      with all inputs, and --point point.json gives it to any other command, such as sensitivities"]  # fmt: skip
+
+
+def _in_range(motor: Motor, name: str) -> str:
+    parameter = getattr(motor, name)
+    unit = "" if parameter.unit == "1" else f" {parameter.unit}"
+    ends = f" ({parameter.range[0]:g} to {parameter.range[1]:g})" if parameter.range else ""
+    return f"{parameter.value:g}{unit}{ends}"
+
+
+def _wrapped(words: list[str]) -> list[str]:
+    import textwrap
+
+    return textwrap.wrap(", ".join(words), 110, initial_indent="  ", subsequent_indent="  ", break_on_hyphens=False)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from typing import Any, Unpack
 
 import numpy as np
@@ -14,6 +14,7 @@ from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
 from trum_sym.inputs.points import check_point, numbers_of, one_number, period_of
 from trum_sym.model.cycle import check_steady_state, cycle_sums, modal_values, scaled, warn_next_to_resonance
+from trum_sym.model.inputs import Inputs, remarks_of, units_of
 from trum_sym.model.kernels import call
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.model.rotor import Orbit, encoder_deviation, history, orbit_values, reasons, solve_orbit
@@ -104,6 +105,8 @@ class OperatingPoint(Value):
         Whether all these bounds meet the tolerance.
     reason : str
         Why not, in words; empty if they do.
+    inputs : Inputs
+        Motor, drive, levels, encoder and tolerance that the figures hold for.
     """
 
     motor: str
@@ -134,14 +137,31 @@ class OperatingPoint(Value):
     stall_torque_error: ArrayLike
     converged: bool | np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
     reason: str | np.ndarray[tuple[int, ...], np.dtype[np.str_]]
+    inputs: Inputs = field(repr=False)
 
     def as_dict(self) -> dict[str, object]:
-        """The figures by name, in the order of the fields."""
-        return {field.name: getattr(self, field.name) for field in fields(self)}
+        """The figures by name, in the order of the fields; without ``inputs``."""
+        return {field.name: getattr(self, field.name) for field in fields(self) if field.name != "inputs"}
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What the figures of a single point do not say by themselves: a load that drives the rotor back, and so on."""
+        return () if np.ndim(self.mean_speed) else remarks_of(self.as_dict(), float(self.inputs.drive.load_torque))
+
+    def record(self) -> dict[str, object]:
+        """Inputs, figures, remarks and units by name, in SI units: what ``evaluate --json`` prints."""
+        found = {**self.inputs.record(), **{k: _plain(v) for k, v in self.as_dict().items()}, "remarks": self.remarks}
+        return {**found, "units": units_of(found)}
+
+
+def _plain(value: object) -> object:
+    return value.tolist() if isinstance(value, np.ndarray) else value
 
 
 RESULTS = tuple(
-    field.name for field in fields(OperatingPoint) if field.name not in ("motor", "start", "contact", "reason")
+    field.name
+    for field in fields(OperatingPoint)
+    if field.name not in ("motor", "start", "contact", "reason", "inputs")
 )
 """The figures of an operating point that depend on its numbers, in order."""
 
@@ -221,6 +241,7 @@ class Case:
     symbols: dict[str, ArrayLike]
     arguments: dict[str, ArrayLike]
     sampling_period: ArrayLike | None
+    tolerance: float
 
 
 def prepare(
@@ -254,13 +275,16 @@ def prepare(
         warn_next_to_resonance(values)
     symbols = {**motor.symbols(), **stator.values, **drive.symbols()}
     arguments = orbit_values(scaled(values, stator.W), symbols, levels.contact, tolerance)
-    return Case(motor, drive, levels, shape, stator, values, symbols, arguments, sampling_period)
+    return Case(motor, drive, levels, shape, stator, values, symbols, arguments, sampling_period, tolerance)
 
 
 def point_of(case: Case, progress: bool = False) -> OperatingPoint:
     """All figures of a case from :func:`prepare`."""
     found = results(case, (*RESULTS, "reason"), progress)
-    return OperatingPoint(motor=case.motor.name, start=case.drive.start, contact=case.levels.contact, **found)
+    inputs = Inputs(case.motor, case.drive, case.levels, case.sampling_period, case.tolerance)
+    return OperatingPoint(
+        motor=case.motor.name, start=case.drive.start, contact=case.levels.contact, **found, inputs=inputs
+    )
 
 
 def results(case: Case, wanted: Collection[str], progress: bool = False) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""A tolerance study as a picture: how each output is distributed, and its Sobol indices with their intervals."""
+"""A study of spread as a picture: how each output is distributed, and its Sobol indices with their intervals."""
 
 from __future__ import annotations
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import Unpack
 
@@ -15,11 +15,13 @@ from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
 from trum_sym.inputs.points import one_number
+from trum_sym.inputs.shown import full
 from trum_sym.inputs.units import ARCSEC
+from trum_sym.model.inputs import Inputs, remarks_of, units_of
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.optimiser.chart import chart
 from trum_sym.optimiser.expressions import Constraint, Expression, parse_expression
-from trum_sym.optimiser.finish import Finished
+from trum_sym.optimiser.finish import TOLERANCE, Finished
 from trum_sym.optimiser.model import Model, functions
 from trum_sym.optimiser.solve import Answer, Problem, solve
 from trum_sym.output.json_text import json_text
@@ -70,6 +72,8 @@ class ParetoFront(Value):
     asked, evaluations : int
         Problems solved, orbits computed.
     message : str
+    inputs : Inputs
+        What all points share.
     """
 
     status: str
@@ -81,13 +85,29 @@ class ParetoFront(Value):
     asked: int
     evaluations: int
     message: str
+    inputs: Inputs = field(repr=False)
+
+    def record(self) -> dict[str, object]:
+        """Inputs, points with their drives and remarks, and units by name, in SI units."""
+        keys = [name for name in ParetoPoint.__dataclass_fields__ if name != "figures"]
+        load = float(self.inputs.drive.load_torque)
+        points = [
+            {
+                **{key: getattr(point, key) for key in keys},
+                "drive": {
+                    name: point.figures[name] for name in ("prepressure", "frequency_difference", "switching_phase")
+                },
+                "remarks": remarks_of(point.figures, load),
+            }
+            for point in self.points
+        ]
+        own = {name: getattr(self, name) for name in self.__dataclass_fields__ if name not in ("points", "inputs")}
+        found = {**self.inputs.record(), **own, "points": points, "remarks": []}
+        return {**found, "units": units_of(found)}
 
     def as_json_text(self) -> str:
         """One JSON object; SI units."""
-        keys = [name for name in ParetoPoint.__dataclass_fields__ if name != "figures"]
-        points = [{key: getattr(point, key) for key in keys} for point in self.points]
-        record = {name: getattr(self, name) for name in self.__dataclass_fields__ if name != "points"}
-        return json_text({**record, "points": points})
+        return json_text(self.record())
 
     def as_table(self, title: str) -> str:
         """For people."""
@@ -95,28 +115,33 @@ class ParetoFront(Value):
 
         rows = [
             (
+                f"{number}",
                 f"{p.objective:.6g}",
                 f"{p.against:.6g}",
-                f"{p.prepressure:.6g}",
-                f"{p.frequency_difference:.7g}",
+                f"{full(p.prepressure)}",
+                f"{full(p.frequency_difference)}",
                 f"{p.mean_speed / ARCSEC:.6g}",
                 f"{100 * p.speed_volatility:.5g}",
                 f"{p.stall_torque:.5g}",
             )
-            for p in self.points
+            for number, p in enumerate(self.points, 1)
         ]
         headers = (
+            "#",
             self.objective,
             self.against,
             "prepressure N",
-            "difference Hz",
+            "frequency difference Hz",
             "mean arcsec/s",
             "volatility %",
             "stall N m",
         )
         lines = [title, "", f"{self.status}: {self.message}"]
         if rows:
-            lines += ["", tabulate(rows, headers, disable_numparse=True, colalign=("right",) * 7)]
+            lines += ["", tabulate(rows, headers, disable_numparse=True, colalign=("right",) * 8)]
+        load = float(self.inputs.drive.load_torque)
+        for number, point in enumerate(self.points, 1):
+            lines += [f"remark on #{number}: {remark}" for remark in remarks_of(point.figures, load)]
         lines += [f"gap: nothing between {self.against} {low:.6g} and {high:.6g}" for low, high in self.gaps]
         return "\n".join([*lines, "", f"{self.asked} problems, {self.evaluations} orbits computed"])
 
@@ -187,6 +212,7 @@ def pareto(
         asked=len(answers),
         evaluations=walk.model.evaluations,
         message=message,
+        inputs=Inputs(problem.motor, problem.drive, problem.levels, None, TOLERANCE),
     )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from os import PathLike
 
 import numpy as np
@@ -14,6 +14,7 @@ from trum_sym.inputs.choices import path_of
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.points import one_number
 from trum_sym.inputs.units import ARCSEC
+from trum_sym.model.inputs import Inputs
 from trum_sym.text import one_line
 from trum_sym.values import Value
 
@@ -70,6 +71,8 @@ class SpeedTable(Value):
         Lowest and highest mean speed on the map of the box, rad/s.
     evaluations : int
         Orbits computed.
+    inputs : Inputs
+        Motor, drive, levels, and the tolerance of the orbits.
     """
 
     motor: str
@@ -82,6 +85,7 @@ class SpeedTable(Value):
     floor: float
     reachable: tuple[float, float]
     evaluations: int
+    inputs: Inputs = field(repr=False)
 
     def __len__(self) -> int:
         return sum(segment.speed.size for segment in self.segments)

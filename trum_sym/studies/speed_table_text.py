@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from trum_sym.inputs.units import ARCSEC
+from trum_sym.model.inputs import units_of
 from trum_sym.output.json_text import json_text
 from trum_sym.studies.speed_table_result import SpeedTable
 
@@ -44,8 +45,7 @@ def as_text(table: SpeedTable) -> str:
 def as_json_text(table: SpeedTable) -> str:
     """One JSON object in SI units."""
     record = {
-        "motor": table.motor,
-        "drive": {**{name: float(value) for name, value in table.drive.numbers().items()}, "start": table.drive.start},
+        **table.inputs.record(),
         "variables": list(table.variables),
         "error": table.error,
         "largest_error": table.largest_error,
@@ -60,6 +60,12 @@ def as_json_text(table: SpeedTable) -> str:
             }
             for segment in table.segments
         ],
+        "points": [
+            {"mean_speed": float(segment.speed[k]), "drive": {name: float(x[k]) for name, x in segment.drive.items()}}
+            for segment in table.segments
+            for k in range(segment.speed.size)
+        ],
         "evaluations": table.evaluations,
+        "remarks": [f"{gap.low:.9g} to {gap.high:.9g} rad/s: {gap.reason}" for gap in table.gaps],
     }
-    return json_text(record)
+    return json_text({**record, "units": units_of(record)})

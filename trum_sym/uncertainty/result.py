@@ -1,4 +1,4 @@
-"""A tolerance study's result: the points that were computed, what spreads them, and which targets they miss."""
+"""A study of spread's result: the points that were computed, what spreads them, and which targets they miss."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ class Target(Value):
 
 @dataclass(frozen=True, eq=False)
 class Study(Value):
-    """A tolerance study; SI units, frequencies in Hz, speeds in rad/s.
+    """A study of spread; SI units, frequencies in Hz, speeds in rad/s.
 
     Attributes
     ----------
@@ -128,7 +128,7 @@ class Study(Value):
             variables[name] = (dims, found.values[name], {"units": output.unit, "long_name": output.label})
         variables["converged"] = (dims, self.settled, {"long_name": "the orbit met its tolerance"})
         attributes = {
-            "title": f"tolerance study of {one_line(self.motor.name)}",
+            "title": f"spread of {one_line(self.motor.name)}",
             "trum_sym": version("trum-sym"),
             "samples": self.samples,
             "seed": self.seed,

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from trum_sym.inputs.units import parse_unit
+from trum_sym.inputs.shown import full, readable
+from trum_sym.model.inputs import units_of
 from trum_sym.output.json_text import json_text
 from trum_sym.quantities import QUANTITIES
 from trum_sym.text import one_line
@@ -31,7 +32,7 @@ def label(output: str) -> str:
 
 def shown(output: str, value: float) -> float:
     """A value in the unit that people read."""
-    return value / parse_unit(QUANTITIES[output].shown).to_si(1.0)
+    return readable(output, value)
 
 
 def _percent(share: Estimate) -> str:
@@ -50,8 +51,9 @@ def as_text(study: Study) -> str:
     drive, count = study.drive, len(study.distributions)
     lines = [
         f"{one_line(study.motor.name)} at "
-        f"{drive.prepressure:g} N, {drive.frequency_difference:+g} Hz, {drive.on_periods:g} of "
-        f"{drive.periods:g} periods on, load {drive.load_torque:g} N m, start {drive.start}",
+        f"{full(drive.prepressure)} N, {'+' * (drive.frequency_difference >= 0)}{full(drive.frequency_difference)} Hz, "
+        f"{full(drive.on_periods)} of {full(drive.periods)} periods on, load {full(drive.load_torque)} N m, "
+        f"start {drive.start}",
         f"{count} uncertain parameter{'s' * (count != 1)}, {study.samples} samples, "
         f"{study.samples * (count + 2)} points, seed {study.seed}; intervals at {100 * CONFIDENCE:g} %",
         "",
@@ -180,11 +182,9 @@ def as_json_text(study: Study) -> str:
     values, settled = study.propagation.values, study.settled
     lost, loose = values[BALANCED] == 0, ~settled & (values[BALANCED] == 1)
     found = {
-        "motor": study.motor.name,
-        "drive": {**study.drive.numbers(), "start": study.drive.start},
-        "levels": dict(study.levels),
+        **study.nominal.inputs.record(),
         "samples": study.samples,
-        "points": lost.size,
+        "count": lost.size,
         "seed": study.seed,
         "confidence": CONFIDENCE,
         "parameters": {
@@ -204,7 +204,7 @@ def as_json_text(study: Study) -> str:
         if not study.targets
         else {**study.missing().as_dict(), "indices": _indices_record(study.propagation.indices[MISSED])},
     }
-    return json_text(found)
+    return json_text({**found, "remarks": study.nominal.remarks, "units": units_of(found)})
 
 
 def _output_record(study: Study, output: str) -> dict[str, object]:
