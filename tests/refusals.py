@@ -21,7 +21,7 @@ WITHOUT_PUBLISHED = MOTOR_TEXT[: MOTOR_TEXT.index("[[published]]")]
 NUMERIC_FIELDS = tuple(ts.Drive().numbers())
 MEASURED_NAMES = ("resonance_frequency", "amplitude", "neutral_axis", "wavenumber", "layer_stiffness")
 PARAMETER_NAMES = (*dict(MOTOR.parameters()), *MEASURED_NAMES)
-POINT_NUMBERS = tuple(name for name, value in ts.evaluate(MOTOR).as_dict().items() if isinstance(value, float))
+POINT_NUMBERS = tuple(name for name, value in ts.evaluate(MOTOR).figures.items() if isinstance(value, float))
 SEARCH = settings(
     derandomize=True, deadline=None, max_examples=80, phases=(Phase.explicit, Phase.generate, Phase.shrink)
 )

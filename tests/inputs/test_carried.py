@@ -241,7 +241,7 @@ def test_like_labels_pair_and_results_are_plain_arrays(case):
     first, second = ALIKE[case]()
     point = ts.evaluate(MOTOR, ts.Drive(prepressure=first, frequency_difference=second))
     expected = ts.evaluate(MOTOR, ts.Drive(prepressure=[180.0, 190.0], frequency_difference=np.asarray(second)))
-    for name, value in point.as_dict().items():
+    for name, value in point.figures.items():
         assert not isinstance(value, np.ndarray) or type(value) is np.ndarray, name
         np.testing.assert_array_equal(value, getattr(expected, name))
 

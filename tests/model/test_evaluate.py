@@ -60,7 +60,7 @@ def test_json_is_the_python_result(capsys, trum60):
     _, out, _ = run(capsys, "--json", "--start", "rest", "--phase-lead", "-1", "--frequency-difference", "-2.5 kHz")
     printed = json.loads(out)
     point = ts.evaluate(trum60, ts.Drive(start="rest", phase_lead=-1, frequency_difference=-2500.0))
-    figures = point.as_dict()
+    figures = point.figures
     assert {name: printed[name] for name in figures} == pytest.approx(figures)
     assert printed["drive"]["frequency_difference"] == -2500.0
     assert printed["levels"] == {name: getattr(point.inputs.levels, name) for name in LEVEL_NAMES}

@@ -49,7 +49,7 @@ def test_every_history_has_one_value_a_time_its_unit_and_its_meaning(found):
 def test_attributes_hold_every_setting_and_figure(found, trum60, drive):
     point = ts.evaluate(trum60, drive, tolerance=1e-7)
     known = found.attrs
-    for name, value in {**drive.numbers(), **point.as_dict()}.items():
+    for name, value in {**drive.numbers(), **point.figures}.items():
         assert known[name] == value
     assert known["runaway"] == 0
     assert known["source"].startswith("trum-sym ")

@@ -165,7 +165,7 @@ def enter(browser, settings):
 def evaluated(settings):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ts.ValidityWarning)
-        return ts.evaluate(ts.load_motor(), Drive(**settings), tolerance=TOLERANCE).as_dict()
+        return ts.evaluate(ts.load_motor(), Drive(**settings), tolerance=TOLERANCE).figures
 
 
 @pytest.mark.browser

@@ -16,7 +16,6 @@ import trum_sym as ts
 from trum_sym.model import batch
 from trum_sym.model.cycle import cycle_sums, modal_values
 from trum_sym.uncertainty.propagation import propagate
-from trum_sym.uncertainty.tables import as_json_text, as_text
 
 # few pulses a cycle: a point costs a fifth of Table 3's
 SHORT = ts.Drive(periods=4, on_periods=3, load_torque=0.05)
@@ -130,7 +129,7 @@ def test_indices_of_the_rotors_speed_are_those_of_a_double_loop(study):
 
 
 def test_what_to_measure_first_is_said_in_words(study):
-    text = as_text(study)
+    text = study.to_text()
     best = study.propagation.indices["mean_speed"].first["prepressure"]
     assert f"measure prepressure first: on average, knowing it takes away {100 * best.value:.3g} %" in text
     # knowing it: the variance that is left, found without the engine
@@ -161,7 +160,7 @@ def test_missing_a_target_is_counted(study):
     assert 0 < rough.value == np.mean(volatility >= 0.016) < 1
     assert study.missing().value == np.mean((speed < 7e6) | (volatility >= 0.016))
     assert slow.low < slow.value < slow.high
-    assert f"probability of missing mean_speed >= 7000000 arcsec/s: {100 * slow.value:.3g} %" in as_text(study)
+    assert f"probability of missing mean_speed >= 7000000 arcsec/s: {100 * slow.value:.3g} %" in study.to_text()
 
 
 def test_points_that_no_speed_balances_are_counted_and_named(overloaded):
@@ -172,11 +171,11 @@ def test_points_that_no_speed_balances_are_counted_and_named(overloaded):
     exact = (edge - 0.222) / (0.26 - 0.222)
     assert overloaded.unbalanced.low < exact < overloaded.unbalanced.high
     assert overloaded.unbalanced.value == pytest.approx(exact, abs=0.01)
-    record = json.loads(as_json_text(overloaded))["unbalanced"]
+    record = json.loads(overloaded.to_json())["unbalanced"]
     assert record["count"] == (points <= edge).sum()
     assert len(record["points"]) == (points[:2] <= edge).sum()
     assert all(point["friction_coefficient"] <= edge for point in record["points"])
-    text = as_text(overloaded)
+    text = overloaded.to_text()
     assert f"no speed balances the load at {record['count']} of 512 points" in text
     assert f"max speed has no value at {len(record['points'])} of 256 points" in text
     assert f"friction_coefficient = {record['points'][0]['friction_coefficient']:.6g}" in text
@@ -200,17 +199,17 @@ def test_indices_say_how_many_rows_they_hold_for(overloaded):
     indices = overloaded.propagation.indices
     assert indices["max_speed"].rows == np.isfinite(values).all(axis=0).sum() < 128
     assert indices["q_average"].rows == 128
-    assert f"over the {indices['max_speed'].rows} of 128 rows" in as_text(overloaded)
+    assert f"over the {indices['max_speed'].rows} of 128 rows" in overloaded.to_text()
 
 
 def test_orbits_that_do_not_settle_are_counted_and_named(study):
     settled = study.settled.copy()
     assert settled.all()
     settled[0, 5] = settled[3, 7] = False
-    text = as_text(replace(study, settled=settled))
+    text = replace(study, settled=settled).to_text()
     assert "did not meet its tolerance at 2 of 1280 points" in text
     assert f"prepressure = {study.propagation.points['prepressure'][0, 5]:.6g}" in text
-    record = json.loads(as_json_text(replace(study, settled=settled)))["unsettled"]
+    record = json.loads(replace(study, settled=settled).to_json())["unsettled"]
     assert (record["count"], len(record["points"])) == (2, 1)
 
 
@@ -220,8 +219,8 @@ def test_a_volatility_without_a_variance_is_said_to_be_one():
     speed = found.propagation.values["mean_speed"]
     assert speed.min() < 0 < speed.max(), "or this test says nothing"
     assert found.unbounded == ("speed_volatility",)
-    assert "grows without bound" in as_text(found)
-    assert json.loads(as_json_text(found))["outputs"]["speed_volatility"]["unbounded"] is True
+    assert "grows without bound" in found.to_text()
+    assert json.loads(found.to_json())["outputs"]["speed_volatility"]["unbounded"] is True
 
 
 def test_the_motor_file_says_what_is_uncertain():
@@ -230,20 +229,20 @@ def test_the_motor_file_says_what_is_uncertain():
     assert set(found.distributions) == assumed - {"piezo_width"}
     more = ts.spread(MOTOR, SHORT, samples=64, spreads={"motor": None, "load_torque": "normal:0.05:0.01"})
     assert set(more.distributions) == assumed | {"load_torque"}
-    assert "no effect at any point: piezo_strain_constant, piezo_compliance, curvature_radius" in as_text(found)
+    assert "no effect at any point: piezo_strain_constant, piezo_compliance, curvature_radius" in found.to_text()
 
 
 def test_the_same_seed_gives_the_same_bits_on_any_number_of_threads(study, monkeypatch):
     monkeypatch.setattr(batch.os, "cpu_count", lambda: 3)
     targets = [target.text for target in study.targets]
     again = ts.spread(MOTOR, SHORT, spreads=UNIFORM, samples=256, outputs=study.outputs, target=targets)
-    assert as_json_text(again) == as_json_text(study)
+    assert again.to_json() == study.to_json()
     for name, values in study.propagation.values.items():
         assert np.array_equal(values, again.propagation.values[name], equal_nan=True)
 
 
 def test_the_data_set_has_every_point_and_setting(study):
-    data = study.dataset()
+    data = study.to_xarray()
     assert data.sizes == {"matrix": 5, "sample": 256}
     assert data.mean_speed.units == "rad/s"
     assert data.prepressure.units == "N"

@@ -12,7 +12,6 @@ from refusals import MOTOR, assert_one_clear_line
 import trum_sym as ts
 from trum_sym import console
 from trum_sym.plots.tolerance import draw
-from trum_sym.uncertainty.tables import as_json_text
 
 SHORT = ("--periods", "4", "--on-periods", "3", "--load-torque", "0.05", "--samples", "64")
 VARY = ("--spread", "friction_coefficient", "--spread", "prepressure=normal:180:5")
@@ -35,7 +34,7 @@ def test_console_gives_what_python_gives(capsys):
         outputs=["max_speed"],
         target="max_speed > 0 rpm",
     )
-    assert out.strip() == as_json_text(study)
+    assert out.strip() == study.to_json()
     record = json.loads(out)
     described = {"kind": "normal", "mean": 180.0, "standard_deviation": 5.0, "unit": "N"}
     assert record["parameters"]["prepressure"] == {**described, "low": None, "high": None, "mode": None}

@@ -9,11 +9,13 @@ import click
 from trum_sym.console.calibrate import calibrate
 from trum_sym.console.equations import equations
 from trum_sym.console.evaluate import evaluate
+from trum_sym.console.motor import motor
 from trum_sym.console.optimize import optimize
 from trum_sym.console.pareto import pareto
 from trum_sym.console.report import report
 from trum_sym.console.robust import robust
 from trum_sym.console.say import say
+from trum_sym.console.sensitivities import sensitivities
 from trum_sym.console.simulate import simulate
 from trum_sym.console.speed_table import speed_table
 from trum_sym.console.spread import spread
@@ -55,6 +57,7 @@ def _cli() -> None:
 
 for _command in (
     evaluate,
+    sensitivities,
     simulate,
     sweep,
     spread,
@@ -63,6 +66,7 @@ for _command in (
     robust,
     speed_table,
     calibrate,
+    motor,
     equations,
     report,
 ):

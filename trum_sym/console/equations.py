@@ -22,11 +22,20 @@ __all__ = ["equations"]
 @click.option(
     "--severity", metavar="NAME", help="Only errata that are typographical, conditional, quantitative or structural."
 )
+@click.option("--open", "open_page", is_flag=True, help="Show the ledger's page, with typeset formulas, in a browser.")
 @click.option("--json", "as_json", is_flag=True, help="The records instead of a table.")
-def equations(equation: str | None, verdict: str | None, severity: str | None, as_json: bool) -> None:
+def equations(equation: str | None, verdict: str | None, severity: str | None, open_page: bool, as_json: bool) -> None:
     """The ledger: what the paper printed, what follows from first principles, the verdict and its effect."""
-    from trum_sym.paper.ledger import counted, filtered, load_ledger, select, table, written_out
+    from trum_sym.paper.ledger import counted, filtered, ledger_path, load_ledger, select, table, written_out
 
+    if open_page:
+        import webbrowser
+
+        page = ledger_path()
+        address = page.as_uri() + (f"#eq-{select(load_ledger(), equation)['id']}" if equation else "")
+        say(address)
+        webbrowser.open(address)
+        return
     records = load_ledger()
     chosen = filtered(records, verdict=verdict, severity=severity) if equation is None else [select(records, equation)]
     if as_json:

@@ -9,7 +9,15 @@ from typing import Any
 
 import click
 
-from trum_sym.console.options import box_options, chosen_box, chosen_levels, chosen_motor, examples
+from trum_sym.console.options import (
+    box_options,
+    check_plot,
+    chosen_box,
+    chosen_levels,
+    chosen_motor,
+    examples,
+    plot_options,
+)
 from trum_sym.console.say import say
 from trum_sym.text import one_line
 
@@ -58,12 +66,7 @@ def sought(objective: str | None, target_speed: str | None, constraints: tuple[s
 )
 @target_option('Mean speed to reach, in rad/s or with a unit: "633 arcsec/s"; its sign is the direction.')
 @constraint_option('"stall_torque >= 0.35 N*m": arithmetic on figures, >=, <= or ==, a value.')
-@click.option(
-    "--plot",
-    type=click.Path(path_type=Path),
-    metavar="FILE",
-    help="Draw the box: speeds, the target, borders of the constraints, the optimum (.png, .svg, .pdf).",
-)
+@plot_options("Draw the box: speeds, the target, borders of the constraints, the optimum")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object instead of a table; SI units, speeds in rad/s.")
 def optimize(
     motor: str,
@@ -72,6 +75,7 @@ def optimize(
     target_speed: str | None,
     constraints: tuple[str, ...],
     plot: Path | None,
+    force: bool,
     as_json: bool,
     **options: Any,  # noqa: ANN401
 ) -> int:
@@ -79,14 +83,9 @@ def optimize(
 
     Exit code 1 where no point of the box meets them; what is nearest is shown.
     """
-    from trum_sym.optimiser.result import as_json_text, as_table
     from trum_sym.optimiser.search import optimize as find
 
-    if plot is not None:
-        from trum_sym.output.files import check_target
-        from trum_sym.plots.optimum import SUFFIXES, draw
-
-        check_target("--plot", plot, SUFFIXES)
+    check_plot(plot, force)
     machine, (drive, bounds) = chosen_motor(motor, overrides), chosen_box(options)
     aim = sought(objective, target_speed, constraints)
     found = find(
@@ -100,7 +99,9 @@ def optimize(
         **chosen_levels(options),
     )
     title = f"{one_line(machine.name)}: least {aim}" + (f" at {target_speed}" if target_speed else " at any speed")
-    say(as_json_text(found) if as_json else as_table(found, f"{title}, load {drive.load_torque:g} N m"))
+    say(found.to_json() if as_json else found.to_text(f"{title}, load {drive.load_torque:g} N m"))
     if plot is not None:
+        from trum_sym.plots.optimum import draw
+
         draw(found, plot, "--plot")
     return 0 if found.status == "solved" else 1

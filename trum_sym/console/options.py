@@ -25,15 +25,19 @@ __all__ = [
     "FREED",
     "QuantityType",
     "box_options",
+    "check_plot",
     "choice_option",
     "chosen_box",
     "chosen_drive",
     "chosen_levels",
     "chosen_motor",
+    "continuous_options",
     "examples",
+    "force_option",
     "number_option",
     "option_name",
     "pairs",
+    "plot_options",
     "point_options",
     "tolerance_option",
 ]
@@ -150,6 +154,45 @@ _SAMPLING = number_option(
 )
 
 
+def force_option(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Give a command the option ``--force``: files that exist are replaced by nothing else."""
+    return click.option("--force", is_flag=True, help="Replace files that exist.")(command)
+
+
+def plot_options(text: str) -> Callable[..., Any]:
+    """The options ``--plot`` and ``--force``."""
+
+    def given(command: Callable[..., Any]) -> Callable[..., Any]:
+        plot = click.option(
+            "--plot", type=click.Path(path_type=Path), metavar="FILE", help=f"{text} (.png, .svg, .pdf)."
+        )
+        return _given(command, (plot, force_option))
+
+    return given
+
+
+def check_plot(plot: Path | None, force: bool) -> None:
+    """Refuse, before any work is done, a picture that cannot be written, or would replace a file.
+
+    Raises
+    ------
+    ParameterError
+        For another suffix, a place that cannot be written to, or a file that exists and no ``--force``.
+    MissingExtraError
+        Without matplotlib.
+    """
+    if plot is None:
+        return
+    from trum_sym.errors import MissingExtraError
+    from trum_sym.output.files import check_new
+
+    check_new("--plot", plot, (".png", ".svg", ".pdf"), force)
+    try:
+        import matplotlib  # noqa: F401
+    except ImportError:
+        raise MissingExtraError("a picture", "matplotlib", "report") from None
+
+
 def tolerance_option(command: Callable[..., Any]) -> Callable[..., Any]:
     """Give a command the option ``--tolerance``, which is None where it is not given."""
     text = (
@@ -162,8 +205,13 @@ def tolerance_option(command: Callable[..., Any]) -> Callable[..., Any]:
 
 def point_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """Give a command all options of an operating point."""
+    return continuous_options(_SAMPLING(command))
+
+
+def continuous_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Give a command all options of an operating point but the encoder's."""
     drive = (_drive_option(quantity) for quantity in fields(Drive))
-    return _given(command, (*_MOTOR, _POINT, *drive, *_LEVELS, _SAMPLING))
+    return _given(command, (*_MOTOR, _POINT, *drive, *_LEVELS))
 
 
 def box_options(command: Callable[..., Any]) -> Callable[..., Any]:
@@ -219,13 +267,37 @@ def chosen_motor(name: str, overrides: tuple[str, ...]) -> Motor:
     given = context is not None and context.get_parameter_source("motor") is click.core.ParameterSource.COMMANDLINE
 
     def stated() -> Motor:
-        return point.motor() if point is not None and not given else load_motor(name)
+        if point is not None and not given:
+            return cast("Motor", point.motor())
+        machine = load_motor(name)
+        if context is not None and name != "trum60" and machine.name != load_motor().name:
+            _warn_borrowed(context)
+        return machine
 
     if not values:
         return stated()
     with unquestioned():  # with_values warns of what is left
         machine = stated()
     return machine.with_values(values)
+
+
+def _warn_borrowed(context: click.Context) -> None:
+    """Say which numbers of the drive are the TRUM-60's, where a motor of one's own is driven by them."""
+    import warnings
+
+    from trum_sym.errors import ValidityWarning
+
+    options = {p.name: p for p in context.command.params if isinstance(p, click.Option)}
+    left = [
+        f"{option_name(quantity.name)} {quantity.default:g}"
+        for quantity in fields(Drive)
+        if quantity.name in ("prepressure", "frequency_difference", "load_torque")
+        and quantity.name in options
+        and options[quantity.name].default is not None
+        and context.get_parameter_source(quantity.name) is click.core.ParameterSource.DEFAULT
+    ]
+    if left:
+        warnings.warn(f"not given, so as for TRUM-60: {', '.join(left)}", ValidityWarning, stacklevel=2)
 
 
 def chosen_drive(options: dict[str, Any]) -> Drive:

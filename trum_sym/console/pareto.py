@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from pathlib import Path
 from typing import Any
 
 import click
@@ -10,11 +11,13 @@ import click
 from trum_sym.console.optimize import constraint_option, sought, target_option
 from trum_sym.console.options import (
     box_options,
+    check_plot,
     chosen_box,
     chosen_levels,
     chosen_motor,
     examples,
     number_option,
+    plot_options,
 )
 from trum_sym.console.say import say
 from trum_sym.text import one_line
@@ -43,6 +46,7 @@ __all__ = ["pareto"]
 @target_option('Mean speed to hold, or to be near, in rad/s or with a unit: "633 arcsec/s".')
 @number_option("--points", "1", 11, "Limits along the front.", "K")
 @constraint_option("As for optimize.")
+@plot_options("Draw the front")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object instead of a table; SI units, speeds in rad/s.")
 @box_options
 def pareto(
@@ -51,6 +55,8 @@ def pareto(
     target_speed: str | None,
     points: Any,  # noqa: ANN401  # a number, which has to be an integer
     constraints: tuple[str, ...],
+    plot: Path | None,
+    force: bool,
     as_json: bool,
     motor: str,
     overrides: tuple[str, ...],
@@ -62,6 +68,7 @@ def pareto(
     """
     from trum_sym.studies.pareto import pareto as find
 
+    check_plot(plot, force)
     machine, (drive, bounds) = chosen_motor(motor, overrides), chosen_box(options)
     aim = sought(objective, target_speed, constraints)
     front = find(
@@ -79,5 +86,9 @@ def pareto(
     title = f"{one_line(machine.name)}: {aim} against {against}" + (
         f" at {target_speed}" if target_speed else " at any speed"
     )
-    say(front.as_json_text() if as_json else front.as_table(f"{title}, load {drive.load_torque:g} N m"))
+    say(front.to_json() if as_json else front.to_text(f"{title}, load {drive.load_torque:g} N m"))
+    if plot is not None and front.points:
+        from trum_sym.plots import answers
+
+        answers.write("--plot", answers.front(front), plot)
     return 0 if front.status == "solved" else 1

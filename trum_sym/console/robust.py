@@ -9,7 +9,16 @@ from typing import Any
 import click
 
 from trum_sym.console.optimize import constraint_option, sought, target_option
-from trum_sym.console.options import box_options, chosen_box, chosen_levels, chosen_motor, examples, pairs
+from trum_sym.console.options import (
+    box_options,
+    check_plot,
+    chosen_box,
+    chosen_levels,
+    chosen_motor,
+    examples,
+    pairs,
+    plot_options,
+)
 from trum_sym.console.say import say
 from trum_sym.text import one_line
 
@@ -45,6 +54,7 @@ __all__ = ["robust"]
 )
 @target_option("Held in the nominal case; for speed-error, in none.  In rad/s or with a unit.")
 @constraint_option("As for optimize, in every case.")
+@plot_options("Draw the objective in every case")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object instead of tables; SI units, speeds in rad/s.")
 @box_options
 def robust(
@@ -53,6 +63,8 @@ def robust(
     objective: str | None,
     target_speed: str | None,
     constraints: tuple[str, ...],
+    plot: Path | None,
+    force: bool,
     as_json: bool,
     motor: str,
     overrides: tuple[str, ...],
@@ -66,6 +78,7 @@ def robust(
     from trum_sym.studies.samples import read_samples
 
     given = pairs("--spread", spreads, "friction_coefficient='10 %'", bare=True)
+    check_plot(plot, force)
     machine, (drive, bounds) = chosen_motor(motor, overrides), chosen_box(options)
     aim = sought(objective, target_speed, constraints)
     found = find(
@@ -83,5 +96,9 @@ def robust(
     title = f"{one_line(machine.name)}: least worst {aim}" + (
         f" at {target_speed}" if target_speed else " at any speed"
     )
-    say(found.as_json_text() if as_json else found.as_table(f"{title}, load {drive.load_torque:g} N m"))
+    say(found.to_json() if as_json else found.to_text(f"{title}, load {drive.load_torque:g} N m"))
+    if plot is not None and found.cases:
+        from trum_sym.plots import answers
+
+        answers.write("--plot", answers.worst_case(found), plot)
     return 0 if found.status == "solved" else 1

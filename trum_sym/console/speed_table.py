@@ -10,11 +10,13 @@ import click
 
 from trum_sym.console.options import (
     box_options,
+    check_plot,
     chosen_box,
     chosen_levels,
     chosen_motor,
     examples,
     number_option,
+    plot_options,
 )
 from trum_sym.console.say import say
 
@@ -50,6 +52,7 @@ __all__ = ["speed_table"]
     metavar="FILE",
     help="Write the table: .csv, or .h for a C header that interpolates.",
 )
+@plot_options("Draw the drive against the speed")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object instead of a summary; SI units.")
 @box_options
 def speed_table(
@@ -60,6 +63,8 @@ def speed_table(
     error: float,
     constraints: tuple[str, ...],
     out: Path | None,
+    plot: Path | None,
+    force: bool,
     as_json: bool,
     motor: str,
     overrides: tuple[str, ...],
@@ -69,12 +74,12 @@ def speed_table(
 
     Exit code 1 where the box has none of the speeds; gaps are named.
     """
-    from trum_sym.output.files import check_target
+    from trum_sym.output.files import check_new
     from trum_sym.studies.speed_table import speed_table as make
-    from trum_sym.studies.speed_table_text import as_json_text, as_text
 
     if out is not None:
-        check_target("--out", out, (".csv", ".h"))
+        check_new("--out", out, (".csv", ".h"), force)
+    check_plot(plot, force)
     machine, (drive, bounds) = chosen_motor(motor, overrides), chosen_box(options)
     table = make(
         machine,
@@ -89,9 +94,13 @@ def speed_table(
         progress=sys.stderr.isatty(),
         **chosen_levels(options),
     )
-    say(as_json_text(table) if as_json else as_text(table))
+    say(table.to_json() if as_json else table.to_text())
     if not table.segments:
         return 1
+    if plot is not None:
+        from trum_sym.plots import answers
+
+        answers.write("--plot", answers.table(table), plot)
     if out is not None:
         table.save(out, "--out")
         if not as_json:

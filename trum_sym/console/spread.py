@@ -8,10 +8,12 @@ from typing import Any
 import click
 
 from trum_sym.console.options import (
+    check_plot,
     chosen_drive,
     chosen_levels,
     chosen_motor,
     examples,
+    force_option,
     number_option,
     pairs,
     point_options,
@@ -67,6 +69,7 @@ __all__ = ["spread"]
     metavar="FILE",
     help="Write every point: .nc (NetCDF, with every setting and unit) or .csv.",
 )
+@force_option
 @click.option("--json", "as_json", is_flag=True, help="One JSON object instead of tables; SI units.")
 def spread(
     motor: str,
@@ -79,18 +82,17 @@ def spread(
     tolerance: float,
     plot: Path | None,
     out: Path | None,
+    force: bool,
     as_json: bool,
     **options: Any,  # noqa: ANN401
 ) -> None:
     """How uncertain parameters spread an operating point's figures, and which to measure first."""
-    from trum_sym.output.files import check_packages, check_target, write
+    from trum_sym.output.files import check_new, check_packages, write
 
     if plot is not None:
-        from trum_sym.plots.tolerance import check_picture
-
-        check_picture("--plot", plot)
+        check_plot(plot, force)
     if out is not None:
-        check_target("--out", out)
+        check_new("--out", out, force=force)
         check_packages(out)
     from trum_sym.uncertainty.study import spread as study_of
 
@@ -108,11 +110,9 @@ def spread(
         **chosen_levels(options),
     )
     if out is not None:
-        write("--out", study.dataset(), out)
+        write("--out", study.to_xarray(), out)
     if plot is not None:
         from trum_sym.plots.tolerance import draw
 
         draw("--plot", study, plot)
-    from trum_sym.uncertainty.tables import as_json_text, as_text
-
-    say(as_json_text(study) if as_json else as_text(study))
+    say(study.to_json() if as_json else study.to_text())

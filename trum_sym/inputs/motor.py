@@ -16,9 +16,12 @@ from trum_sym.inputs.domain import Domain, Spec
 from trum_sym.inputs.plausible import warn_implausible, warn_outside_range
 from trum_sym.inputs.units import parse_quantity
 from trum_sym.text import one_line
-from trum_sym.values import Value
+from trum_sym.values import FrozenDict, Value
 
-__all__ = ["SPECS", "Allowed", "Motor", "Parameter", "Published", "spec"]
+__all__ = ["SPECS", "TO_DO", "Allowed", "Motor", "Parameter", "Published", "spec"]
+
+TO_DO = "to do"
+"""How the source of a value begins that is a template's and not yet the motor's."""
 
 _POSITIVE = Domain(low=0.0)
 _SIZE = Domain(low=0.0, high=10.0)  # m
@@ -167,6 +170,7 @@ class Motor(Value):
 
     def __post_init__(self) -> None:
         """Checks every value, and the sizes that must fit each other; warns of what no such motor has."""
+        object.__setattr__(self, "box", FrozenDict(self.box))
         if not isinstance(self.name, str):
             raise ParameterError("name", self.name, "the motor's name as text")
         for name, wanted in SPECS.items():
@@ -195,8 +199,8 @@ class Motor(Value):
         return f"<Motor {one_line(self.name)}: {count} parameters, {assumed} of them assumed>"
 
     def assumed(self) -> dict[str, Parameter]:
-        """The parameters that nobody measured, by name."""
-        return {name: p for name, p in self.parameters() if p.source.casefold() == "assumed"}
+        """The parameters that nobody measured, by name: assumed ones, and those of a template that are still to do."""
+        return {name: p for name, p in self.parameters() if p.source.casefold().startswith(("assumed", TO_DO))}
 
     def parameters(self) -> Iterator[tuple[str, Parameter]]:
         """The parameters that are set, by name."""

@@ -23,6 +23,9 @@ SCHEMA = 1
 """Version of the records; it rises when a name changes its meaning or goes."""
 
 
+_SWINGS = 100.0  # times the mean: beyond, it is said
+
+
 @dataclass(frozen=True, eq=False)
 class Inputs(Value):
     """Everything that decides about an operating point.
@@ -119,4 +122,8 @@ def remarks_of(figures: Mapping[str, Any], load_torque: float) -> tuple[str, ...
         )
     elif speed * stall < 0:
         found.append("the rotor turns backward, against the direction in which the stator drives it at standstill")
+    swing = float(figures.get("max_speed", speed)) - float(figures.get("min_speed", speed))
+    if swing > _SWINGS * abs(speed):
+        times = f"{swing / abs(speed):.2g} times the mean" if speed else "about a mean of zero"
+        found.append(f"the speed swings {times} within a cycle: a small drift of any input outweighs this mean")
     return tuple(found)

@@ -4,19 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from trum_sym.inputs.shown import full, quantity_of, readable
 from trum_sym.inputs.units import ARCSEC
 from trum_sym.model.inputs import Inputs, remarks_of, units_of
 from trum_sym.output.digits import with_error
-from trum_sym.output.json_text import finite, json_text
+from trum_sym.output.json_text import finite
+from trum_sym.output.result import Result
+from trum_sym.text import one_line
 from trum_sym.values import Value
 
 if TYPE_CHECKING:
     from trum_sym.optimiser.solve import Problem
 
-__all__ = ["Evidence", "Optimum", "as_json_text", "as_table"]
+__all__ = ["Evidence", "Optimum"]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -58,7 +60,7 @@ class Evidence(Value):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Optimum(Value):
+class Optimum(Result, Value):
     """An operating point under constraints; SI units, frequencies in Hz, speeds in rad/s.
 
     Attributes
@@ -107,7 +109,14 @@ class Optimum(Value):
     problem: Problem
     objective_unit: str = "1"
 
-    def as_dict(self) -> dict[str, object]:
+    def __repr__(self) -> str:
+        return f"<Optimum {self.status}: {self.message}>"
+
+    def to_text(self, title: str = "") -> str:
+        """The answer as a table under a title, which is the motor's name if not given."""
+        return _as_table(self, title or one_line(self.problem.motor.name))
+
+    def _answer(self) -> dict[str, object]:
         """The answer by name, without ``figures`` and ``problem``; None for what has no meaning or is infinite."""
         hidden = ("figures", "problem")
         names = [field.name for field in fields(self) if field.name not in hidden]
@@ -131,7 +140,7 @@ class Optimum(Value):
         """What the figures do not say by themselves."""
         return remarks_of(self.figures, float(self.problem.drive.load_torque)) if self.figures else ()
 
-    def record(self) -> dict[str, object]:
+    def to_dict(self) -> dict[str, Any]:
         """Inputs, answer, every figure, remarks and units by name, in SI units: what ``optimize --json`` prints."""
         problem, inputs = self.problem, self.inputs.record()
         if self.prepressure is None:
@@ -139,7 +148,7 @@ class Optimum(Value):
         found = {
             **inputs,
             **self.figures,
-            **self.as_dict(),
+            **self._answer(),
             "searched": {
                 name: [float(low), float(high)]
                 for name, low, high in zip(problem.box.names, problem.box.low, problem.box.high, strict=True)
@@ -150,11 +159,6 @@ class Optimum(Value):
         return {**found, "units": units_of(found)}
 
 
-def as_json_text(optimum: Optimum) -> str:
-    """The answer as a JSON object; null where a figure has no meaning."""
-    return json_text(optimum.record())
-
-
 def _shown(name: str, figures: Mapping[str, float]) -> tuple[str, str, str, str]:
     label, _, shown = quantity_of(name)[:3]
     value, error = readable(name, figures[name]), figures.get(f"{name}_error")
@@ -162,8 +166,7 @@ def _shown(name: str, figures: Mapping[str, float]) -> tuple[str, str, str, str]
     return label, *text, "" if shown == "1" else shown
 
 
-def as_table(optimum: Optimum, title: str) -> str:
-    """The answer as a table."""
+def _as_table(optimum: Optimum, title: str) -> str:
     from tabulate import tabulate
 
     heading = f"{title}\n\n{optimum.status}: {optimum.message}"

@@ -14,6 +14,7 @@ import numpy as np
 from trum_sym.errors import ParameterError, ValidityWarning
 from trum_sym.inputs.drive import BOX_NAMES, DRIVE_DOMAINS, Drive
 from trum_sym.inputs.motor import Motor
+from trum_sym.inputs.motor_file import load_motor
 from trum_sym.inputs.points import check_point, check_single, numbers_of, one_number
 from trum_sym.inputs.units import ARCSEC
 from trum_sym.model.levels import LevelChoice, Levels
@@ -53,7 +54,7 @@ Bound = float | str | tuple[float | str, float | str]
 
 
 def optimize(
-    motor: Motor,
+    motor: Motor | None = None,
     drive: Drive | None = None,
     *,
     objective: str = "volatility",
@@ -67,7 +68,8 @@ def optimize(
 
     Parameters
     ----------
-    motor : Motor
+    motor : Motor, optional
+        TRUM-60 if not given.
         Of single values, no arrays.
     drive : Drive, optional
         What does not vary: load torque, start, pulse counts.  By default the paper's Table 3.  Its prepressure and
@@ -106,6 +108,7 @@ def optimize(
     Everything below works in SI on :class:`trum_sym.optimiser.solve.Problem`; ``solve(problem)`` returns an ``Answer``
     for one pair of pulse counts, and takes a map and a model from a problem that differs in bounds of constraints only.
     """
+    motor = load_motor() if motor is None else motor
     drive = Drive() if drive is None else drive
     check_scalars(motor, drive)
     target = None if target_speed is None else one_number("target_speed", target_speed, "rad/s")

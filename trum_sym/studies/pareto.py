@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
-from typing import Unpack
+from typing import Any, Unpack
 
 import numpy as np
 
@@ -24,9 +24,10 @@ from trum_sym.optimiser.expressions import Constraint, Expression, parse_express
 from trum_sym.optimiser.finish import TOLERANCE, Finished
 from trum_sym.optimiser.model import Model, functions
 from trum_sym.optimiser.solve import Answer, Problem, solve
-from trum_sym.output.json_text import json_text
 from trum_sym.output.progress import shown
+from trum_sym.output.result import Result
 from trum_sym.studies.posed import Bound, posed
+from trum_sym.text import one_line
 from trum_sym.values import Value
 
 __all__ = ["AGAINST", "ParetoFront", "ParetoPoint", "pareto"]
@@ -55,7 +56,7 @@ class ParetoPoint(Value):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class ParetoFront(Value):
+class ParetoFront(Result, Value):
     """A front, from the least ``objective`` to the best ``against``.
 
     Attributes
@@ -87,7 +88,10 @@ class ParetoFront(Value):
     message: str
     inputs: Inputs = field(repr=False)
 
-    def record(self) -> dict[str, object]:
+    def __repr__(self) -> str:
+        return f"<ParetoFront {self.status}: {self.message}>"
+
+    def to_dict(self) -> dict[str, Any]:
         """Inputs, points with their drives and remarks, and units by name, in SI units."""
         keys = [name for name in ParetoPoint.__dataclass_fields__ if name != "figures"]
         load = float(self.inputs.drive.load_torque)
@@ -105,11 +109,7 @@ class ParetoFront(Value):
         found = {**self.inputs.record(), **own, "points": points, "remarks": []}
         return {**found, "units": units_of(found)}
 
-    def as_json_text(self) -> str:
-        """One JSON object; SI units."""
-        return json_text(self.record())
-
-    def as_table(self, title: str) -> str:
+    def to_text(self, title: str = "") -> str:
         """For people."""
         from tabulate import tabulate
 
@@ -136,7 +136,7 @@ class ParetoFront(Value):
             "volatility %",
             "stall N m",
         )
-        lines = [title, "", f"{self.status}: {self.message}"]
+        lines = [title or one_line(self.inputs.motor.name), "", f"{self.status}: {self.message}"]
         if rows:
             lines += ["", tabulate(rows, headers, disable_numparse=True, colalign=("right",) * 8)]
         load = float(self.inputs.drive.load_torque)
@@ -147,7 +147,7 @@ class ParetoFront(Value):
 
 
 def pareto(
-    motor: Motor,
+    motor: Motor | None = None,
     drive: Drive | None = None,
     *,
     objective: str = "volatility",

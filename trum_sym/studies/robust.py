@@ -25,10 +25,11 @@ from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.optimiser.finish import TOLERANCE
 from trum_sym.optimiser.model import Model
 from trum_sym.optimiser.solve import Problem, solve
-from trum_sym.output.json_text import json_text
 from trum_sym.output.progress import shown
+from trum_sym.output.result import Result
 from trum_sym.studies.minimax import Minimax, Outcome
 from trum_sym.studies.posed import Bound, posed
+from trum_sym.text import one_line
 from trum_sym.values import Value
 
 __all__ = ["RobustCase", "RobustPoint", "robust"]
@@ -52,7 +53,7 @@ class RobustCase(Value):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class RobustPoint(Value):
+class RobustPoint(Result, Value):
     """The point of a box whose worst case is the best.
 
     Attributes
@@ -105,22 +106,21 @@ class RobustPoint(Value):
             )
         )
 
-    def record(self) -> dict[str, object]:
+    def __repr__(self) -> str:
+        return f"<RobustPoint {self.status}: {self.message}>"
+
+    def to_dict(self) -> dict[str, Any]:
         """Inputs, the point, every case, remarks and units by name, in SI units."""
         own = {name: getattr(self, name) for name in self.__dataclass_fields__ if name not in ("cases", "inputs")}
         cases = [{key: getattr(case, key) for key in RobustCase.__dataclass_fields__} for case in self.cases]
         found = {**self.inputs.record(), **own, "cases": cases, "remarks": self.remarks}
         return {**found, "units": units_of(found)}
 
-    def as_json_text(self) -> str:
-        """One JSON object; SI units."""
-        return json_text(self.record())
-
-    def as_table(self, title: str) -> str:
+    def to_text(self, title: str = "") -> str:
         """For people: the point, then every case."""
         from tabulate import tabulate
 
-        lines = [title, "", f"{self.status}: {self.message}"]
+        lines = [title or one_line(self.inputs.motor.name), "", f"{self.status}: {self.message}"]
         if math.isfinite(self.prepressure):
             at = f"prepressure {full(self.prepressure)} N, frequency difference {full(self.frequency_difference)} Hz"
             lines += ["", f"{at}, switching phase {full(self.switching_phase)} rad"]
@@ -150,7 +150,7 @@ def _words(changed: Mapping[str, float]) -> str:
 
 
 def robust(
-    motor: Motor,
+    motor: Motor | None = None,
     drive: Drive | None = None,
     *,
     objective: str = "volatility",

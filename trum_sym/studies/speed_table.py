@@ -30,7 +30,7 @@ _COUNT = Domain(low=2, low_open=False, high=1000, high_open=False, integer=True)
 
 
 def speed_table(
-    motor: Motor,
+    motor: Motor | None = None,
     drive: Drive | None = None,
     *,
     slowest: float | str,
@@ -100,7 +100,7 @@ def speed_table(
     table = Builder(model, known, problem.constraints, speeds, low, error, say)
     segments = tuple(_segment(model, entries) for entries in table.build())
     return SpeedTable(
-        motor=motor.name,
+        motor=problem.motor.name,
         drive=problem.drive,
         variables=problem.box.names,
         segments=segments,
@@ -109,7 +109,7 @@ def speed_table(
         largest_error=table.largest_error,
         floor=low,
         evaluations=model.evaluations,
-        inputs=Inputs(motor, problem.drive, problem.levels, None, TOLERANCE),
+        inputs=Inputs(problem.motor, problem.drive, problem.levels, None, TOLERANCE),
         reachable=(float(np.nanmin(found)), float(np.nanmax(found))),
     )
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, replace
-from typing import TYPE_CHECKING, Unpack
+from dataclasses import asdict, dataclass, replace
+from typing import Any, Unpack
 
 import numpy as np
 
@@ -16,24 +16,41 @@ from trum_sym.inputs.distributions import Distribution, checked
 from trum_sym.inputs.domain import Spec
 from trum_sym.inputs.drive import DRIVE_DOMAINS, Drive
 from trum_sym.inputs.motor import SPECS, Motor, spec
+from trum_sym.inputs.motor_file import load_motor
 from trum_sym.inputs.plausible import unquestioned
 from trum_sym.inputs.points import check_point, check_single, numbers_of, period_of
 from trum_sym.inputs.spreads import Spread, read_spread
 from trum_sym.inputs.units import parse_quantity
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.model.operating_point import evaluate
+from trum_sym.output.result import Result
 from trum_sym.quantities import QUANTITIES
+from trum_sym.text import one_line
 from trum_sym.uncertainty.propagation import check_design, propagate
-from trum_sym.uncertainty.result import BALANCED, MISSED, Study, Target
+from trum_sym.uncertainty.result import BALANCED, MISSED, Drawn, Target
+from trum_sym.uncertainty.tables import as_dict, as_text
 
-if TYPE_CHECKING:
-    pass
-
-__all__ = ["MOTOR_FILE", "spread"]
+__all__ = ["MOTOR_FILE", "Study", "spread"]
 
 MOTOR_FILE = "motor"  # stands for every parameter that the motor file gives a range or a distribution
 
 _TARGET = re.compile(r"\s*(\w+)\s*(>=|<=|>|<)\s*(.+)", re.DOTALL)
+
+
+@dataclass(frozen=True, eq=False)
+class Study(Result, Drawn):
+    """A study of spread: what was drawn, and what it can be turned into."""
+
+    def __repr__(self) -> str:
+        return f"<Study of {one_line(self.motor.name)}: {', '.join(self.distributions)}; {self.samples} samples>"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Inputs, distributions, indices, targets, remarks and units by name, in SI units."""
+        return as_dict(self)
+
+    def to_text(self) -> str:
+        """All of it, in units that people read; intervals hold at 95 %."""
+        return as_text(self)
 
 
 def _spec_of(name: str) -> Spec:
@@ -105,7 +122,7 @@ def _texts(name: str, given: object) -> tuple[str, ...]:
 
 
 def spread(
-    motor: Motor,
+    motor: Motor | None = None,
     drive: Drive | None = None,
     *,
     spreads: Mapping[str, Spread] | Sequence[str] | None = None,
@@ -122,7 +139,8 @@ def spread(
 
     Parameters
     ----------
-    motor : Motor
+    motor : Motor, optional
+        TRUM-60 if not given.
         Of plain numbers, no arrays; so is the drive.
     drive : Drive, optional
         The paper's Table 3 if not given.
@@ -156,6 +174,7 @@ def spread(
         As :func:`trum_sym.evaluate` does.
     """
     samples, seed = check_design(samples, seed)
+    motor = load_motor() if motor is None else motor
     drive = Drive() if drive is None else drive
     check_point(motor, drive)
     period = period_of(sampling_period)

@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 
 from trum_sym.inputs.shown import full, readable
 from trum_sym.model.inputs import units_of
-from trum_sym.output.json_text import json_text
 from trum_sym.quantities import QUANTITIES
 from trum_sym.text import one_line
 from trum_sym.uncertainty.propagation import CONFIDENCE, Estimate, Indices
-from trum_sym.uncertainty.result import BALANCED, MISSED, Study, unit_of
+from trum_sym.uncertainty.result import BALANCED, MISSED, Drawn, unit_of
 
-if TYPE_CHECKING:
-    pass
-
-__all__ = ["as_json_text", "as_text", "label", "shown"]
+__all__ = ["as_dict", "as_text", "label", "shown"]
 
 _NAMED = 3  # points of each kind that the text names; the JSON names all
 
@@ -46,7 +42,7 @@ def _range(estimate: Estimate) -> str:
 # --- Text ----------------------------------------------------------------------------------------
 
 
-def as_text(study: Study) -> str:
+def as_text(study: Drawn) -> str:
     """All of it, in units that people read; intervals hold at 95 %."""
     drive, count = study.drive, len(study.distributions)
     lines = [
@@ -75,7 +71,7 @@ def _table(rows: Sequence[tuple[str, ...]], headers: tuple[str, ...], align: str
     return text.splitlines()
 
 
-def _parameters(study: Study) -> list[str]:
+def _parameters(study: Drawn) -> list[str]:
     rows = []
     for name, distribution in study.distributions.items():
         unit = unit_of(name)
@@ -83,7 +79,7 @@ def _parameters(study: Study) -> list[str]:
     return _table(rows, ("uncertain", "distribution", "unit"), "lll")
 
 
-def _spreads(study: Study) -> list[str]:
+def _spreads(study: Drawn) -> list[str]:
     rows = []
     for output in study.outputs:
         spread, unit = study.propagation.spread(output), QUANTITIES[output].shown
@@ -102,7 +98,7 @@ def _spreads(study: Study) -> list[str]:
     return lines
 
 
-def _indices(study: Study, output: str, indices: Indices) -> list[str]:
+def _indices(study: Drawn, output: str, indices: Indices) -> list[str]:
     order = sorted(indices.first, key=lambda name: -indices.total[name].value)
     rows = [
         (name, f"{first.value:.3f}", _range(first), f"{total.value:.3f}", _range(total))
@@ -142,7 +138,7 @@ def _advice(output: str, indices: Indices) -> Iterator[str]:
         yield f"no effect at any point: {', '.join(idle)}"
 
 
-def _balance(study: Study) -> Iterator[str]:
+def _balance(study: Drawn) -> Iterator[str]:
     values = study.propagation.values
     lost, loose = values[BALANCED] == 0, ~study.settled & (values[BALANCED] == 1)
     if not (lost.any() or loose.any()):
@@ -159,7 +155,7 @@ def _balance(study: Study) -> Iterator[str]:
         yield from _named(study, loose)
 
 
-def _named(study: Study, chosen: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]) -> Iterator[str]:
+def _named(study: Drawn, chosen: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]) -> Iterator[str]:
     points = study.points_where(chosen)
     for point in points[:_NAMED]:
         yield "  " + ", ".join(f"{name} = {value:.6g}" for name, value in point.items())
@@ -167,7 +163,7 @@ def _named(study: Study, chosen: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
         yield f"  and {len(points) - _NAMED} more of the {2 * study.samples} random ones; --json names all, --out too"
 
 
-def _targets(study: Study) -> Iterator[str]:
+def _targets(study: Drawn) -> Iterator[str]:
     for target in study.targets:
         yield f"probability of missing {target.text}: {_percent(study.missing(target))}"
     if len(study.targets) > 1:
@@ -177,8 +173,8 @@ def _targets(study: Study) -> Iterator[str]:
 # --- JSON ----------------------------------------------------------------------------------------
 
 
-def as_json_text(study: Study) -> str:
-    """A JSON object; null where there is no number."""
+def as_dict(study: Drawn) -> dict[str, Any]:
+    """All of it by name, in SI units."""
     values, settled = study.propagation.values, study.settled
     lost, loose = values[BALANCED] == 0, ~settled & (values[BALANCED] == 1)
     found = {
@@ -204,10 +200,10 @@ def as_json_text(study: Study) -> str:
         if not study.targets
         else {**study.missing().as_dict(), "indices": _indices_record(study.propagation.indices[MISSED])},
     }
-    return json_text({**found, "remarks": study.nominal.remarks, "units": units_of(found)})
+    return {**found, "remarks": study.nominal.remarks, "units": units_of(found)}
 
 
-def _output_record(study: Study, output: str) -> dict[str, object]:
+def _output_record(study: Drawn, output: str) -> dict[str, object]:
     spread, nominal = study.propagation.spread(output), getattr(study.nominal, output)
     return {
         "unit": QUANTITIES[output].unit,

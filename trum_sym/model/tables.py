@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from trum_sym.inputs.drive import Drive
-from trum_sym.inputs.motor import Motor, Published
+from trum_sym.inputs.motor import SPECS, TO_DO, Motor, Parameter, Published
 from trum_sym.inputs.plausible import unquestioned
 from trum_sym.inputs.shown import full, quantity_of, readable
 from trum_sym.inputs.units import parse_unit
@@ -47,7 +47,11 @@ def histories_table(histories: xr.Dataset) -> str:
         f"{known['cycles']} cycle{'s' * (known['cycles'] != 1)} of {1e3 * known['cycle_time']:.6g} ms, "
         f"{count} times; --out FILE.nc or FILE.csv writes them"
     )
-    notes = ["", known["reason"]] if known["reason"] else []
+    period = known["sampling_period"]
+    kind = "continuous" if period == "none" else f"encoder of {full(1e3 * float(period))} ms"
+    value = readable("speed_volatility", float(known["speed_volatility"]))
+    notes = ["", f"speed volatility sigma_s, {kind}: {value:.6g} %"] if np.isfinite(value) else []
+    notes += ["", known["reason"]] if known["reason"] else []
     return "\n".join([title, "", table, *notes])
 
 
@@ -121,8 +125,7 @@ def _resting_on_assumed(point: OperatingPoint) -> dict[str, set[str]]:
         here = prepare(inputs.motor, inputs.drive, inputs.levels, tolerance, warn=False)
         figures = results(here, closed)
         for name, parameter in inputs.motor.assumed().items():
-            ends = parameter.range or (parameter.value, parameter.value)
-            end = ends[0] if ends[0] != parameter.value else ends[1]
+            end = _another(name, parameter)
             motor = replace(inputs.motor, **{name: replace(parameter, value=end, range=None)})  # type: ignore[arg-type]
             moved = prepare(motor, inputs.drive, inputs.levels, tolerance, warn=False)
             then = results(moved, closed)
@@ -133,6 +136,15 @@ def _resting_on_assumed(point: OperatingPoint) -> dict[str, set[str]]:
             if any(one[key] != other[key] for key in orbit):
                 found[name] |= OF_ORBIT & set(QUANTITIES)
     return found
+
+
+def _another(name: str, parameter: Parameter) -> float:
+    """Another value that a parameter might have: an end of its range, or where none is stated, one beside it."""
+    value = float(parameter.value)
+    if parameter.range is not None:
+        low, high = parameter.range
+        return low if low != value else high
+    return value + 1 if SPECS[name].domain.integer else 0.999 * value
 
 
 def as_table(point: OperatingPoint) -> str:
@@ -146,11 +158,11 @@ def as_table(point: OperatingPoint) -> str:
     period = inputs.sampling_period
     kind = "continuous" if period is None else f"encoder of {full(1e3 * float(period))} ms"
     rows: list[list[str]] = []
-    figures: dict[str, Any] = point.as_dict()
+    figures: dict[str, Any] = point.figures
     for name, quantity in QUANTITIES.items():
         label = f"{quantity.label}, {kind}" if name == "speed_volatility" else quantity.label
         row = [label, *shown_with_error(figures, name), "" if quantity.shown == "1" else quantity.shown]
-        row.append("*" if name in marked else "")
+        row += ["*" if name in marked else ""] * bool(marked)
         if published:
             entry = published.get(name)
             theirs = 0.0 if entry is None else readable(name, parse_unit(entry.unit).to_si(entry.value))
@@ -158,8 +170,10 @@ def as_table(point: OperatingPoint) -> str:
                 f"{theirs:.6g}", _difference(name, readable(name, float(figures[name])), theirs), one_line(entry.source)
             ]  # fmt: skip
         rows.append(row)
-    headers = ["", "value", "+-", "unit", ""] + (["published", "difference", "printed in"] if published else [])
-    align = ["left", "right", "left", "left", "left"] + (["right", "right", "left"] if published else [])
+    headers = ["", "value", "+-", "unit"] + [""] * bool(marked)
+    align = ["left", "right", "left", "left"] + ["left"] * bool(marked)
+    if published:
+        headers, align = [*headers, "published", "difference", "printed in"], [*align, "right", "right", "left"]
     table = tabulate(rows, headers=headers, disable_numparse=True, colalign=align)
     title = [f"{one_line(motor.name)} at {drive_in_words(drive)}", *reading_in_words(inputs)]
     return "\n".join([*title, "", table, *_notes(point, resting)])
@@ -170,6 +184,10 @@ def _notes(point: OperatingPoint, resting: Mapping[str, set[str]]) -> list[str]:
     notes = ["", *(f"remark: {remark}" for remark in point.remarks)] if point.remarks else []
     motor = point.inputs.motor
     names = [name for name, figures in resting.items() if figures]
+    left = [name for name in names if getattr(motor, name).source.casefold().startswith(TO_DO)]
+    names = [name for name in names if name not in left]
+    if left:
+        notes += ["", f"* rests on {len(left)} values that are still those of a template: trum-sym motor check"]
     if names:
         values = [f"{name} {_in_range(motor, name)}" for name in names]
         notes += ["", "* rests on values that are assumed, not measured: " + values[0] + ",", *_wrapped(values[1:])]
@@ -180,8 +198,8 @@ def _notes(point: OperatingPoint, resting: Mapping[str, set[str]]) -> list[str]:
         period = full(1e3 * float(entry.sampling_period or 0))
         notes += ["", f"published of an encoder: sigma_s {entry.value:g} {entry.unit} ({one_line(entry.source)}); "
                   f"--sampling-period '{period} ms' compares with it"]  # fmt: skip
-    return [*notes, "", "next: trum-sym motor show says where every value comes from; --json > point.json keeps the point",
-            "      with all inputs, and --point point.json gives it to any other command, such as sensitivities"]  # fmt: skip
+    return [*notes, "", "next: trum-sym motor show says where every value is from; --json > point.json keeps the point",
+            "      with all inputs, and --point point.json gives it to any other command"]  # fmt: skip
 
 
 def _in_range(motor: Motor, name: str) -> str:
