@@ -9,6 +9,7 @@ import shutil
 from pathlib import Path
 
 import click
+import numpy as np
 import pytest
 
 import trum_sym as ts
@@ -268,6 +269,21 @@ def test_what_is_no_object_is_refused(tmp_path, console_refuses, content):
 def test_the_motor_of_a_point_is_the_shipped_one_where_nothing_was_set(written):
     path, _ = written("evaluate")
     assert read_point(Path(path)).motor() == ts.load_motor()
+
+
+def test_a_random_point_passes_every_way(tmp_path):
+    """A sample of ``python -m studies.points``."""
+    from studies import points
+
+    assert points.wrong(points.drawn(np.random.default_rng(7)), tmp_path) == []
+
+
+def test_a_point_that_loses_digits_is_noticed(tmp_path, monkeypatch):
+    from studies import points
+    from trum_sym.model import tables
+
+    monkeypatch.setattr(tables, "full", lambda value: f"{float(value):.6g}")
+    assert "pasted to evaluate" in points.wrong(points.drawn(np.random.default_rng(7)), tmp_path)
 
 
 def test_words_agree_in_number(capsys):

@@ -28,7 +28,7 @@ def test_console_gives_what_python_gives(capsys):
     study = ts.spread(
         MOTOR,
         ts.Drive(periods=4, on_periods=3, load_torque=0.05),
-        parameters={"friction_coefficient": None, "prepressure": spread},
+        spreads={"friction_coefficient": None, "prepressure": spread},
         samples=64,
         seed=3,
         outputs=["max_speed"],
