@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields
-from importlib.metadata import version
 from typing import Any
 
 import numpy as np
@@ -52,6 +51,8 @@ class Inputs(Value):
 
     def record(self) -> dict[str, Any]:
         """All of it by name, in SI units: what ``--point`` reads."""
+        from importlib.metadata import version
+
         return {
             "schema": SCHEMA,
             "trum_sym": version("trum-sym"),

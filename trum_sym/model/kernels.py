@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import warnings
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -55,6 +54,8 @@ def check_build(root: Path, made_of: str, built: float) -> None:
     )
     if max(file.stat().st_mtime for _, file in files) <= built:
         return
+    import hashlib
+
     digests = "".join(hashlib.sha256(file.read_bytes()).hexdigest() for _, file in files)
     if hashlib.sha256(digests.encode()).hexdigest() != made_of:
         warnings.warn(

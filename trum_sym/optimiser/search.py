@@ -116,7 +116,9 @@ def optimize(
     aim, limits = aim_of(objective, target, constraints)
     problem = Problem(motor, drive, Levels(**levels), box, aim, limits)
     warn_outside_fit(problem)
-    best, chosen, pruned, evaluations = _over_pulses(problem, pulses, progress)
+    best, chosen, pruned, evaluations = _over_pulses(
+        problem, pulses, ("maps", "pulse counts") if progress else (None, None)
+    )
     return _optimum(objective, target, chosen, best, len(pulses), pruned, evaluations)
 
 
@@ -244,7 +246,9 @@ def warn_outside_fit(problem: Problem) -> None:
         )
 
 
-def _over_pulses(problem: Problem, pulses: list[tuple[int, int]], progress: bool) -> tuple[Answer, Problem, int, int]:
+def _over_pulses(
+    problem: Problem, pulses: list[tuple[int, int]], bars: tuple[str | None, str | None]
+) -> tuple[Answer, Problem, int, int]:
     """The best answer over all pairs of periods and on_periods.
 
     A coarse map ranks the pairs; those whose estimate is worse than the best answer by a margin are not solved.
@@ -261,7 +265,7 @@ def _over_pulses(problem: Problem, pulses: list[tuple[int, int]], progress: bool
     high = np.array([constraint.high for constraint in problem.constraints])
     rows = functions([problem.objective, *(constraint.expression for constraint in problem.constraints)])
     ranked, evaluations = [], 0
-    for pair in shown(pulses, "maps" if progress else None):
+    for pair in shown(pulses, bars[0]):
         model = at(pair).model()
         coarse = chart(model, _COARSE)
         values = rows.values(coarse.figures)[:, 1:]
@@ -277,7 +281,7 @@ def _over_pulses(problem: Problem, pulses: list[tuple[int, int]], progress: bool
     ranked.sort(key=lambda entry: (entry[0], entry[2] if entry[0] else 0.0, entry[1]))
     best: tuple[Answer, Problem] | None = None
     solved = 0
-    for missing, estimate, missed, pair in shown(ranked, "pulse counts" if progress else None):
+    for missing, estimate, missed, pair in shown(ranked, bars[1]):
         if best is not None and best[0].status == "solved" and best[0].best is not None:
             most = best[0].best.objective + _MARGIN * abs(best[0].best.objective)
             if (missing and missed > _BEYOND) or estimate > most:
