@@ -34,7 +34,7 @@ def leaves(commands=COMMANDS, before=()):
 LEAVES = dict(leaves())
 # the report takes a minute; tests/report makes one
 EXAMPLES = [
-    line.strip()
+    pytest.param(line.strip(), marks=[pytest.mark.slow] * (words == ("robust",)))
     for words, command in LEAVES.items()
     if words != ("report",)
     for line in (command.epilog or "").splitlines()
@@ -203,7 +203,7 @@ SOURCES = {
 }
 
 
-@pytest.mark.parametrize("source", SOURCES)
+@pytest.mark.parametrize("source", [pytest.param(s, marks=[pytest.mark.slow] * (s == "robust")) for s in SOURCES])
 def test_a_point_passes_from_any_command_into_others(written, capsys, source):
     path, record = written(*SOURCES[source])
     points = record.get("points")

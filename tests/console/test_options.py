@@ -40,7 +40,8 @@ BASE = {
     ("motor", "schema"): (),
 }
 NO_ANSWER = {("report",): "tests/report makes one; it takes a minute"}
-SLOW = {("optimize",), ("pareto",), ("robust",), ("speed-table",), ("spread",)}
+SLOW = {("optimize",), ("pareto",), ("robust",), ("speed-table",), ("spread",)}  # a search or a study an option
+SLOW |= {("simulate",), ("sweep",), ("sensitivities",)}  # whose options are made as those of evaluate are
 
 # Another value of every option, by its name; of a command where that differs
 OTHER = {
