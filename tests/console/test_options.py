@@ -86,6 +86,7 @@ OTHER = {
     "--switching-phase": "0.5",
     "--phase-lead": "-1",
     ("robust", "--samples"): "cases.csv",
+    ("speed-table", "--direction"): "both",
     ("pareto", "--constraint"): "mean_speed >= 400000 arcsec/s",
     ("sweep", "--prepressure"): "171",
 }
