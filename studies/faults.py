@@ -46,28 +46,28 @@ LONGEST = 30.0  # s
 POINT = ("--load-torque", "0.05")
 SWEEP = ("sweep", "--prepressure", "160:200:6", "--frequency-difference", "2900:3100:4")
 SWEEP += ("--outputs", "q_average,amplitude")
-TOLERANCE = ("tolerance", *POINT, "--vary", "friction_coefficient", "--samples", "64", "--tolerance", "1e-2")
-OPTIMUM = ("optimize", *POINT, "--objective", "q_volatility", "--bounds", "prepressure=175:185")
-OPTIMUM += ("--bounds", "frequency_difference=3000")
+TOLERANCE = ("spread", *POINT, "--spread", "friction_coefficient", "--samples", "64", "--tolerance", "1e-2")
+OPTIMUM = ("optimize", *POINT, "--objective", "q_volatility", "--prepressure", "175:185")
+OPTIMUM += ("--frequency-difference", "3000")
 TABLE = ("speed-table", *POINT, "--from", "2 rad/s", "--to", "2.02 rad/s", "--direction", "positive", "--points", "2")
-TABLE += ("--error", "0.5", "--bounds", "prepressure=175:185", "--bounds", "frequency_difference=3000")
+TABLE += ("--error", "0.5", "--prepressure", "175:185", "--frequency-difference", "3000")
 COMMANDS: dict[str, tuple[str, ...]] = {
-    "histories.nc": ("simulate", "--out"),
-    "histories.csv": ("simulate", "--samples-per-period", "16", "--out"),
+    "histories.nc": ("simulate", "--force", "--out"),
+    "histories.csv": ("simulate", "--samples-per-period", "16", "--force", "--out"),
     "map.zarr": (*SWEEP, "--chunk", "4", "--out"),
-    "map.nc": (*SWEEP, "--out"),
-    "map.parquet": (*SWEEP, "--out"),
-    "map.csv": (*SWEEP, "--out"),
-    "points.nc": (*TOLERANCE, "--out"),
-    "points.csv": (*TOLERANCE, "--out"),
-    "study.png": (*TOLERANCE, "--plot"),
-    "study.pdf": (*TOLERANCE, "--plot"),
-    "study.svg": (*TOLERANCE, "--plot"),
-    "box.png": (*OPTIMUM, "--plot"),
-    "box.svg": (*OPTIMUM, "--plot"),
-    "table.csv": (*TABLE, "--out"),
-    "table.h": (*TABLE, "--out"),
-    "motor.toml": ("calibrate", "DATA", "--fit", "amplitude_factor", "--out"),
+    "map.nc": (*SWEEP, "--force", "--out"),
+    "map.parquet": (*SWEEP, "--force", "--out"),
+    "map.csv": (*SWEEP, "--force", "--out"),
+    "points.nc": (*TOLERANCE, "--force", "--out"),
+    "points.csv": (*TOLERANCE, "--force", "--out"),
+    "study.png": (*TOLERANCE, "--force", "--plot"),
+    "study.pdf": (*TOLERANCE, "--force", "--plot"),
+    "study.svg": (*TOLERANCE, "--force", "--plot"),
+    "box.png": (*OPTIMUM, "--force", "--plot"),
+    "box.svg": (*OPTIMUM, "--force", "--plot"),
+    "table.csv": (*TABLE, "--force", "--out"),
+    "table.h": (*TABLE, "--force", "--out"),
+    "motor.toml": ("calibrate", "DATA", "--fit", "amplitude_factor", "--force", "--out"),
     "report": ("report",),
 }
 DATA = "prepressure [N],amplitude [um]\n140,6.3\n160,5.9\n180,5.5\n200,5.3\n"
@@ -110,7 +110,7 @@ def preload() -> None:
     import trum_sym.plots.optimum
     import trum_sym.plots.tolerance
     import trum_sym.report.output
-    import trum_sym.studies.speed_table_text
+    import trum_sym.studies.speed_table_result
     import trum_sym.sweeps.store
     import trum_sym.uncertainty.study
 

@@ -98,7 +98,7 @@ def unit(content: bytes) -> None:
 
 
 def distribution(content: bytes) -> None:
-    """A distribution of tolerance --vary."""
+    """A distribution of tolerance --spread."""
     import numpy as np
 
     from trum_sym.inputs.distributions import checked, from_text
@@ -121,14 +121,17 @@ def swept(content: bytes) -> None:
 
 
 def bounds(content: bytes) -> None:
-    """--bounds of optimize."""
+    """Values and ranges of what optimize may vary, an option a line."""
     import numpy as np
 
-    from trum_sym.console.optimize import ranges_of
+    from trum_sym.console.options import FREED, chosen_box
     from trum_sym.inputs.drive import Drive
+    from trum_sym.inputs.motor_file import load_motor
     from trum_sym.optimiser.search import box_of
 
-    box, pulses, _ = box_of(Drive(), ranges_of(tuple(content.decode("utf-8", "replace").split("\n"))))
+    lines = dict.fromkeys(FREED) | dict(zip(FREED, content.decode("utf-8", "replace").split("\n"), strict=False))
+    drive = {**vars(Drive()), "phase_lead": 1, **lines}
+    box, pulses, _ = box_of(load_motor(), *chosen_box(drive))
     assert np.isfinite(box.low).all()
     assert (box.low < box.high).all()
     assert pulses
@@ -170,7 +173,7 @@ TARGETS: dict[str, tuple[Callable[[bytes], None], list[str]]] = {
         ["uniform:25 mm:27 mm", "triangular:.025:.026:.027", "normal:26 mm:1 mm:25 mm:27 mm"],
     ),
     "swept": (swept, ["160:210:51", "1 kHz:3 kHz:by=500 Hz", "1,2,3e3"]),
-    "bounds": (bounds, ["prepressure=160:210\nfrequency_difference=2.8 kHz:3.3 kHz", "periods=18:22\non-periods=14"]),
+    "bounds": (bounds, ["160:210\n2.8 kHz:3.3 kHz", "180\n2800:3300\n0:1 rad\n18:22\n14"]),
     "expression": (
         expression,
         [

@@ -116,8 +116,8 @@ def optimise(function: Callable[..., Any]) -> Callable[[dict[str, Any]], Any]:
 
 
 def tolerance(options: dict[str, Any]) -> Any:
-    small = {"parameters": ["friction_coefficient"], "samples": 64, "tolerance": 1e-2}
-    return ts.tolerance(MOTOR, ts.Drive(load_torque=0.05), **{**small, **options})
+    small = {"spreads": ["friction_coefficient"], "samples": 64, "tolerance": 1e-2}
+    return ts.spread(MOTOR, ts.Drive(load_torque=0.05), **{**small, **options})
 
 
 def optimise_speeds(options: dict[str, Any]) -> Any:
@@ -132,7 +132,7 @@ broken = st.lists(edits, min_size=1, max_size=3).map(
     lambda found: "".join(_edited(TOML, at, gone, new) for at, gone, new in found[:1])
 )
 columns = some(("prepressure", "amplitude", "resonance_frequency", "time", "displacement", "x"), values, 3)
-evaluations = some(("tolerance", "sampling_period"), values, 1) | levels
+evaluations = some(("spread", "sampling_period"), values, 1) | levels
 
 
 def _edited(text: str, at: int, gone: int, new: str) -> str:
@@ -144,16 +144,16 @@ def called(name: str, function: Callable[..., Any], *arguments: st.SearchStrateg
 
 
 COMMANDS = dict(console._cli.commands)
-BOX = ["--bounds", "frequency_difference=3000", "--bounds", "prepressure=179:181", "--load-torque", "0.05"]
+BOX = ["--frequency-difference", "3000", "--prepressure", "179:181", "--load-torque", "0.05"]
 SMALL = {
-    "tolerance": ["--load-torque", "0.05", "--vary", "friction_coefficient", "--samples", "64", "--tolerance", "1e-2"],
+    "spread": ["--load-torque", "0.05", "--spread", "friction_coefficient", "--samples", "64", "--tolerance", "1e-2"],
     "optimize": ["--objective", "q_volatility", *BOX],
     "pareto": ["--points", "3", *BOX],
     "robust": BOX,
     "speed-table": ["--points", "2", "--error", "0.5", *BOX],
     "sweep": ["--outputs", "amplitude"],
 }
-SLOW = ("tolerance", "optimize", "pareto", "robust", "speed-table", "calibrate", "report")
+SLOW = ("spread", "optimize", "pareto", "robust", "speed-table", "calibrate", "report")
 
 
 def console_calls(name: str) -> st.SearchStrategy[Any]:
@@ -210,8 +210,8 @@ OTHERS = [
     called("calibrate", calibrate, columns),
     called("optimize", optimise(ts.optimize), some(("objective", "bounds", "constraints", "target_speed"), values, 2)),
     called("pareto", optimise(ts.pareto), some(("against", "points", "bounds"), values, 2)),
-    called("robust", optimise(ts.robust), some(("tolerances", "samples", "bounds"), values, 2)),
-    called("tolerance", tolerance, some(("parameters", "samples", "seed"), values, 2)),
+    called("robust", optimise(ts.robust), some(("spreads", "samples", "bounds"), values, 2)),
+    called("spread", tolerance, some(("spreads", "samples", "seed"), values, 2)),
     called("speed_table", optimise_speeds,
            some(("slowest", "fastest", "points", "error", "direction"), st.sampled_from(OBJECTS) | texts, 3)),
     *(console_calls(name) for name in SLOW),

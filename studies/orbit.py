@@ -82,7 +82,7 @@ def evaluate(points: list[Sample], tolerance: float) -> list[ts.OperatingPoint]:
         for place, i in enumerate(chosen):
             shape = np.shape(batch.mean_speed)
             answers[i] = type(batch)(
-                **{name: value[place] if np.shape(value) == shape else value for name, value in batch.as_dict().items()}
+                **{name: value[place] if np.shape(value) == shape else value for name, value in batch.figures.items()}
             )
     return answers
 

@@ -28,7 +28,7 @@ MEASURED_NAMES = (
     "contact_stiffness",
 )
 PARAMETER_NAMES = (*dict(MOTOR.parameters()), *MEASURED_NAMES)
-POINT_NUMBERS = tuple(name for name, value in ts.evaluate(MOTOR).as_dict().items() if isinstance(value, float))
+POINT_NUMBERS = tuple(name for name, value in ts.evaluate(MOTOR).figures.items() if isinstance(value, float))
 SEARCH = settings(
     derandomize=True, deadline=None, max_examples=80, phases=(Phase.explicit, Phase.generate, Phase.shrink)
 )

@@ -144,9 +144,9 @@ GOOD = {
     "sensitivities": (ts.sensitivities, {"motor": MOTOR, "drive": ts.Drive()}),
     "characteristics": (ts.characteristics, {"motor": MOTOR, "drive": ts.Drive(), "points": 2, "tolerance": 1e-2}),
     "sweep": (ts.sweep, {"motor": MOTOR, "outputs": ["amplitude"], "prepressure": [170.0, 180.0]}),
-    "tolerance": (
-        ts.tolerance,
-        {"motor": MOTOR, "samples": 64, "parameters": ["friction_coefficient"], "outputs": ["stall_torque"]},
+    "spread": (
+        ts.spread,
+        {"motor": MOTOR, "samples": 64, "spreads": ["friction_coefficient"], "outputs": ["stall_torque"]},
     ),
     "calibrate": (ts.calibrate, {"data": TABLE}),
     "optimize": (ts.optimize, {"motor": MOTOR, "objective": "amplitude", "bounds": BOX}),
@@ -200,12 +200,12 @@ def calls():
             {"tolerances": None, "samples": [{"friction_coefficient": value}]},
             f"samples[0][friction]={label}",
         )
-        yield "tolerance", {"parameters": {"friction_coefficient": value}}, f"parameters[friction]={label}"
+        yield "spread", {"spreads": {"friction_coefficient": value}}, f"parameters[friction]={label}"
         for field in ("kind", "low", "high", "mean", "standard_deviation", "mode"):
             for kind in ("uniform", "triangular", "normal", "lognormal"):
                 given = {"kind": kind, "low": 0.2, "high": 0.3, "mean": 0.25, "standard_deviation": 0.01, "mode": 0.25}
                 study = {"friction_coefficient": ts.Distribution(**{**given, field: value})}
-                yield "tolerance", {"parameters": study}, f"Distribution({kind}, {field}={label})"
+                yield "spread", {"spreads": study}, f"Distribution({kind}, {field}={label})"
 
 
 def answer(name, changed):
@@ -231,7 +231,7 @@ def wrong(chosen):
     return {call: what for call, what in found.items() if what is not None}
 
 
-SLOW = ("pareto", "robust", "speed_table", "tolerance", "optimize", "SpeedTable.at", "SpeedTable.save")
+SLOW = ("pareto", "robust", "speed_table", "spread", "optimize", "SpeedTable.at", "SpeedTable.save")
 
 
 def test_a_sample_of_hostile_calls_is_answered_or_refused():

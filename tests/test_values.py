@@ -49,7 +49,7 @@ def speed_table():
 
 def robust():
     return ts.robust(
-        motor(), ts.Drive(load_torque=0.05), tolerances={"friction_coefficient": 0.01}, objective="wear", bounds=QUICK
+        motor(), ts.Drive(load_torque=0.05), spreads={"friction_coefficient": 0.01}, objective="wear", bounds=QUICK
     )
 
 
@@ -71,10 +71,10 @@ VALUES = {
     ),
     "RobustPoint": robust,
     "SpeedTable": speed_table,
-    "Study": lambda: ts.tolerance(
+    "Study": lambda: ts.spread(
         motor(),
         ts.Drive(load_torque=0.05),
-        parameters={"friction_coefficient": None},
+        spreads={"friction_coefficient": None},
         samples=64,
         outputs=["mean_speed"],
     ),

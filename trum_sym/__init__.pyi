@@ -6,6 +6,7 @@ from .errors import ConvergenceError as ConvergenceError
 from .errors import ImplausibleWarning as ImplausibleWarning
 from .errors import MissingExtraError as MissingExtraError
 from .errors import ParameterError as ParameterError
+from .errors import StaleBuildWarning as StaleBuildWarning
 from .errors import UnfinishedError as UnfinishedError
 from .errors import ValidityWarning as ValidityWarning
 from .inputs.distributions import Distribution as Distribution
@@ -16,6 +17,7 @@ from .inputs.motor_file import load_motor as load_motor
 from .model.histories import simulate as simulate
 from .model.operating_point import OperatingPoint as OperatingPoint
 from .model.operating_point import evaluate as evaluate
+from .model.sensitivities import Sensitivities as Sensitivities
 from .model.sensitivities import sensitivities as sensitivities
 from .optimiser.result import Optimum as Optimum
 from .optimiser.search import optimize as optimize
@@ -24,7 +26,9 @@ from .studies.pareto import pareto as pareto
 from .studies.robust import robust as robust
 from .studies.speed_table import speed_table as speed_table
 from .sweeps.run import sweep as sweep
-from .uncertainty.study import tolerance as tolerance
+from .uncertainty.study import spread as spread
+
+__version__: str
 
 __all__ = [
     "Calibration",
@@ -38,6 +42,8 @@ __all__ = [
     "Optimum",
     "Parameter",
     "ParameterError",
+    "Sensitivities",
+    "StaleBuildWarning",
     "UnfinishedError",
     "ValidityWarning",
     "calibrate",
@@ -50,6 +56,6 @@ __all__ = [
     "sensitivities",
     "simulate",
     "speed_table",
+    "spread",
     "sweep",
-    "tolerance",
 ]

@@ -9,6 +9,7 @@ __all__ = [
     "ImplausibleWarning",
     "MissingExtraError",
     "ParameterError",
+    "StaleBuildWarning",
     "UnfinishedError",
     "ValidityWarning",
     "shorten",
@@ -73,6 +74,10 @@ class MissingExtraError(ImportError):
 
     def __reduce__(self) -> tuple[type[MissingExtraError], tuple[str, str, str]]:
         return type(self), (self.what, self.package, self.extra)
+
+
+class StaleBuildWarning(UserWarning):
+    """The compiled kernels are not those of the sources beside them."""
 
 
 class ValidityWarning(UserWarning):

@@ -1,37 +1,57 @@
-"""The numeric figures of an operating point: label, unit, and the unit people read."""
+"""The numeric figures of an operating point: label, units, symbol, meaning, and where they come from.
+
+This is the one table of them: tables, JSON, CSV headers, NetCDF attributes, axes and messages take it from here.
+"""
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
-__all__ = ["ERRORS", "QUANTITIES", "Quantity"]
+__all__ = ["ERRORS", "MORE", "QUANTITIES", "Quantity", "unit_of_figure"]
 
 
 class Quantity(NamedTuple):
-    """How one figure is named and shown."""
+    """How one figure is named and shown.
+
+    ``unit`` is the SI unit that programs read, ``shown`` the one that people read; ``source`` an equation of the paper.
+    """
 
     label: str
     unit: str
     shown: str
+    meaning: str = ""
+    source: str = ""
 
 
 QUANTITIES = {
-    "resonance_frequency": Quantity("resonance frequency f_n", "Hz", "Hz"),
-    "drive_frequency": Quantity("drive frequency f_q", "Hz", "Hz"),
-    "cycle_time": Quantity("cycle time T_Qall", "s", "ms"),
-    "amplitude": Quantity("amplitude of a phase W_maxf", "m", "µm"),
-    "neutral_axis": Quantity("neutral axis D", "m", "mm"),
-    "wavenumber": Quantity("wavenumber k_c", "1/m", "1/m"),
-    "q_ratio": Quantity("forward over backward X", "1", "1"),
-    "q_square_ratio": Quantity("the same of squares Y", "1", "1"),
-    "q_average": Quantity("speed determinant Q_aver", "1/s", "1/s"),
-    "q_volatility": Quantity("volatility determinant Q_vib", "1/s", "1/s"),
-    "mean_speed": Quantity("mean speed v_s", "rad/s", "arcsec/s"),
-    "min_speed": Quantity("lowest speed", "rad/s", "arcsec/s"),
-    "max_speed": Quantity("highest speed", "rad/s", "arcsec/s"),
-    "speed_volatility": Quantity("speed volatility sigma_s", "1", "%"),
-    "stall_torque": Quantity("stall torque", "N*m", "N*m"),
-    "contact_fraction": Quantity("contact fraction", "1", "1"),
+    "resonance_frequency": Quantity(
+        "resonance frequency f_n", "Hz", "Hz", "at which the stator under prepressure vibrates by itself", "eq. 6"
+    ),
+    "drive_frequency": Quantity("drive frequency f_q", "Hz", "Hz", "of the voltage on both phases", "eq. 7"),
+    "cycle_time": Quantity("cycle time T_Qall", "s", "ms", "of the pattern of switching that repeats", "eq. 43"),
+    "amplitude": Quantity("amplitude of a phase W_maxf", "m", "µm", "steady amplitude of one phase", "eq. 8"),
+    "neutral_axis": Quantity(
+        "neutral axis D", "m", "mm", "from the tooth surface to the line that keeps its length", "eq. 1"
+    ),
+    "wavenumber": Quantity(
+        "wavenumber k_c", "1/m", "1/m", "angle of the wave per length of the circumference", "eq. 4"
+    ),
+    "q_ratio": Quantity("forward over backward X", "1", "1", "of the direction determinant over a cycle", "eq. A14"),
+    "q_square_ratio": Quantity(
+        "the same of squares Y", "1", "1", "of the determinant's square over a cycle", "eq. A16"
+    ),
+    "q_average": Quantity("speed determinant Q_aver", "1/s", "1/s", "the paper's measure of the mean speed", "eq. 43"),
+    "q_volatility": Quantity(
+        "volatility determinant Q_vib", "1/s", "1/s", "the paper's measure of the fluctuation", "eq. 44"
+    ),
+    "mean_speed": Quantity("mean speed v_s", "rad/s", "arcsec/s", "of the rotor over its periodic orbit", "eq. 39"),
+    "min_speed": Quantity("lowest speed", "rad/s", "arcsec/s", "of the rotor over its periodic orbit"),
+    "max_speed": Quantity("highest speed", "rad/s", "arcsec/s", "of the rotor over its periodic orbit"),
+    "speed_volatility": Quantity(
+        "speed volatility sigma_s", "1", "%", "standard deviation of the speed over the size of its mean", "eq. 40"
+    ),
+    "stall_torque": Quantity("stall torque", "N*m", "N*m", "mean torque on a rotor that is held still"),
+    "contact_fraction": Quantity("contact fraction", "1", "1", "mean over the cycle of the wave's share in contact"),
 }
 
 ERRORS = {
@@ -41,3 +61,22 @@ ERRORS = {
     for name in ("mean_speed", "min_speed", "max_speed", "speed_volatility", "stall_torque")
 }
 """Bounds of the errors of the rotor's figures, by the figure's name with ``_error`` after it."""
+
+MORE = {
+    "speed_deviation": Quantity("standard deviation of the speed", "rad/s", "arcsec/s"),
+    "peak_pressure": Quantity("peak pressure", "Pa", "MPa", "highest pressure between layer and stator in a cycle"),
+    "sampling_period": Quantity("sampling period", "s", "ms", "over which an encoder averages the speed", "Sect. 8"),
+    "tolerance": Quantity("tolerance", "1", "1", "largest bound of the speeds' errors over the largest speed"),
+    "constraint_violation": Quantity("constraint violation", "1", "1", "the largest, over the constraint's bound"),
+    "reachable_speed": Quantity("reachable speed", "rad/s", "arcsec/s", "lowest and highest mean speed of the box"),
+    "reachable": Quantity("reachable speed", "rad/s", "arcsec/s", "lowest and highest mean speed of the box"),
+    "floor": Quantity("floor", "rad/s", "arcsec/s", "speed that errors are taken of where the speed is smaller"),
+    "largest_error": Quantity("largest error seen", "1", "%", "over the speed"),
+}
+"""What answers have beside the figures of an operating point."""
+
+
+def unit_of_figure(name: str) -> str | None:
+    """The SI unit of a figure, None for what is none."""
+    found = QUANTITIES.get(name) or ERRORS.get(name) or MORE.get(name)
+    return None if found is None else found.unit

@@ -399,8 +399,8 @@ def test_console_refuses_bad_data(console_refuses, csv_file, text, naming):
 
 BAD_OPTIONS = [
     (("--fit", "nonsense"), ("nonsense", "a name of the motor file")),
-    (("--fit", "crests"), ("parameters: got crests", "vary continuously")),
-    (("--fit", "amplitude_factor", "--fit", "amplitude_factor"), ("parameters", "each name once")),
+    (("--fit", "crests"), ("--fit: got crests", "vary continuously")),
+    (("--fit", "amplitude_factor", "--fit", "amplitude_factor"), ("--fit", "each name once")),
     (("--confidence", "1"), ("confidence: got 1", "> 0 and < 1")),
     (("--confidence", "nan"), ("confidence: got nan",)),
     (("--errors", "none"), ("--errors", "'absolute', 'relative'")),
@@ -426,7 +426,7 @@ def test_console_refuses_logarithms_of_negative_speeds(console_refuses, csv_file
 
 def test_console_refuses_what_a_decay_does_not_know(console_refuses, csv_file):
     path = csv_file("time [us],displacement [um]\n" + "".join(f"{k},1\n" for k in range(9)))
-    console_refuses("calibrate", path, "--fit", "contact_radius", naming=("parameters: got contact_radius", "decay"))
+    console_refuses("calibrate", path, "--fit", "contact_radius", naming=("--fit: got contact_radius", "decay"))
     console_refuses("calibrate", path, "--fit", "resonance_frequency", naming=("damping_ratio among them",))
 
 

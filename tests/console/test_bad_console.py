@@ -16,15 +16,14 @@ pytestmark = pytest.mark.filterwarnings("ignore::trum_sym.ValidityWarning")
 
 
 def parameter(option):
-    return option.removeprefix("--").replace("-", "_")
+    return f"{option}: "
 
 
 @pytest.mark.parametrize("value", ["nan", "inf", "-inf", "1e400"])
 @pytest.mark.parametrize("option", OPTIONS)
 def test_console_refuses_what_is_not_finite(console_refuses, option, value):
-    shown = value if value != "1e400" else "inf"
     allowed = "an integer" if "periods" in option else OPTIONS[option][0]
-    console_refuses("evaluate", option, value, naming=(parameter(option), f"got {shown}", allowed))
+    console_refuses("evaluate", option, value, naming=(parameter(option), f"got {value}", allowed))
 
 
 @pytest.mark.parametrize("value", ["many", "1,5", "0x10", "--", "one hundred N"])
@@ -54,7 +53,7 @@ def test_console_refuses_an_unknown_unit(console_refuses, option):
 OUT_OF_DOMAIN = [
     ("--prepressure", "0", ("got 0", "> 0", "in N")),
     ("--prepressure", "-180", ("got -180", "> 0", "in N")),
-    ("--prepressure", "1 MN", ("got 1000000.0", "< 1e+06", "in N")),
+    ("--prepressure", "1 MN", ("got 1 MN", "< 1e+06", "in N")),
     ("--periods", "0", ("got 0", "an integer >= 1")),
     ("--periods", "-20", ("got -20", "an integer >= 1")),
     ("--periods", "20.5", ("got 20.5", "an integer")),
@@ -64,14 +63,14 @@ OUT_OF_DOMAIN = [
     ("--on-periods", "13.5", ("got 13.5", "an integer")),
     ("--on-periods", "9", ("got 9", "from periods/2 to periods", "periods = 20")),
     ("--on-periods", "21", ("got 21", "from periods/2 to periods", "periods = 20")),
-    ("--switching-phase", "1e7", ("got 10000000.0", "< 1e+06", "in rad")),
+    ("--switching-phase", "1e7", ("got 1e7", "< 1e+06", "in rad")),
     ("--sampling-period", "0", ("got 0", "> 0", "in s")),
     ("--sampling-period", "-0.01", ("got -0.01", "> 0", "in s")),
-    ("--sampling-period", "-10 ms", ("got -0.01", "> 0", "in s")),
-    ("--frequency-difference", "-40 kHz", ("got -40000", "-0.9 times the resonance", "Hz")),
-    ("--frequency-difference", "1e300", ("got 1e+300", "Hz")),
-    ("--frequency-difference", "1e308", ("got 1e+308", "Hz")),
-    ("--frequency-difference", "-1e308", ("got -1e+308", "Hz")),
+    ("--sampling-period", "-10 ms", ("got -10 ms", "> 0", "in s")),
+    ("--frequency-difference", "-40 kHz", ("got -40 kHz", "-0.9 times the resonance", "Hz")),
+    ("--frequency-difference", "1e300", ("got 1e300", "Hz")),
+    ("--frequency-difference", "1e308", ("got 1e308", "Hz")),
+    ("--frequency-difference", "-1e308", ("got -1e308", "Hz")),
 ]
 
 
@@ -100,12 +99,12 @@ def test_console_refuses_an_odd_unit(console_refuses, option, value):
 
 @pytest.mark.parametrize("value", ["20 100", "20 12", "20 000"])
 def test_console_refuses_a_second_number_in_place_of_a_unit(console_refuses, value):
-    console_refuses("evaluate", "--periods", value, naming=("periods", f"got {value}"))
+    console_refuses("evaluate", "--periods", value, naming=("--periods: ", f"got {value}"))
 
 
 def test_console_shortens_a_long_unit(console_refuses):
     long = "180 " + "x" * 1000
-    line = console_refuses("evaluate", "--prepressure", long, naming=("prepressure", "got 180 xxx", "in N"))
+    line = console_refuses("evaluate", "--prepressure", long, naming=("--prepressure:", "got 180 xxx", "in N"))
     assert len(line) < 300
 
 
@@ -131,7 +130,7 @@ BAD_SETS = [
     ("contact_radius=inf", ("contact_radius", "got inf", "> 0 and < 10 in m")),
     ("contact_radius=-inf", ("contact_radius", "got -inf", "> 0 and < 10 in m")),
     ("contact_radius=0", ("contact_radius", "got 0", "> 0 and < 10 in m")),
-    ("contact_radius=-26 mm", ("contact_radius", "got -0.026", "> 0 and < 10 in m")),
+    ("contact_radius=-26 mm", ("contact_radius", "got -26 mm", "> 0 and < 10 in m")),
     ("damping_ratio=1", ("damping_ratio", "got 1", "< 1")),
     ("damping_ratio=1.5", ("damping_ratio", "got 1.5", "< 1")),
     ("damping_ratio=-0.001", ("damping_ratio", "got -0.001", ">= 0")),
@@ -147,9 +146,9 @@ BAD_SETS = [
     ("resonance_frequency=0", ("resonance_frequency", "got 0", "> 0 and < 1e+09 in Hz")),
     ("resonance_frequency=1e308", ("resonance_frequency",)),
     ("resonance_frequency=40 mm", ("resonance_frequency", "got 40 mm", "in Hz")),
-    ("tooth_height=5 mm", ("tooth_height", "got 0.005", "less than beam_thickness (0.0045 m)")),
-    ("tooth_height=4.5 mm", ("tooth_height", "got 0.0045", "less than beam_thickness (0.0045 m)")),
-    ("slot_width=3 mm", ("slot_width", "got 0.003", "perimeter")),
+    ("tooth_height=5 mm", ("tooth_height", "got 5 mm", "less than beam_thickness (0.0045 m)")),
+    ("tooth_height=4.5 mm", ("tooth_height", "got 4.5 mm", "less than beam_thickness (0.0045 m)")),
+    ("slot_width=3 mm", ("slot_width", "got 3 mm", "perimeter")),
     ("tooth_count=500", ("slot_width", "tooth_count", "perimeter")),
     ("fit_prepressure_min=300", ("fit_prepressure_min", "got 300", "less than fit_prepressure_max (220")),
     ("fit_prepressure_max=50", ("fit_prepressure_min", "got 100", "less than fit_prepressure_max (50")),
@@ -195,7 +194,7 @@ def test_console_refuses_a_periodic_start_that_the_cycle_does_not_fix(console_re
 
 
 def test_console_refuses_a_motor_that_does_not_exist(console_refuses):
-    console_refuses("evaluate", "--motor", "trum61", naming=("motor: got trum61", "trum60 or the path"))
+    console_refuses("evaluate", "--motor", "trum61", naming=("--motor: got trum61", "trum60 or the path"))
 
 
 def test_console_refuses_a_directory_as_motor(console_refuses, tmp_path):
@@ -252,15 +251,15 @@ def test_console_refuses_a_wrong_command_line(console_refuses, arguments, naming
 
 
 def test_console_refuses_bad_input_as_json_too(console_refuses):
-    console_refuses("evaluate", "--json", "--prepressure", "-1", naming=("prepressure", "got -1", "> 0"))
+    console_refuses("evaluate", "--json", "--prepressure", "-1", naming=("--prepressure", "got -1", "> 0"))
 
 
 @pytest.mark.parametrize(
     ("arguments", "naming"),
     [
-        (("evaluate", "--prepressure", "180 Hz"), (b"prepressure: got 180 Hz, need a number in N",)),
-        (("evaluate", "--motor", b"\xff.toml"), (b"motor: got", b"need trum60 or the path of a TOML file")),
-        (("evaluate", "--on-periods", "9"), (b"on_periods: got 9", b"periods/2")),
+        (("evaluate", "--prepressure", "180 Hz"), (b"--prepressure: got 180 Hz, need a number in N",)),
+        (("evaluate", "--motor", b"\xff.toml"), (b"--motor: got", b"need trum60 or the path of a TOML file")),
+        (("evaluate", "--on-periods", "9"), (b"--on-periods: got 9", b"periods/2")),
     ],
     ids=["wrong-unit", "undecodable-name", "too-few-on-periods"],
 )

@@ -16,8 +16,8 @@ from trum_sym.console.streams import spelt
 
 ENCODINGS = ("gbk", "cp932", "cp949", "big5", "koi8-r", "ascii", "latin-1", "cp1252", "utf-8", "utf-16")
 NAME = "TRUM-60 µ·Δω ≤ 超音波 Ø²"
-FAST = ("--samples", "64", "--vary", "friction_coefficient", "--output", "amplitude")
-BOX = ("--bounds", "prepressure=170:171", "--bounds", "frequency_difference=3000:3001")
+FAST = ("--samples", "64", "--spread", "friction_coefficient", "--output", "amplitude")
+BOX = ("--prepressure", "170:171", "--frequency-difference", "3000:3001")
 
 
 def commands(folder):
@@ -36,7 +36,7 @@ def commands(folder):
         "simulate": ("simulate", *point, "--out", f"{out}.csv"),
         "simulate table": ("simulate", *point),
         "sweep": ("sweep", *point, "--prepressure", "160:180:2", "--outputs", "amplitude", "--out", f"{out}-2.csv"),
-        "tolerance": ("tolerance", *point, *FAST, "--out", f"{out}-3.csv"),
+        "tolerance": ("spread", *point, *FAST, "--out", f"{out}-3.csv"),
         "optimize": ("optimize", *point, *BOX, "--objective", "amplitude"),
         "pareto": ("pareto", *point, *BOX, "--objective", "wear", "--points", "3"),
         "robust": ("robust", *point, *BOX, "--objective", "wear", "--spread", "friction_coefficient=5 %"),

@@ -150,10 +150,10 @@ def test_the_docs_show_what_the_studies_print(command, capsys):
 
 def test_the_page_on_tolerances_shows_what_its_command_prints(capsys, monkeypatch, tmp_path):
     text = (ROOT / "docs/tolerance.md").read_text("utf-8")
-    command = re.search(r"^    (trum-sym tolerance (?:.*\\\n)*.*)$", text, re.MULTILINE)[1]
+    command = re.search(r"^    (trum-sym spread (?:.*\\\n)*.*)$", text, re.MULTILINE)[1]
     monkeypatch.chdir(tmp_path)
     main(shlex.split(command.replace("\\\n", " "))[1:])
-    assert lines(shown("docs/tolerance.md", "trum-sym tolerance")) == lines(capsys.readouterr().out)
+    assert lines(shown("docs/tolerance.md", "trum-sym spread")) == lines(capsys.readouterr().out)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["points.csv", "study.png"]
 
 

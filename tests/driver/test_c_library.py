@@ -100,7 +100,7 @@ def python(arguments, tolerance):
         warnings.simplefilter("ignore", ts.ValidityWarning)
         point = ts.evaluate(
             ts.load_motor().with_values(motor), ts.Drive(**drive), tolerance=tolerance, **levels
-        ).as_dict()
+        ).figures
     return {k: None if isinstance(v, float) and not np.isfinite(v) else v for k, v in point.items()}
 
 

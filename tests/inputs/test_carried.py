@@ -137,12 +137,12 @@ def test_functions_convert_quantities_or_refuse_them(kind):
         lambda: ts.optimize(MOTOR, target_speed=q(0.5, "Hz")),
         lambda: ts.optimize(MOTOR, bounds={"frequency_difference": (q(2.8, "krad/s"), 3300.0)}),
         lambda: ts.pareto(MOTOR, target_speed=q(0.5, "Hz")),
-        lambda: ts.robust(MOTOR, tolerances={"contact_radius": (q(25, "kg"), 0.027)}),
-        lambda: ts.robust(MOTOR, tolerances={"contact_radius": q(0.1, "m")}),
+        lambda: ts.robust(MOTOR, spreads={"contact_radius": (q(25, "kg"), 0.027)}),
+        lambda: ts.robust(MOTOR, spreads={"contact_radius": q(0.1, "m")}),
         lambda: ts.robust(MOTOR, samples=[{"contact_radius": q(25, "kg")}]),
         lambda: ts.speed_table(MOTOR, slowest=q(0.5, "Hz"), fastest=1.0),
-        lambda: ts.tolerance(MOTOR, parameters={"contact_radius": ts.Distribution("uniform", 0.025, q(27, "kg"))}),
-        lambda: ts.tolerance(MOTOR, samples=q(64, "m")),
+        lambda: ts.spread(MOTOR, spreads={"contact_radius": ts.Distribution("uniform", 0.025, q(27, "kg"))}),
+        lambda: ts.spread(MOTOR, samples=q(64, "m")),
     ):
         with refusal("got", "need"):
             call()
@@ -152,8 +152,8 @@ def test_a_distribution_converts_quantities():
     mm = registry().Quantity(1.0, "mm")
     given = ts.Distribution("normal", 25 * mm, 27 * mm, 26 * mm, 0.5 * mm)
     outputs = {"samples": 64, "outputs": ["stall_torque"]}
-    ours = ts.tolerance(MOTOR, parameters={"contact_radius": given}, **outputs)
-    theirs = ts.tolerance(MOTOR, parameters={"contact_radius": "normal:26 mm:0.5 mm:25 mm:27 mm"}, **outputs)
+    ours = ts.spread(MOTOR, spreads={"contact_radius": given}, **outputs)
+    theirs = ts.spread(MOTOR, spreads={"contact_radius": "normal:26 mm:0.5 mm:25 mm:27 mm"}, **outputs)
     assert ours.propagation.values["stall_torque"].tolist() == theirs.propagation.values["stall_torque"].tolist()
 
 
@@ -241,7 +241,7 @@ def test_like_labels_pair_and_results_are_plain_arrays(case):
     first, second = ALIKE[case]()
     point = ts.evaluate(MOTOR, ts.Drive(prepressure=first, frequency_difference=second))
     expected = ts.evaluate(MOTOR, ts.Drive(prepressure=[180.0, 190.0], frequency_difference=np.asarray(second)))
-    for name, value in point.as_dict().items():
+    for name, value in point.figures.items():
         assert not isinstance(value, np.ndarray) or type(value) is np.ndarray, name
         np.testing.assert_array_equal(value, getattr(expected, name))
 

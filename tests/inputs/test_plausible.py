@@ -120,7 +120,7 @@ def test_the_console_says_each_doubt_in_one_line(motor_file, capsys):
 
 def test_searches_and_samples_do_not_warn_of_where_they_go():
     outputs = {"samples": 64, "outputs": ["stall_torque"]}
-    assert warned(lambda: ts.tolerance(MOTOR, parameters={"friction_coefficient": "uniform:0.1:2"}, **outputs)) == []
+    assert warned(lambda: ts.spread(MOTOR, spreads={"friction_coefficient": "uniform:0.1:2"}, **outputs)) == []
     swept = {"friction_coefficient": [0.1, 3.0]}
     assert warned(lambda: make_plan(MOTOR, None, Levels(), None, 1e-3, ["amplitude"], None, swept)) == []
 

@@ -16,7 +16,7 @@ READERS = {
     "samples": ["robust", "--objective", "wear", "--samples", "{}"],
     "range": ["sweep", "--prepressure", "@{}", "--out", "map.zarr"],
     "range of the motor": ["sweep", "--set", "friction_coefficient=@{}", "--out", "map.zarr"],
-    "point": ["tolerance", "--point", "{}"],
+    "point": ["spread", "--point", "{}"],
     "motor of the report": ["report", "out", "--motor", "{}"],
 }
 
@@ -47,7 +47,7 @@ def test_a_file_without_end_is_refused_before_it_fills_the_memory(console_refuse
     for name, arguments in (
         ("m.toml", ["evaluate", "--motor"]),
         ("d.csv", ["calibrate"]),
-        ("p", ["tolerance", "--point"]),
+        ("p", ["spread", "--point"]),
     ):
         with (tmp_path / name).open("wb") as file:
             file.truncate(2**40)  # a hole of a TiB

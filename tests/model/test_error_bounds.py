@@ -164,7 +164,7 @@ def test_a_forced_batch_has_the_bits_of_its_points(trum60):
     force = np.linspace(110, 210, 7)
     batch = ts.evaluate(trum60, ts.Drive(prepressure=force), amplitude="forced", tolerance=1e-3)
     for i, each in enumerate(force):
-        one = ts.evaluate(trum60, ts.Drive(prepressure=float(each)), amplitude="forced", tolerance=1e-3).as_dict()
+        one = ts.evaluate(trum60, ts.Drive(prepressure=float(each)), amplitude="forced", tolerance=1e-3).figures
         for name in ("amplitude", "resonance_frequency", *FIGURES, *(f"{figure}_error" for figure in FIGURES)):
             assert getattr(batch, name)[i] == one[name], name
 

@@ -158,7 +158,7 @@ def test_every_instruction_set_gives_the_same_figures(trum60):
     found = {}
     for name in _kernels.instruction_sets():
         _kernels.use(name)
-        found[name] = ts.evaluate(trum60, drive, tolerance=1e-6).as_dict()
+        found[name] = ts.evaluate(trum60, drive, tolerance=1e-6).figures
     _kernels.use(best)
     for point in found.values():
         for name in figures:

@@ -373,14 +373,22 @@ def test_the_console_says_no_with_exit_code_1(capsys):
     assert set(found) >= KEYS
     assert found["status"] == "infeasible"
     assert found["objective"] is None
-    assert console.main(["optimize", "--load-torque", "5", "--json"]) == 1
+    assert console.main(["optimize", "--load-torque", "5", "--objective", "volatility", "--json"]) == 1
     found = json.loads(capsys.readouterr().out)
     assert set(found) >= KEYS
     assert found["prepressure"] is found["mean_speed"] is found["constraint_violation"] is None
 
 
 def test_the_console_reads_units_in_bounds(capsys):
-    arguments = ["--bounds", "prepressure=0.18 kN", "--bounds", "frequency-difference=2.9 kHz:3.1kHz", "--json"]
+    arguments = [
+        "--prepressure",
+        "0.18 kN",
+        "--frequency-difference",
+        "2.9 kHz:3.1kHz",
+        "--objective",
+        "ripple",
+        "--json",
+    ]
     assert console.main(["optimize", *LIGHT, *arguments]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["prepressure"] == 180
@@ -401,16 +409,16 @@ def test_a_picture_is_drawn(capsys, tmp_path, suffix):
 
 def test_one_variable_is_drawn_as_a_line(capsys, tmp_path):
     target = tmp_path / "line.svg"
-    arguments = ["--target-speed", "1", "--bounds", "prepressure=180", "--plot", str(target)]
+    arguments = ["--target-speed", "1", "--prepressure", "180", "--plot", str(target)]
     assert console.main(["optimize", *LIGHT, *arguments]) == 0
     assert "frequency difference" in target.read_text() or target.stat().st_size > 20_000
     capsys.readouterr()
 
 
 def test_a_box_beyond_the_fit_warns(capsys):
-    assert console.main(["optimize", *LIGHT, "--bounds", "prepressure=90:150", "--json"]) == 0
+    assert console.main(["optimize", *LIGHT, "--prepressure", "90:150", "--objective", "volatility", "--json"]) == 0
     error = capsys.readouterr().err
-    assert error.startswith("trum-sym: warning: bounds of prepressure: 90 to 150 N reaches outside 100 to 220 N")
+    assert error.startswith("trum-sym: warning: prepressure: 90 to 150 N reaches outside 100 to 220 N")
     assert "extrapolated" in error
     assert len(error.splitlines()) == 1
 

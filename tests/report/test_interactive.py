@@ -169,7 +169,7 @@ def evaluated(settings):
         warnings.simplefilter("ignore", ts.ValidityWarning)
         levels = {name: value for name, value in settings.items() if name in LEVEL_NAMES}
         drive = {name: value for name, value in settings.items() if name not in LEVEL_NAMES}
-        return ts.evaluate(ts.load_motor(), Drive(**drive), tolerance=TOLERANCE, **levels).as_dict()
+        return ts.evaluate(ts.load_motor(), Drive(**drive), tolerance=TOLERANCE, **levels).figures
 
 
 @pytest.mark.browser

@@ -279,7 +279,7 @@ def test_the_worst_speed_error_is_the_least_on_a_dense_line(trum60):
         trum60,
         LOAD,
         objective="speed-error",
-        tolerances={"friction_coefficient": "10 %"},
+        spreads={"friction_coefficient": "10 %"},
         target_speed=target,
         bounds=HELD,
     )
@@ -307,7 +307,7 @@ def test_the_worst_speed_error_is_the_least_on_a_dense_line(trum60):
 
 def test_a_robust_point_is_no_worse_than_the_nominal_optimum(trum60):
     target = 300000 * ARCSEC
-    found = ts.robust(trum60, LOAD, tolerances={"friction_coefficient": 0.1}, target_speed=target)
+    found = ts.robust(trum60, LOAD, spreads={"friction_coefficient": 0.1}, target_speed=target)
     assert found.status == "solved"
     assert found.cases[0].mean_speed == pytest.approx(target, rel=1e-8)
     assert found.worst <= found.worst_of_nominal_optimum * (1 + 1e-6)
@@ -332,7 +332,7 @@ def test_constraints_hold_in_every_sample(trum60):
 
 # --- The console ----------------------------------------------------------------------------------
 
-SLOW = ("--from", "500 arcsec/s", "--to", "50000 arcsec/s", "--points", "3", "--bounds", "prepressure=180")
+SLOW = ("--from", "500 arcsec/s", "--to", "50000 arcsec/s", "--points", "3", "--prepressure", "180")
 
 
 def test_console_writes_tables(capsys, tmp_path):
@@ -346,7 +346,7 @@ def test_console_writes_tables(capsys, tmp_path):
 
 def test_console_says_no_where_the_box_has_no_such_speed(capsys, tmp_path):
     out = tmp_path / "table.csv"
-    arguments = ["--from", "50", "--to", "60", "--points", "3", "--bounds", "prepressure=180", "--load-torque", "0.05"]
+    arguments = ["--from", "50", "--to", "60", "--points", "3", "--prepressure", "180", "--load-torque", "0.05"]
     assert console.main(["speed-table", *arguments, "--out", str(out)]) == 1
     assert "gap: " in capsys.readouterr().out
     assert not out.exists()
@@ -355,38 +355,42 @@ def test_console_says_no_where_the_box_has_no_such_speed(capsys, tmp_path):
 def test_console_reads_samples(capsys, tmp_path):
     path = tmp_path / "samples.csv"
     path.write_text("friction_coefficient,contact_radius [mm]\n0.24,26\n0.26,27\n")
-    arguments = ["--samples", str(path), "--bounds", "prepressure=180", "--load-torque", "0.05", "--json"]
+    arguments = ["--samples", str(path), "--prepressure", "180", "--load-torque", "0.05", *AIM, "--json"]
     assert console.main(["robust", *arguments]) == 0
     record = json.loads(capsys.readouterr().out)
     assert record["cases"][1]["changed"] == {"friction_coefficient": 0.24, "contact_radius": 0.026}
     assert record["cases"][2]["changed"] == {"friction_coefficient": 0.26, "contact_radius": 0.027}
 
 
+AIM = ("--objective", "volatility")
 BAD = [
-    (("speed-table", "--from", "0", "--to", "1"), ("slowest: got 0", "> 0")),
-    (("speed-table", "--from", "2", "--to", "1"), ("slowest: got 2 rad/s", "less than fastest")),
-    (("speed-table", "--from", "1 mm", "--to", "1"), ("slowest: got 1 mm", "rad/s")),
-    (("speed-table", "--from", "nan", "--to", "1"), ("slowest: got nan",)),
+    (("speed-table", "--from", "0", "--to", "1"), ("--from: got 0", "> 0")),
+    (("speed-table", "--from", "2", "--to", "1"), ("--from: got 2", "less than --to, 1")),
+    (("speed-table", "--from", "1 mm", "--to", "1"), ("--from: got 1 mm", "rad/s")),
+    (("speed-table", "--from", "nan", "--to", "1"), ("--from: got nan",)),
     (("speed-table", *SLOW, "--points", "1"), ("points: got 1", ">= 2")),
     (("speed-table", *SLOW, "--error", "0"), ("error: got 0", ">= 1e-06")),
     (("speed-table", *SLOW, "--out", "table.txt"), ("--out", ".csv or .h")),
-    (("speed-table", *SLOW, "--bounds", "periods=10:20"), ("bounds: got", "one value of each")),
-    (("speed-table", *SLOW, "--sampling-period", "2 ms"), ("sampling_period",)),
-    (("speed-table", "--from", "1e-7", "--to", "1e-6", "--bounds", "prepressure=180"), ("error: got 0.01", "at least")),
-    (("pareto", "--points", "2"), ("points: got 2", ">= 3")),
-    (("pareto", "--against", "speed-error"), ("target_speed: got none", "speed-error")),
-    (("pareto", "--against", "nonsense"), ("against: got nonsense", "no figure")),
+    (("speed-table", *SLOW, "--periods", "10:20"), ("--periods: got 7 pairs", "one value of each")),
+    (("speed-table", *SLOW, "--sampling-period", "2 ms"), ("No such option", "--sampling-period")),
+    (("speed-table", "--from", "1e-7", "--to", "1e-6", "--prepressure", "180"), ("--error: got 0.01", "at least")),
+    (("pareto", "--objective", "ripple", "--points", "2"), ("points: got 2", ">= 3")),
+    (("pareto", "--objective", "ripple", "--against", "speed-error"), ("--target-speed: got none", "speed-error")),
+    (("pareto", "--objective", "ripple", "--against", "nonsense"), ("against: got nonsense", "no figure")),
     (("pareto", "--objective", "nonsense"), ("objective: got nonsense",)),
-    (("robust",), ("tolerances: got neither",)),
-    (("robust", "--spread", "friction_coefficient"), ("--spread", "NAME=SHARE")),
-    (("robust", "--spread", "friction_coefficient=2"), ("tolerance of friction_coefficient: got 2", "< 1")),
-    (("robust", "--spread", "friction_coefficient=0.3:0.4"), ("tolerance of friction_coefficient", "around 0.25")),
-    (("robust", "--spread", "crests=0.1"), ("tolerances: got crests", "continuously")),
-    (("robust", "--spread", "prepressure=0.1"), ("tolerances: got prepressure", "load_torque")),
-    (("robust", "--spread", "nonsense=0.1"), ("got nonsense", "motor file")),
-    (("robust", "--spread", "layer_stiffness=0.1"), ("tolerances: got layer_stiffness", "set it first")),
-    (("robust", "--samples", "nowhere.csv"), ("nowhere.csv", "exists")),
-    (("robust", "--spread", "friction_coefficient=0.1", "--objective", "speed-error"), ("target_speed: got none",)),
+    (("robust", *AIM), ("--spread: got neither",)),
+    (("robust", *AIM, "--spread", "voltage"), ("--spread voltage: got nothing", "states none")),
+    (("robust", *AIM, "--spread", "friction_coefficient=2"), ("--spread friction_coefficient: got 2", "< 1")),
+    (("robust", *AIM, "--spread", "friction_coefficient=0.3:0.4"), ("--spread friction_coefficient", "around 0.25")),
+    (("robust", *AIM, "--spread", "crests=0.1"), ("--spread: got crests", "continuously")),
+    (("robust", *AIM, "--spread", "prepressure=0.1"), ("--spread: got prepressure", "load_torque")),
+    (("robust", *AIM, "--spread", "nonsense=0.1"), ("got nonsense", "motor file")),
+    (("robust", *AIM, "--spread", "layer_stiffness=0.1"), ("--spread: got layer_stiffness", "set it first")),
+    (("robust", *AIM, "--samples", "nowhere.csv"), ("nowhere.csv", "exists")),
+    (
+        ("robust", *AIM, "--spread", "friction_coefficient=0.1", "--objective", "speed-error"),
+        ("--target-speed: got none",),
+    ),
 ]
 
 

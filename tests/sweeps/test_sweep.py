@@ -471,11 +471,11 @@ BAD_RANGES = [
     ({"prepressure": []}, ("prepressure: got []", "empty")),
     ({"prepressure": [150, -1]}, ("prepressure: got -1", "> 0 and < 1e+06 in N")),
     ({"prepressure": [150, np.nan]}, ("prepressure: got nan",)),
-    ({"prepressure": ["a", "b"]}, ("prepressure: got ['a', 'b']",)),
+    ({"prepressure": ["a", "b"]}, ("prepressure: got a", "a number in N")),
     ({"prepressure": [150, 150]}, ("prepressure: got 150 more than once",)),
     ({"prepressure": np.ones((2, 2))}, ("prepressure: got an array of shape (2, 2)",)),
     ({"periods": [4, 4.5]}, ("periods: got 4.5", "an integer")),
-    ({"phase_lead": [1, 0]}, ("phase_lead", "1, -1 or both")),
+    ({"phase_lead": [1, 0]}, ("--phase-lead", "1, -1 or both")),
     (
         {"prepressure": [150, 160], "load_torque": lambda: xr.DataArray([1, 2], dims="prepressure")},
         ("dimension prepressure",),

@@ -16,7 +16,6 @@ import trum_sym as ts
 from trum_sym.model import batch
 from trum_sym.model.cycle import cycle_sums, modal_values
 from trum_sym.uncertainty.propagation import propagate
-from trum_sym.uncertainty.tables import as_json_text, as_text
 
 # few pulses a cycle: a point costs a fifth of Table 3's
 SHORT = ts.Drive(periods=4, on_periods=3, load_torque=0.05)
@@ -26,10 +25,10 @@ UNIFORM = {name: f"uniform:{low}:{high}" for name, (low, high) in BOUNDS.items()
 
 @pytest.fixture(scope="module")
 def study():
-    return ts.tolerance(
+    return ts.spread(
         MOTOR,
         SHORT,
-        parameters=UNIFORM,
+        spreads=UNIFORM,
         samples=256,
         outputs=["mean_speed", "speed_volatility"],
         target=["mean_speed >= 7000000 arcsec/s", "speed_volatility < 1.6 %"],
@@ -39,10 +38,10 @@ def study():
 @pytest.fixture(scope="module")
 def overloaded():
     """A load of 1.1 N m: friction transmits mu F_c r_c at most, 1.06 to 1.24 N m here."""
-    return ts.tolerance(
+    return ts.spread(
         MOTOR,
         replace(SHORT, load_torque=1.1),
-        parameters={"friction_coefficient": "uniform:0.222:0.26", "frequency_difference": "uniform:2900:3100"},
+        spreads={"friction_coefficient": "uniform:0.222:0.26", "frequency_difference": "uniform:2900:3100"},
         samples=128,
         outputs=["max_speed", "q_average"],
         target="max_speed > 0 rad/s",
@@ -130,7 +129,7 @@ def test_indices_of_the_rotors_speed_are_those_of_a_double_loop(study):
 
 
 def test_what_to_measure_first_is_said_in_words(study):
-    text = as_text(study)
+    text = study.to_text()
     best = study.propagation.indices["mean_speed"].first["prepressure"]
     assert f"measure prepressure first: on average, knowing it takes away {100 * best.value:.3g} %" in text
     # knowing it: the variance that is left, found without the engine
@@ -161,7 +160,7 @@ def test_missing_a_target_is_counted(study):
     assert 0 < rough.value == np.mean(volatility >= 0.016) < 1
     assert study.missing().value == np.mean((speed < 7e6) | (volatility >= 0.016))
     assert slow.low < slow.value < slow.high
-    assert f"probability of missing mean_speed >= 7000000 arcsec/s: {100 * slow.value:.3g} %" in as_text(study)
+    assert f"probability of missing mean_speed >= 7000000 arcsec/s: {100 * slow.value:.3g} %" in study.to_text()
 
 
 def test_points_that_no_speed_balances_are_counted_and_named(overloaded):
@@ -172,11 +171,11 @@ def test_points_that_no_speed_balances_are_counted_and_named(overloaded):
     exact = (edge - 0.222) / (0.26 - 0.222)
     assert overloaded.unbalanced.low < exact < overloaded.unbalanced.high
     assert overloaded.unbalanced.value == pytest.approx(exact, abs=0.01)
-    record = json.loads(as_json_text(overloaded))["unbalanced"]
+    record = json.loads(overloaded.to_json())["unbalanced"]
     assert record["count"] == (points <= edge).sum()
     assert len(record["points"]) == (points[:2] <= edge).sum()
     assert all(point["friction_coefficient"] <= edge for point in record["points"])
-    text = as_text(overloaded)
+    text = overloaded.to_text()
     assert f"no speed balances the load at {record['count']} of 512 points" in text
     assert f"max speed has no value at {len(record['points'])} of 256 points" in text
     assert f"friction_coefficient = {record['points'][0]['friction_coefficient']:.6g}" in text
@@ -200,54 +199,54 @@ def test_indices_say_how_many_rows_they_hold_for(overloaded):
     indices = overloaded.propagation.indices
     assert indices["max_speed"].rows == np.isfinite(values).all(axis=0).sum() < 128
     assert indices["q_average"].rows == 128
-    assert f"over the {indices['max_speed'].rows} of 128 rows" in as_text(overloaded)
+    assert f"over the {indices['max_speed'].rows} of 128 rows" in overloaded.to_text()
 
 
 def test_orbits_that_do_not_settle_are_counted_and_named(study):
     settled = study.settled.copy()
     assert settled.all()
     settled[0, 5] = settled[3, 7] = False
-    text = as_text(replace(study, settled=settled))
+    text = replace(study, settled=settled).to_text()
     assert "did not meet its tolerance at 2 of 1280 points" in text
     assert f"prepressure = {study.propagation.points['prepressure'][0, 5]:.6g}" in text
-    record = json.loads(as_json_text(replace(study, settled=settled)))["unsettled"]
+    record = json.loads(replace(study, settled=settled).to_json())["unsettled"]
     assert (record["count"], len(record["points"])) == (2, 1)
 
 
 def test_a_volatility_without_a_variance_is_said_to_be_one():
     drive = ts.Drive(load_torque=0.16)  # about the stall torque
-    found = ts.tolerance(MOTOR, drive, samples=64, parameters={"friction_coefficient": None})
+    found = ts.spread(MOTOR, drive, samples=64, spreads={"friction_coefficient": None})
     speed = found.propagation.values["mean_speed"]
     assert speed.min() < 0 < speed.max(), "or this test says nothing"
     assert found.unbounded == ("speed_volatility",)
-    assert "grows without bound" in as_text(found)
-    assert json.loads(as_json_text(found))["outputs"]["speed_volatility"]["unbounded"] is True
+    assert "grows without bound" in found.to_text()
+    assert json.loads(found.to_json())["outputs"]["speed_volatility"]["unbounded"] is True
 
 
 def test_the_motor_file_says_what_is_uncertain():
-    found = ts.tolerance(MOTOR.with_values({"piezo_width": 7e-3}), SHORT, samples=64)
+    found = ts.spread(MOTOR.with_values({"piezo_width": 7e-3}), SHORT, samples=64)
     every = {name for name, p in MOTOR.parameters() if p.source == "assumed"}
     flange = {"flange_thickness", "flange_length", "flange_young_modulus", "flange_poisson_ratio"}
     assumed = every - flange  # which the layer alone leaves out
     assert set(found.distributions) == assumed - {"piezo_width"}
-    more = ts.tolerance(MOTOR, SHORT, samples=64, parameters={"motor": None, "load_torque": "normal:0.05:0.01"})
+    more = ts.spread(MOTOR, SHORT, samples=64, spreads={"motor": None, "load_torque": "normal:0.05:0.01"})
     assert set(more.distributions) == assumed | {"load_torque"}
-    whole = ts.tolerance(MOTOR, SHORT, samples=64, compliance="flange")
+    whole = ts.spread(MOTOR, SHORT, samples=64, compliance="flange")
     assert set(whole.distributions) == every
-    assert "no effect at any point: piezo_strain_constant, piezo_compliance, curvature_radius" in as_text(found)
+    assert "no effect at any point: piezo_strain_constant, piezo_compliance, curvature_radius" in found.to_text()
 
 
 def test_the_same_seed_gives_the_same_bits_on_any_number_of_threads(study, monkeypatch):
     monkeypatch.setattr(batch.os, "cpu_count", lambda: 3)
     targets = [target.text for target in study.targets]
-    again = ts.tolerance(MOTOR, SHORT, parameters=UNIFORM, samples=256, outputs=study.outputs, target=targets)
-    assert as_json_text(again) == as_json_text(study)
+    again = ts.spread(MOTOR, SHORT, spreads=UNIFORM, samples=256, outputs=study.outputs, target=targets)
+    assert again.to_json() == study.to_json()
     for name, values in study.propagation.values.items():
         assert np.array_equal(values, again.propagation.values[name], equal_nan=True)
 
 
 def test_the_data_set_has_every_point_and_setting(study):
-    data = study.dataset()
+    data = study.to_xarray()
     assert data.sizes == {"matrix": 5, "sample": 256}
     assert data.mean_speed.units == "rad/s"
     assert data.prepressure.units == "N"
@@ -272,35 +271,35 @@ def test_an_interruption_stops_the_work(monkeypatch):
     monkeypatch.setattr(batch, "_BLOCK", 16)
     monkeypatch.setattr(batch.os, "cpu_count", lambda: 2)
     with pytest.raises(KeyboardInterrupt):
-        ts.tolerance(MOTOR, SHORT, parameters=UNIFORM, samples=64)
+        ts.spread(MOTOR, SHORT, spreads=UNIFORM, samples=64)
     assert len(begun) < 15
 
 
 BAD_STUDIES = [
-    ({"parameters": ["frictoin_coefficient"]}, ("parameters: got frictoin_coefficient", "friction_coefficient")),
-    ({"parameters": ["name"]}, ("parameters: got name", "the motor file or the drive")),
-    ({"parameters": ["phase_lead"]}, ("parameters: got phase_lead", "the motor file or the drive")),
-    ({"parameters": ["prepressure"]}, ("prepressure: got no distribution", "uniform:LOW:HIGH")),
-    ({"parameters": ["voltage"]}, ("voltage: got no distribution", "uniform:LOW:HIGH")),
-    ({"parameters": "prepressure"}, ("parameters: got prepressure", "names")),
-    ({"parameters": 3}, ("parameters: got 3", "names")),
-    ({"parameters": []}, ("parameters: got none", "at least one")),
-    ({"parameters": [3]}, ("parameters: got 3", "names")),
-    ({"parameters": {"prepressure": 180.0}}, ("prepressure: got 180", "normal:MEAN")),
-    ({"parameters": {"prepressure": "cauchy:1:2"}}, ("prepressure: got cauchy", "uniform, triangular")),
-    ({"parameters": {"prepressure": "normal:180:-5"}}, ("prepressure: got standard_deviation = -5", "> 0, in N")),
-    ({"parameters": {"prepressure": "uniform:-10:10"}}, ("prepressure: got uniform with low = -10", "> 0")),
-    ({"parameters": {"prepressure": "uniform:200:100"}}, ("prepressure: got uniform from 200 to 100", "low < high")),
-    ({"parameters": {"periods": "uniform:20:30"}}, ("periods: got uniform", "whole number")),
-    ({"parameters": {"damping_ratio": "uniform:0.5:1.5"}}, ("damping_ratio: got uniform with high = 1.5", "< 1")),
-    ({"parameters": {"tooth_height": "uniform:2 mm:6 mm"}}, ("tooth_height: got", "less than beam_thickness")),
-    ({"parameters": {"frequency_difference": "uniform:-40 kHz:0"}}, ("frequency_difference: got", "the resonance")),
+    ({"spreads": ["frictoin_coefficient"]}, ("spreads: got frictoin_coefficient", "friction_coefficient")),
+    ({"spreads": ["name"]}, ("spreads: got name", "the motor file or the drive")),
+    ({"spreads": ["phase_lead"]}, ("spreads: got phase_lead", "the motor file or the drive")),
+    ({"spreads": ["prepressure"]}, ("spread of prepressure: got nothing", "LOW:HIGH")),
+    ({"spreads": ["voltage"]}, ("spread of voltage: got nothing", "LOW:HIGH")),
+    ({"spreads": "prepressure"}, ("spreads: got prepressure", "names")),
+    ({"spreads": 3}, ("spreads: got 3", "names")),
+    ({"spreads": []}, ("spreads: got none", "at least one")),
+    ({"spreads": [3]}, ("spreads: got 3", "names")),
+    ({"spreads": {"prepressure": 180.0}}, ("spread of prepressure: got 180", "< 1")),
+    ({"spreads": {"prepressure": "cauchy:1:2"}}, ("prepressure: got cauchy", "uniform, triangular")),
+    ({"spreads": {"prepressure": "normal:180:-5"}}, ("prepressure: got standard_deviation = -5", "> 0, in N")),
+    ({"spreads": {"prepressure": "uniform:-10:10"}}, ("prepressure: got uniform with low = -10", "> 0")),
+    ({"spreads": {"prepressure": "uniform:200:100"}}, ("prepressure: got uniform from 200 to 100", "low < high")),
+    ({"spreads": {"periods": "uniform:20:30"}}, ("periods: got uniform", "whole number")),
+    ({"spreads": {"damping_ratio": "uniform:0.5:1.5"}}, ("damping_ratio: got uniform with high = 1.5", "< 1")),
+    ({"spreads": {"tooth_height": "uniform:2 mm:6 mm"}}, ("tooth_height: got", "less than beam_thickness")),
+    ({"spreads": {"frequency_difference": "uniform:-40 kHz:0"}}, ("frequency_difference: got", "the resonance")),
     ({"outputs": ["speed"]}, ("outputs: got speed", "mean_speed")),
     ({"outputs": []}, ("outputs: got none", "at least one")),
     ({"outputs": 5}, ("outputs: got 5", "text")),
     ({"outputs": ["converged"]}, ("outputs: got converged", "one of")),
     (
-        {"outputs": ["cycle_time", "mean_speed"], "parameters": ["friction_coefficient"]},
+        {"outputs": ["cycle_time", "mean_speed"], "spreads": ["friction_coefficient"]},
         ("cycle_time", "the same value"),
     ),
     ({"target": "fast"}, ("target: got fast", "mean_speed >= 600 arcsec/s")),
@@ -319,27 +318,27 @@ BAD_STUDIES = [
 @pytest.mark.parametrize(("wishes", "naming"), BAD_STUDIES, ids=[str(wishes) for wishes, _ in BAD_STUDIES])
 def test_bad_studies_are_refused(wishes, naming):
     with refusal(*naming):
-        ts.tolerance(MOTOR, SHORT, **{"samples": 64, **wishes})
+        ts.spread(MOTOR, SHORT, **{"samples": 64, **wishes})
 
 
 def test_a_study_is_of_one_point():
     with refusal("prepressure: got an array of shape (2,)", "one number"):
-        ts.tolerance(MOTOR, ts.Drive(prepressure=[150.0, 160.0]))
+        ts.spread(MOTOR, ts.Drive(prepressure=[150.0, 160.0]))
     with refusal("voltage: got an array of shape (2,)", "one number"):
-        ts.tolerance(MOTOR.with_values({"voltage": [150.0, 160.0]}))
+        ts.spread(MOTOR.with_values({"voltage": [150.0, 160.0]}))
     with refusal("motor: got trum60"):
-        ts.tolerance("trum60")
+        ts.spread("trum60")
     with refusal("drive: got None"):
-        ts.tolerance(MOTOR, "None")
+        ts.spread(MOTOR, "None")
 
 
 def test_a_load_that_nothing_holds_is_refused():
     with refusal("outputs: got mean_speed", "none at any of the 192 points"):
-        ts.tolerance(MOTOR, replace(SHORT, load_torque=50.0), parameters=["friction_coefficient"], samples=64)
+        ts.spread(MOTOR, replace(SHORT, load_torque=50.0), spreads=["friction_coefficient"], samples=64)
 
 
 def test_a_missing_package_is_named(monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "scipy", None)
     with pytest.raises(ts.MissingExtraError) as caught:
-        ts.tolerance(MOTOR, SHORT)
+        ts.spread(MOTOR, SHORT)
     assert_one_clear_line(str(caught.value), "scipy", "trum-sym[sweep]")

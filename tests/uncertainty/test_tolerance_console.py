@@ -1,9 +1,8 @@
-"""trum-sym tolerance: what it prints and writes, an optimiser's point, and what it refuses."""
+"""trum-sym spread: what it prints and writes, an optimiser's point, and what it refuses."""
 
 from __future__ import annotations
 
 import json
-import math
 import os
 
 import numpy as np
@@ -13,34 +12,33 @@ from refusals import MOTOR, assert_one_clear_line
 import trum_sym as ts
 from trum_sym import console
 from trum_sym.plots.tolerance import draw
-from trum_sym.uncertainty.tables import as_json_text
 
 SHORT = ("--periods", "4", "--on-periods", "3", "--load-torque", "0.05", "--samples", "64")
-VARY = ("--vary", "friction_coefficient", "--vary", "prepressure=normal:180:5")
+VARY = ("--spread", "friction_coefficient", "--spread", "prepressure=normal:180:5")
 
 
 def run(*arguments):
-    return console.main(["tolerance", *SHORT, *arguments])
+    return console.main(["spread", *SHORT, *arguments])
 
 
 def test_console_gives_what_python_gives(capsys):
     assert run(*VARY, "--json", "--seed", "3", "--output", "max_speed", "--target", "max_speed > 0 rpm") == 0
     out = capsys.readouterr().out
     spread = ts.Distribution("normal", mean=180.0, standard_deviation=5.0)
-    study = ts.tolerance(
+    study = ts.spread(
         MOTOR,
         ts.Drive(periods=4, on_periods=3, load_torque=0.05),
-        parameters={"friction_coefficient": None, "prepressure": spread},
+        spreads={"friction_coefficient": None, "prepressure": spread},
         samples=64,
         seed=3,
         outputs=["max_speed"],
         target="max_speed > 0 rpm",
     )
-    assert out.strip() == as_json_text(study)
+    assert out.strip() == study.to_json()
     record = json.loads(out)
     described = {"kind": "normal", "mean": 180.0, "standard_deviation": 5.0, "unit": "N"}
     assert record["parameters"]["prepressure"] == {**described, "low": None, "high": None, "mode": None}
-    assert (record["points"], record["seed"], record["samples"]) == (256, 3, 64)
+    assert (record["count"], record["seed"], record["samples"]) == (256, 3, 64)
     assert record["targets"][0]["value"] == 0
     assert record["targets"][0]["high"] == pytest.approx(1 - 0.025 ** (1 / 128))
 
@@ -81,7 +79,7 @@ def test_the_picture_shows_intervals_and_indices(tmp_path):
 
     drive = ts.Drive(periods=4, on_periods=3, load_torque=1.1)
     parameters = {"friction_coefficient": None, "prepressure": "normal:180:5"}
-    study = ts.tolerance(MOTOR, drive, parameters=parameters, samples=64, target="mean_speed >= 6000000 arcsec/s")
+    study = ts.spread(MOTOR, drive, spreads=parameters, samples=64, target="mean_speed >= 6000000 arcsec/s")
     with mpl.rc_context({"svg.fonttype": "none"}):
         draw("--plot", study, tmp_path / "study.svg")
     text = (tmp_path / "study.svg").read_text("utf-8")
@@ -112,110 +110,32 @@ def test_an_interruption_leaves_no_file(tmp_path, monkeypatch, capsys):
     assert list(tmp_path.iterdir()) == []
 
 
-# --- An optimiser's point ------------------------------------------------------------------------
-
-
-def optimum(**changes):
-    drive = ts.Drive(prepressure=170.0, frequency_difference=2500.0, periods=6, on_periods=4, load_torque=0.05)
-    point = {
-        "status": "solved",
-        "objective": "volatility",
-        "prepressure": 170.0,
-        "frequency_difference": 2500.0,
-        "on_periods": 4,
-        "periods": 6,
-        "mean_speed": ts.evaluate(MOTOR, drive).mean_speed,
-        "message": "",
-    }
-    return {**point, **changes}
-
-
-@pytest.fixture
-def point_file(tmp_path):
-    def write(content):
-        path = tmp_path / "best.json"
-        path.write_text(content if isinstance(content, str) else json.dumps(content), "utf-8")
-        return str(path)
-
-    return write
-
-
-def run_point(path, *more):
-    return console.main(["tolerance", "--samples", "64", "--vary", "friction_coefficient", "--point", path, *more])
-
-
-def test_an_optimisers_point_is_the_drive(point_file, capsys):
-    assert run_point(point_file(optimum()), "--load-torque", "0.05", "--json") == 0
-    out, err = capsys.readouterr()
-    drive = json.loads(out)["drive"]
-    assert (drive["prepressure"], drive["frequency_difference"]) == (170.0, 2500.0)
-    assert (drive["periods"], drive["on_periods"], drive["load_torque"]) == (6, 4, 0.05)
-    assert "warning" not in err
-
-
-def test_another_load_than_the_optimisers_is_noticed(point_file, capsys):
-    assert run_point(point_file(optimum()), "--load-torque", "0.2") == 0
-    err = capsys.readouterr().err
-    assert "warning: --point: its mean speed is" in err
-    assert "give the motor, load, start and levels" in err
-
-
-BAD_POINTS = [
-    ("{", ("--point: got", "not JSON")),
-    ("[]", ("--point: got", "one JSON object")),
-    ("null", ("--point: got", "one JSON object")),
-    ({"prepressure": 180.0}, ("--point, frequency_difference: got None", "a number")),
-    (optimum(prepressure=None, status="infeasible"), ("--point, prepressure: got None", "its status is infeasible")),
-    (optimum(prepressure="180 N"), ("--point, prepressure: got 180 N", "a number")),
-    (optimum(prepressure=True), ("--point, prepressure: got True", "a number")),
-    (optimum(prepressure=-180.0), ("prepressure: got -180", "> 0")),
-    (optimum(periods=6.5), ("periods: got 6.5", "an integer")),
-    (optimum(on_periods=2), ("on_periods: got 2", "periods/2")),
-    (optimum(mean_speed="fast"), ("--point, mean_speed: got fast", "a finite number in rad/s")),
-    (optimum(mean_speed=math.nan), ("--point, mean_speed: got nan", "a finite number")),
-]
-
-
-@pytest.mark.parametrize(("content", "naming"), BAD_POINTS, ids=[str(naming) for _, naming in BAD_POINTS])
-def test_a_bad_point_is_refused(console_refuses, point_file, content, naming):
-    path = point_file(content)
-    console_refuses("tolerance", "--samples", "64", "--vary", "friction_coefficient", "--point", path, naming=naming)
-
-
-def test_a_point_that_is_not_there_is_refused(console_refuses, tmp_path):
-    console_refuses("tolerance", "--point", str(tmp_path / "best.json"), naming=("--point: got", "No such file"))
-    console_refuses("tolerance", "--point", str(tmp_path), naming=("--point: got", "directory"))
-
-
-def test_a_point_and_its_own_numbers_are_refused_together(console_refuses, point_file):
-    path = point_file(optimum())
-    naming = ("--prepressure: got 180", "--point FILE gives it")
-    console_refuses("tolerance", "--point", path, "--prepressure", "180", naming=naming)
-
-
 # --- What is refused -----------------------------------------------------------------------------
 
 REFUSALS = [
-    (("--vary", "frictoin"), ("parameters: got frictoin", "motor file or the drive")),
-    (("--vary", "voltage"), ("voltage: got no distribution", "uniform:LOW:HIGH")),
-    (("--vary", "voltage="), ("--vary: got voltage=", "NAME=DISTRIBUTION")),
-    (("--vary", ""), ("--vary: got empty text", "NAME=DISTRIBUTION")),
-    (("--vary", "=uniform:1:2"), ("--vary: got =uniform:1:2", "NAME=DISTRIBUTION")),
-    (("--vary", "voltage=flat:1:2"), ("voltage: got flat", "uniform, triangular, normal, lognormal")),
-    (("--vary", "voltage=normal:200:-2"), ("voltage: got standard_deviation = -2", "> 0, in V")),
-    (("--vary", "voltage=normal:200 V:2 A"), ("voltage, standard_deviation: got 2 A", "in V")),
-    (("--vary", "voltage=uniform:-200:200"), ("voltage: got uniform with low = -200", "> 0 in V")),
-    (("--vary", "voltage=normal:200:2", "--vary", "voltage=normal:210:2"), ("--vary: got voltage", "each name once")),
-    (("--vary", "motor=normal:200:2"), ("parameters: got motor", "motor file or the drive")),
-    (("--samples", "100"), ("samples: got 100", "a power of two from 64 to 1048576")),
-    (("--samples", "32"), ("samples: got 32", "a power of two from 64")),
-    (("--samples", "many"), ("samples: got many", "a number")),
-    (("--seed", "-1"), ("seed: got -1", ">= 0")),
-    (("--seed", "0.5"), ("seed: got 0.5", "an integer")),
-    (("--tolerance", "1"), ("tolerance: got 1", "<= 0.01")),
-    (("--output", "speed"), ("outputs: got speed", "mean_speed")),
-    (("--vary", "friction_coefficient", "--output", "cycle_time"), ("outputs: got cycle_time", "the same value")),
-    (("--target", "600 arcsec/s"), ("target: got 600 arcsec/s", "OUTPUT >= NUMBER")),
+    (("--spread", "frictoin"), ("--spread: got frictoin", "motor file or the drive")),
+    (("--spread", "voltage"), ("--spread voltage: got nothing", "LOW:HIGH")),
+    (("--spread", "voltage="), ("--spread: got voltage=", "NAME=VALUE")),
+    (("--spread", ""), ("--spread: got empty text", "NAME=VALUE")),
+    (("--spread", "=uniform:1:2"), ("--spread: got =uniform:1:2", "NAME=VALUE")),
+    (("--spread", "voltage=flat:1:2"), ("voltage: got flat", "uniform, triangular, normal, lognormal")),
+    (("--spread", "voltage=normal:200:-2"), ("voltage: got standard_deviation = -2", "> 0, in V")),
+    (("--spread", "voltage=normal:200 V:2 A"), ("voltage, standard_deviation: got 2 A", "in V")),
+    (("--spread", "voltage=uniform:-200:200"), ("voltage: got uniform with low = -200", "> 0 in V")),
+    (
+        ("--spread", "voltage=normal:200:2", "--spread", "voltage=normal:210:2"),
+        ("--spread: got voltage", "each name once"),
+    ),
+    (("--spread", "motor=normal:200:2"), ("--spread: got motor", "motor file or the drive")),
+    (("--samples", "100"), ("--samples: got 100", "a power of two from 64 to 1048576")),
+    (("--samples", "32"), ("--samples: got 32", "a power of two from 64")),
+    (("--samples", "many"), ("--samples: got many", "a number")),
+    (("--seed", "-1"), ("--seed: got -1", ">= 0")),
+    (("--seed", "0.5"), ("--seed: got 0.5", "an integer")),
+    (("--tolerance", "1"), ("--tolerance: got 1", "<= 0.01")),
+    (("--output", "speed"), ("--output: got speed", "mean_speed")),
+    (("--spread", "friction_coefficient", "--output", "cycle_time"), ("--output: got cycle_time", "the same value")),
+    (("--target", "600 arcsec/s"), ("--target: got 600 arcsec/s", "OUTPUT >= NUMBER")),
     (("--target", "mean_speed >= 600 arcsec"), ("target, mean_speed: got 600 arcsec", "rad/s")),
     (("--plot", "study.bmp"), ("--plot: got study.bmp", ".png, .svg or .pdf")),
     (("--plot", "/nowhere/study.png"), ("--plot: got /nowhere/study.png", "a folder that exists")),
@@ -227,15 +147,15 @@ REFUSALS = [
 
 @pytest.mark.parametrize(("options", "naming"), REFUSALS, ids=[" ".join(options) for options, _ in REFUSALS])
 def test_bad_options_are_one_line(console_refuses, options, naming):
-    console_refuses("tolerance", *SHORT, *options, naming=naming)
+    console_refuses("spread", *SHORT, *options, naming=naming)
 
 
 def test_a_file_that_cannot_be_written_is_refused_before_the_work(monkeypatch, console_refuses):
     from trum_sym.uncertainty import study
 
-    monkeypatch.setattr(study, "tolerance", None)  # called, it would raise
-    console_refuses("tolerance", "--plot", "study.bmp", naming=("--plot",))
-    console_refuses("tolerance", "--out", "points.xlsx", naming=("--out",))
+    monkeypatch.setattr(study, "spread", None)  # called, it would raise
+    console_refuses("spread", "--plot", "study.bmp", naming=("--plot",))
+    console_refuses("spread", "--out", "points.xlsx", naming=("--out",))
 
 
 @pytest.mark.parametrize(
@@ -267,9 +187,9 @@ def test_distributions_in_the_motor_file_are_used(motor_file, capsys):
     arguments = (
         "--motor",
         str(path),
-        "--vary",
+        "--spread",
         "voltage",
-        "--vary",
+        "--spread",
         "contact_radius",
         "--amplitude",
         "forced",

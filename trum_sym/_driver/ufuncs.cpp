@@ -307,6 +307,10 @@ PyUFuncGenericFunction loop_rotor_orbit[1] = {rotor_orbit_loop};
 PyUFuncGenericFunction loop_rotor_slopes[1] = {rotor_slopes_loop};
 PyUFuncGenericFunction loop_rotor_history[1] = {rotor_history_loop};
 
+#ifndef TRUM_MADE_OF  // the digest of the sources, which CMake knows
+#define TRUM_MADE_OF ""
+#endif
+
 PyModuleDef definition = {PyModuleDef_HEAD_INIT, "_kernels", "Compiled kernels as NumPy ufuncs.", -1,
                           methods, nullptr, nullptr, nullptr, nullptr};
 
@@ -350,7 +354,8 @@ PyMODINIT_FUNC PyInit__kernels() {
     return nullptr;
   if (PyModule_AddStringConstant(module, "slope_figures", TRUM_SLOPE_FIGURES(NAME_OF)) < 0 ||
       PyModule_AddStringConstant(module, "slope_parameters", TRUM_SLOPE_PARAMETERS(NAME_OF)) < 0 ||
-      PyModule_AddStringConstant(module, "orbit_flags", TRUM_ORBIT_FLAGS) < 0)
+      PyModule_AddStringConstant(module, "orbit_flags", TRUM_ORBIT_FLAGS) < 0 ||
+      PyModule_AddStringConstant(module, "made_of", TRUM_MADE_OF) < 0)
     return nullptr;
   for (const trum::OrbitCode* code : orbit_codes)
     if (supported(*code)) orbit_code = code;

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from os import PathLike
 from typing import Unpack
 
 import numpy as np
 
-from trum_sym.calibration.least_squares import Residuals, Separation, fit, interval_factor
+from trum_sym.calibration.least_squares import fit, interval_factor
 from trum_sym.calibration.models import DecayModel, Model, PointModel
+from trum_sym.calibration.result import Calibration, FittedParameter
 from trum_sym.errors import ImplausibleWarning, ParameterError, ValidityWarning
 from trum_sym.inputs.checks import Array
 from trum_sym.inputs.choices import choice, path_of, words
@@ -24,7 +25,6 @@ from trum_sym.inputs.plausible import doubts, outside_range, unquestioned
 from trum_sym.inputs.points import check_single, one_number, period_of
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.quantities import QUANTITIES
-from trum_sym.values import Value
 
 __all__ = ["ERRORS", "Calibration", "FittedParameter", "calibrate"]
 
@@ -38,93 +38,6 @@ _USUAL = {  # what is fitted if nothing else is asked for, by what was measured
 }
 _USUAL_OTHERWISE = ("friction_coefficient", "contact_radius")
 _LAW = ("amplitude_factor", "amplitude_exponent")
-
-
-@dataclass(frozen=True, eq=False)
-class FittedParameter(Value):
-    """One fitted parameter, in SI.
-
-    Attributes
-    ----------
-    value, low, high : float
-        The best value and the ends of its interval, symmetric by construction (linearised, Student's t).
-    standard_error : float
-    before : float
-        The motor's value, at which the search began.
-    in_motor : bool
-        Whether it is a parameter of the motor; the others belong to the record alone.
-    exact_slopes : bool
-        Whether its derivatives are exact; otherwise central differences.
-    """
-
-    name: str
-    unit: str
-    value: float
-    low: float
-    high: float
-    standard_error: float
-    before: float
-    in_motor: bool
-    exact_slopes: bool
-
-
-@dataclass(frozen=True, eq=False)
-class Calibration(Value):
-    """What the data say about the motor.
-
-    Attributes
-    ----------
-    status : str
-        ``"solved"``, or ``"unidentifiable"``: the data do not fix these parameters, whatever the figures look like.
-    message : str
-        In words; for an unidentifiable fit, which combination stays open.
-    motor : Motor
-        With the fitted values in place; the motor as it came if the status is not ``"solved"``.
-    estimates : tuple of FittedParameter
-    covariance, correlation : (k, k) array
-        Of the estimates in their order.
-    residuals, separation
-        See ``Residuals`` and ``Separation`` in :mod:`trum_sym.calibration.least_squares`.
-    explained : float
-        Share of the measured columns' variance that the fit explains, R^2.
-    """
-
-    data: str
-    observed: tuple[str, ...]
-    errors: str
-    confidence: float
-    status: str
-    message: str
-    motor: Motor
-    estimates: tuple[FittedParameter, ...]
-    covariance: Array
-    correlation: Array
-    residuals: Residuals
-    residual_unit: str
-    separation: Separation
-    explained: float
-    iterations: int
-
-    def __getitem__(self, name: str) -> FittedParameter:
-        """The estimate of a parameter."""
-        for estimate in self.estimates:
-            if estimate.name == name:
-                return estimate
-        raise KeyError(name)
-
-    def save(self, target: str | PathLike[str], base: str | PathLike[str] = "trum60") -> None:
-        """Write a motor file: ``base`` with the fitted values in place, its other lines as they are.
-
-        Raises
-        ------
-        ParameterError
-            If the status is not ``"solved"``, or the file cannot be written.
-        """
-        from trum_sym.inputs.motor_writer import write_motor
-
-        if self.status != "solved":
-            raise ParameterError("calibration", self.status, f"a solved one; {self.message}")
-        write_motor(self.motor, base, target)
 
 
 def calibrate(

@@ -146,7 +146,13 @@ def fit(
 
     def stepped(values: Array) -> Array:
         on_step()
-        return jacobian(values * scale) * scale / size
+        slopes = jacobian(values * scale) * scale / size
+        if not np.isfinite(slopes).all():
+            raise ConvergenceError(
+                "calibrate: the fit came to values at which the model has no answer in some row; start closer, with "
+                "--set, or choose other levels"
+            )
+        return slopes
 
     found = least_squares(
         lambda values: residuals(values * scale) / size,

@@ -10,30 +10,41 @@ from trum_sym.console.calibrate import calibrate
 from trum_sym.console.characteristics import characteristics
 from trum_sym.console.equations import equations
 from trum_sym.console.evaluate import evaluate
+from trum_sym.console.motor import motor
 from trum_sym.console.optimize import optimize
 from trum_sym.console.pareto import pareto
 from trum_sym.console.report import report
 from trum_sym.console.robust import robust
 from trum_sym.console.say import say
+from trum_sym.console.sensitivities import sensitivities
 from trum_sym.console.simulate import simulate
 from trum_sym.console.speed_table import speed_table
+from trum_sym.console.spread import spread
 from trum_sym.console.streams import spelling_streams
 from trum_sym.console.sweep import sweep
-from trum_sym.console.tolerance import tolerance
 from trum_sym.text import one_line
 
 __all__ = ["main", "outcome"]
 
 
 class _Group(click.Group):
-    """A group that ends without click's blank line where it is interrupted."""
+    """A group that ends without click's blank line where it is interrupted, and words errors for the console."""
 
     def invoke(self, ctx: click.Context) -> Any:  # noqa: ANN401
         """Run the command."""
+        from trum_sym.errors import ParameterError
+
         try:
             return super().invoke(ctx)
         except KeyboardInterrupt:
             raise click.Abort from None
+        except ParameterError as error:
+            command = self.commands.get(ctx.invoked_subcommand or "")
+            if command is None:
+                raise
+            from trum_sym.console.words import in_console_words
+
+            raise in_console_words(error, command, ctx.meta) from None
 
 
 @click.group(cls=_Group, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
@@ -47,15 +58,17 @@ def _cli() -> None:
 
 for _command in (
     evaluate,
+    sensitivities,
     simulate,
     characteristics,
     sweep,
-    tolerance,
+    spread,
     optimize,
     pareto,
     robust,
     speed_table,
     calibrate,
+    motor,
     equations,
     report,
 ):

@@ -4,17 +4,33 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from trum_sym.console.options import chosen_drive, chosen_levels, chosen_motor, number_option, point_options
+from trum_sym.console.options import (
+    chosen_drive,
+    chosen_levels,
+    chosen_motor,
+    examples,
+    force_option,
+    number_option,
+    point_options,
+)
 from trum_sym.console.say import say
+
+if TYPE_CHECKING:
+    from trum_sym.inputs.measurements import Measurements
 
 __all__ = ["calibrate"]
 
 
-@click.command()
+@click.command(
+    epilog=examples(
+        "trum-sym calibrate examples/data/table2.csv",
+        "trum-sym calibrate examples/data/table2.csv --fit amplitude_factor --errors relative --out my-motor.toml",
+    )
+)
 @click.argument("data", type=click.Path(path_type=Path), metavar="DATA.csv")
 @click.option(
     "--fit",
@@ -37,6 +53,7 @@ __all__ = ["calibrate"]
     metavar="MOTOR.toml",
     help="Write the motor file with the fitted values in place.",
 )
+@force_option
 @click.option("--json", "as_json", is_flag=True, help="One JSON object instead of tables; SI units, speeds in rad/s.")
 @point_options
 def calibrate(
@@ -45,6 +62,7 @@ def calibrate(
     errors: str,
     confidence: float,
     out: Path | None,
+    force: bool,
     as_json: bool,
     motor: str,
     overrides: tuple[str, ...],
@@ -58,14 +76,16 @@ def calibrate(
     parameters.
     """
     from trum_sym.calibration.calibrate import calibrate as fit_motor
-    from trum_sym.calibration.tables import calibration_json, calibration_table
-    from trum_sym.output.files import check_target
+    from trum_sym.inputs.measurements import read_measurements
+    from trum_sym.output.files import check_new
 
     if out is not None:
-        check_target("--out", out, (".toml",))
+        check_new("--out", out, (".toml",), force)
     machine = chosen_motor(motor, overrides)
+    measured = read_measurements(data)
+    _refuse_unused(measured)
     found = fit_motor(
-        data,
+        measured,
         machine,
         parameters=parameters or None,
         drive=chosen_drive(options),
@@ -75,7 +95,7 @@ def calibrate(
         sampling_period=options["sampling_period"],
         **chosen_levels(options),
     )
-    say(calibration_json(found) if as_json else calibration_table(found, machine))
+    say(found.to_json() if as_json else found.to_text(machine))
     if found.status != "solved":
         return 1
     if out is not None:
@@ -85,3 +105,24 @@ def calibrate(
         if not as_json:
             say(f"\n{out}: {', '.join(e.name for e in found.estimates if e.in_motor)} calibrated")
     return 0
+
+
+def _refuse_unused(measured: Measurements) -> None:
+    """Refuse options that the data leave without effect.
+
+    Raises
+    ------
+    ParameterError
+        For a number of the drive of which the data have a column, and for an encoder where no volatility was measured.
+    """
+    from trum_sym.errors import ParameterError
+
+    context = click.get_current_context()
+    for option in context.command.params:
+        name = option.name or ""
+        if context.get_parameter_source(name) is not click.core.ParameterSource.COMMANDLINE:
+            continue
+        if name in measured.columns:
+            raise ParameterError(option.opts[0], context.params[name], "no value here: the data have a column of it")
+        if name == "sampling_period" and "speed_volatility" not in measured.columns:
+            raise ParameterError(option.opts[0], context.params[name], "none: the data have no speed_volatility")

@@ -2,24 +2,48 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import click
 
-from trum_sym.console.options import chosen_drive, chosen_levels, chosen_motor, point_options, tolerance_option
+from trum_sym.console.options import (
+    check_plot,
+    chosen_drive,
+    chosen_levels,
+    chosen_motor,
+    examples,
+    plot_options,
+    point_options,
+    tolerance_option,
+)
 from trum_sym.console.say import say
 
 __all__ = ["evaluate"]
 
 
-@click.command()
+@click.command(
+    epilog=examples(
+        "trum-sym evaluate",
+        "trum-sym evaluate --load-torque '0.1 N m' --sampling-period '2 ms'",
+        "trum-sym evaluate --set friction_coefficient=0.3 --json",
+        "trum-sym evaluate --load-torque 0.1 --out point.csv --plot point.png",
+    )
+)
 @point_options
 @tolerance_option
+@plot_options("Draw the rotor's speed over two cycles")
+@click.option(
+    "--out", type=click.Path(path_type=Path), metavar="FILE", help="Write the figures with their units: .csv or .nc."
+)
 @click.option("--json", "as_json", is_flag=True, help="One JSON object instead of a table; SI units, speeds in rad/s.")
 def evaluate(
     motor: str,
     overrides: tuple[str, ...],
     tolerance: float | None,
+    plot: Path | None,
+    force: bool,
+    out: Path | None,
     as_json: bool,
     **options: Any,  # noqa: ANN401
 ) -> int:
@@ -30,15 +54,29 @@ def evaluate(
     """
     from trum_sym.model.operating_point import evaluate as evaluate_point
 
+    check_plot(plot, force)
+    if out is not None:
+        from trum_sym.output.files import check_new, check_packages
+
+        check_new("--out", out, (".csv", ".nc"), force)
+        check_packages(out)
     machine, drive = chosen_motor(motor, overrides), chosen_drive(options)
-    levels, period = chosen_levels(options), options["sampling_period"]
-    point = evaluate_point(machine, drive, sampling_period=period, tolerance=tolerance, **levels)
+    period = options["sampling_period"]
+    point = evaluate_point(machine, drive, sampling_period=period, tolerance=tolerance, **chosen_levels(options))
+    from trum_sym.model.tables import as_table, compared
+
     if as_json:
-        from trum_sym.console.tables import as_json_text
+        from trum_sym.output.json_text import json_text
 
-        say(as_json_text(point))
+        say(json_text({**point.to_dict(), "published": compared(point)}))
     else:
-        from trum_sym.console.tables import as_table
+        say(as_table(point))
+    if out is not None:
+        from trum_sym.output.files import write
 
-        say(as_table(machine, drive, point, {**levels, "sampling_period": period}))
+        write("--out", point.to_xarray().expand_dims("point"), out)
+    if plot is not None:
+        from trum_sym.plots import answers
+
+        answers.write("--plot", answers.point(point), plot)
     return 0 if point.converged else 1

@@ -2,58 +2,80 @@
 
 from __future__ import annotations
 
+import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import click
 
-from trum_sym.console.options import chosen_drive, chosen_levels, chosen_motor, point_options, refuse_sampling_period
+from trum_sym.console.options import (
+    box_options,
+    check_plot,
+    chosen_box,
+    chosen_levels,
+    chosen_motor,
+    examples,
+    plot_options,
+)
 from trum_sym.console.say import say
 from trum_sym.text import one_line
 
-__all__ = ["optimize", "ranges_of"]
+__all__ = ["constraint_option", "optimize", "sought", "target_option"]
 
 
-@click.command()
-@point_options
+def constraint_option(text: str) -> Callable[..., Any]:
+    """The option ``--constraint``."""
+    return click.option("--constraint", "constraints", multiple=True, metavar="TEXT", help=text)
+
+
+def target_option(text: str) -> Callable[..., Any]:
+    """The option ``--target-speed``."""
+    return click.option("--target-speed", metavar="SPEED", help=text)
+
+
+def sought(objective: str | None, target_speed: str | None, constraints: tuple[str, ...]) -> str:
+    """The objective: the default where something else says what is wanted.
+
+    Raises
+    ------
+    ParameterError
+        If nothing does.
+    """
+    from trum_sym.errors import ParameterError
+
+    if objective is None and target_speed is None and not constraints:
+        allowed = "a mean speed, such as '633 arcsec/s'; or an --objective or a --constraint, for any speed"
+        raise ParameterError("--target-speed", "none", allowed)
+    return "volatility" if objective is None else objective
+
+
+@click.command(
+    epilog=examples(
+        "trum-sym optimize --target-speed '100000 arcsec/s' --load-torque '0.1 N m'",
+        "trum-sym optimize --target-speed '1 rad/s' --prepressure 180 --frequency-difference '2.9 kHz:3.2 kHz' "
+        "--load-torque 0.1",
+        "trum-sym optimize --objective wear --constraint 'stall_torque >= 0.2 N*m' --load-torque 0.1 --prepressure 180",
+    )
+)
+@box_options
 @click.option(
     "--objective",
-    default="volatility",
-    show_default=True,
     metavar="NAME|EXPRESSION",
-    help="volatility, q-volatility, speed-error, ripple, wear, or arithmetic on figures.",
+    help="volatility, q-volatility, speed-error, ripple, wear, or arithmetic on figures.  [default: volatility]",
 )
-@click.option("--target-speed", metavar="SPEED", help='Mean speed to reach, rad/s or with a unit: "633 arcsec/s".')
-@click.option(
-    "--bounds",
-    "bounds",
-    multiple=True,
-    metavar="NAME=LOW:HIGH",
-    help="Range of prepressure, frequency_difference, periods or on_periods; NAME=VALUE holds it.  "
-    "[default: prepressure=160:210, frequency_difference=2800:3300]",
-)
-@click.option(
-    "--constraint",
-    "constraints",
-    multiple=True,
-    metavar="TEXT",
-    help='"stall_torque >= 0.35 N*m": arithmetic on figures, >=, <= or ==, a value.',
-)
-@click.option(
-    "--plot",
-    type=click.Path(path_type=Path),
-    metavar="FILE",
-    help="Draw the box: speeds, the target, borders of the constraints, the optimum (.png, .svg, .pdf).",
-)
+@target_option('Mean speed to reach, in rad/s or with a unit: "633 arcsec/s"; its sign is the direction.')
+@constraint_option('"stall_torque >= 0.35 N*m": arithmetic on figures, >=, <= or ==, a value.')
+@plot_options("Draw the box: speeds, the target, borders of the constraints, the optimum")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object instead of a table; SI units, speeds in rad/s.")
 def optimize(
     motor: str,
     overrides: tuple[str, ...],
-    objective: str,
+    objective: str | None,
     target_speed: str | None,
-    bounds: tuple[str, ...],
     constraints: tuple[str, ...],
     plot: Path | None,
+    force: bool,
     as_json: bool,
     **options: Any,  # noqa: ANN401
 ) -> int:
@@ -61,44 +83,25 @@ def optimize(
 
     Exit code 1 where no point of the box meets them; what is nearest is shown.
     """
-    from trum_sym.optimiser.result import as_json_text, as_table
     from trum_sym.optimiser.search import optimize as find
 
-    refuse_sampling_period(options)
-    if plot is not None:
-        from trum_sym.output.files import check_target
-        from trum_sym.plots.optimum import SUFFIXES, draw
-
-        check_target("--plot", plot, SUFFIXES)
-    machine, drive = chosen_motor(motor, overrides), chosen_drive(options)
+    check_plot(plot, force)
+    machine, (drive, bounds) = chosen_motor(motor, overrides), chosen_box(options)
+    aim = sought(objective, target_speed, constraints)
     found = find(
         machine,
         drive,
-        objective=objective,
+        objective=aim,
         target_speed=target_speed,
-        bounds=ranges_of(bounds),
+        bounds=bounds,
         constraints=constraints,
+        progress=sys.stderr.isatty(),
         **chosen_levels(options),
     )
-    title = f"{one_line(machine.name)}: least {objective}" + (f" at {target_speed}" if target_speed else "")
-    say(as_json_text(found) if as_json else as_table(found, f"{title}, load {drive.load_torque:g} N m"))
+    title = f"{one_line(machine.name)}: least {aim}" + (f" at {target_speed}" if target_speed else " at any speed")
+    say(found.to_json() if as_json else found.to_text(f"{title}, load {drive.load_torque:g} N m"))
     if plot is not None:
+        from trum_sym.plots.optimum import draw
+
         draw(found, plot, "--plot")
     return 0 if found.status == "solved" else 1
-
-
-def ranges_of(texts: tuple[str, ...]) -> dict[str, Any]:
-    """Bounds by name, as ``optimize`` takes them."""
-    from trum_sym.errors import ParameterError
-
-    found: dict[str, Any] = {}
-    for text in texts:
-        name, equals, value = text.partition("=")
-        ends = [end.strip() for end in value.split(":")]
-        name = name.strip().replace("-", "_")
-        if not equals or not name or not all(ends) or len(ends) > 2:
-            raise ParameterError("--bounds", text, "NAME=LOW:HIGH, such as prepressure=160:210")
-        if name in found:
-            raise ParameterError("--bounds", text, "each name once")
-        found[name] = (ends[0], ends[1]) if len(ends) == 2 else ends[0]
-    return found

@@ -1,35 +1,49 @@
 """Options that the commands share, and what they become: a motor, a drive, levels.
 
 Each field of the drive and of the levels is an option of the same name, with the unit, default and text that the field
-carries: a new one is added there and nowhere else.
+carries: a new one is added there and nowhere else.  A command that searches takes ranges for some of them: one value
+holds the quantity, ``LOW:HIGH`` frees it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import Field, fields
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 import click
 
-from trum_sym.inputs.drive import Drive
+from trum_sym.console.words import typed
+from trum_sym.inputs.drive import BOX_NAMES, Drive
 from trum_sym.model.levels import LEVEL_NAMES, LevelChoice, Levels
 
 if TYPE_CHECKING:
     from trum_sym.inputs.motor import Motor
 
 __all__ = [
+    "FREED",
     "QuantityType",
+    "box_options",
+    "check_plot",
     "choice_option",
+    "chosen_box",
     "chosen_drive",
     "chosen_levels",
     "chosen_motor",
+    "continuous_options",
+    "examples",
+    "force_option",
     "number_option",
     "option_name",
+    "pairs",
+    "plot_options",
     "point_options",
-    "refuse_sampling_period",
     "tolerance_option",
 ]
+
+FREED = ("prepressure", "frequency_difference", "switching_phase", "periods", "on_periods")
+"""What a search may vary: these options take ``LOW:HIGH``."""
 
 
 class QuantityType(click.ParamType):  # type: ignore[type-arg, unused-ignore]
@@ -39,18 +53,31 @@ class QuantityType(click.ParamType):  # type: ignore[type-arg, unused-ignore]
         self.name = unit
         self.unit = unit
 
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:  # noqa: ANN401, ARG002
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:  # noqa: ANN401
         """The value in the SI unit."""
         from trum_sym.inputs.units import parse_quantity
 
         if isinstance(value, float | int):
             return float(value)
-        return parse_quantity(param.name if param and param.name else "value", str(value), self.unit)
+        name = param.name if param and param.name else "value"
+        found = parse_quantity(name, str(value), self.unit)
+        typed(ctx, name, str(value).strip(), found)
+        return found
+
+
+class RangeType(click.ParamType):  # type: ignore[type-arg, unused-ignore]
+    """``VALUE`` or ``LOW:HIGH``, each with or without a unit; read where the motor is known."""
+
+    name = "range"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:  # noqa: ANN401, ARG002
+        """As it is."""
+        return repr(value) if isinstance(value, float | int) else str(value)
 
 
 def number_option(name: str, unit: str, default: float | None, text: str, metavar: str) -> Callable[..., Any]:
     """An option that takes a quantity."""
-    shown = False if default is None else f"{default:g}"
+    shown = False if default is None else f"{default:g}" + ("" if unit == "1" else f" {unit}")
     return click.option(name, type=QuantityType(unit), default=default, show_default=shown, help=text, metavar=metavar)
 
 
@@ -68,15 +95,40 @@ def _drive_option(quantity: Field[Any]) -> Callable[..., Any]:
     return number_option(name, about["unit"], default, about["text"], about["metavar"])
 
 
+def _range_option(quantity: Field[Any]) -> Callable[..., Any]:
+    """The option of a field of the drive that a search may vary."""
+    about, default = quantity.metadata, f"{quantity.default:g}"
+    if about["unit"] != "1":
+        default += f" {about['unit']}"
+    default = "the motor file's range" if quantity.name in BOX_NAMES else default
+    text = f"{about['text'].rstrip('.')}: a value holds it, LOW:HIGH frees it.  [default: {default}]"
+    return click.option(option_name(quantity.name), type=RangeType(), default=None, help=text, metavar="VALUE|LOW:HIGH")
+
+
 def option_name(name: str) -> str:
     """How the console calls a parameter."""
     return "--" + name.replace("_", "-")
 
 
-_POINT_OPTIONS = (
-    click.option(
-        "--motor", default="trum60", show_default=True, metavar="NAME|FILE", help="Motor: trum60 or a TOML file."
-    ),
+def examples(*lines: str) -> str:
+    """Examples at the end of a command's help; a test runs each."""
+    return "\b\nExamples:\n" + "\n".join(f"  {line}" for line in lines)
+
+
+def _take_point(ctx: click.Context, _: click.Parameter, path: Path | None) -> None:
+    """Let a point's file stand for the options that are not given."""
+    if path is None:
+        return
+    from trum_sym.console.point_file import read_point
+
+    found = read_point(path)
+    ctx.meta["trum_sym.point"] = found
+    known = {p.name for p in ctx.command.params}
+    ctx.default_map = {**(ctx.default_map or {}), **{k: v for k, v in found.options.items() if k in known}}
+
+
+_MOTOR = (
+    click.option("--motor", default="trum60", show_default=True, metavar="NAME|FILE", help="trum60 or a TOML file."),
     click.option(
         "--set",
         "overrides",
@@ -84,15 +136,61 @@ _POINT_OPTIONS = (
         metavar="NAME=VALUE",
         help="Replace a value of the motor file, in its SI unit or with one: --set contact_radius='26 mm'.",
     ),
-    *(_drive_option(quantity) for quantity in fields(Drive)),
-    *(
-        choice_option(option_name(level.name), level.metadata["words"], level.metadata["text"])
-        for level in fields(Levels)
-    ),
-    number_option(
-        "--sampling-period", "s", None, "Averaging period of the speed's encoder  [default: continuous]", "S"
-    ),
 )
+_POINT = click.option(
+    "--point",
+    type=click.Path(path_type=Path),
+    metavar="FILE[#K]",
+    is_eager=True,
+    expose_value=False,
+    callback=_take_point,
+    help="What is not given is taken from a point that any command wrote with --json; K-th of several.",
+)
+_LEVELS = tuple(
+    choice_option(option_name(level.name), level.metadata["words"], level.metadata["text"]) for level in fields(Levels)
+)
+_SAMPLING = number_option(
+    "--sampling-period", "s", None, "Averaging period of the speed's encoder  [default: continuous]", "S"
+)
+
+
+def force_option(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Give a command the option ``--force``: files that exist are replaced by nothing else."""
+    return click.option("--force", is_flag=True, help="Replace files that exist.")(command)
+
+
+def plot_options(text: str) -> Callable[..., Any]:
+    """The options ``--plot`` and ``--force``."""
+
+    def given(command: Callable[..., Any]) -> Callable[..., Any]:
+        plot = click.option(
+            "--plot", type=click.Path(path_type=Path), metavar="FILE", help=f"{text} (.png, .svg, .pdf)."
+        )
+        return _given(command, (plot, force_option))
+
+    return given
+
+
+def check_plot(plot: Path | None, force: bool) -> None:
+    """Refuse, before any work is done, a picture that cannot be written, or would replace a file.
+
+    Raises
+    ------
+    ParameterError
+        For another suffix, a place that cannot be written to, or a file that exists and no ``--force``.
+    MissingExtraError
+        Without matplotlib.
+    """
+    if plot is None:
+        return
+    from trum_sym.errors import MissingExtraError
+    from trum_sym.output.files import check_new
+
+    check_new("--plot", plot, (".png", ".svg", ".pdf"), force)
+    try:
+        import matplotlib  # noqa: F401
+    except ImportError:
+        raise MissingExtraError("a picture", "matplotlib", "report") from None
 
 
 def tolerance_option(command: Callable[..., Any]) -> Callable[..., Any]:
@@ -107,53 +205,123 @@ def tolerance_option(command: Callable[..., Any]) -> Callable[..., Any]:
 
 def point_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """Give a command all options of an operating point."""
-    for option in reversed(_POINT_OPTIONS):
+    return continuous_options(_SAMPLING(command))
+
+
+def continuous_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Give a command all options of an operating point but the encoder's."""
+    drive = (_drive_option(quantity) for quantity in fields(Drive))
+    return _given(command, (*_MOTOR, _POINT, *drive, *_LEVELS))
+
+
+def box_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Give a command that searches all options of an operating point, some of which take ranges."""
+    drive = (_range_option(q) if q.name in FREED else _drive_option(q) for q in fields(Drive))
+    return _given(command, (*_MOTOR, _POINT, *drive, *_LEVELS))
+
+
+def _given(command: Callable[..., Any], options: tuple[Callable[..., Any], ...]) -> Callable[..., Any]:
+    for option in reversed(options):
         command = option(command)
     return command
 
 
-def chosen_motor(name: str, overrides: tuple[str, ...]) -> Motor:
-    """The motor that ``--motor`` and ``--set`` mean."""
+def pairs(option: str, texts: tuple[str, ...], example: str, *, bare: bool = False) -> dict[str, str | None]:
+    """``NAME=VALUE`` of an option that may be repeated, by name, each once; None for a ``bare`` name.
+
+    Raises
+    ------
+    ParameterError
+        For a text of another form, or a name twice.
+    """
     from trum_sym.errors import ParameterError
+
+    found: dict[str, str | None] = {}
+    for text in texts:
+        name, equals, value = (part.strip() for part in text.partition("="))
+        if not name or (not value if equals else not bare):
+            raise ParameterError(option, text, ("NAME or " if bare else "") + f"NAME=VALUE, such as {example}")
+        if name in found:
+            raise ParameterError(option, text, f"each name once; {name} was set to {found[name]} before")
+        found[name] = value or None
+    return found
+
+
+def chosen_motor(name: str, overrides: tuple[str, ...]) -> Motor:
+    """The motor that ``--motor``, ``--set`` and ``--point`` mean."""
+    from trum_sym.errors import ParameterError
+    from trum_sym.inputs.motor import SPECS
     from trum_sym.inputs.motor_file import load_motor
     from trum_sym.inputs.plausible import unquestioned
+    from trum_sym.inputs.units import parse_quantity
 
-    values: dict[str, str] = {}
-    for override in overrides:
-        key, equals, value = override.partition("=")
-        key = key.strip()
-        if not equals or not key or not value.strip():
-            raise ParameterError("--set", override, "NAME=VALUE, such as friction_coefficient=0.2")
-        if key in values:
-            raise ParameterError("--set", override, f"each name once; {key} was set to {values[key]} before")
-        values[key] = value
-    if not values:
-        return load_motor(name)
-    with unquestioned():  # with_values warns of what is left
+    values: dict[str, str] = pairs("--set", overrides, "friction_coefficient=0.2")  # type: ignore[assignment]
+    context = click.get_current_context(silent=True)
+    for key, text in values.items():
+        if key in SPECS:
+            try:
+                typed(context, key, text, parse_quantity(key, text, SPECS[key].unit))
+            except ParameterError:
+                continue  # with_values says what is wrong
+    point = context.meta.get("trum_sym.point") if context else None
+    given = context is not None and context.get_parameter_source("motor") is click.core.ParameterSource.COMMANDLINE
+
+    def stated() -> Motor:
+        if point is not None and not given:
+            return cast("Motor", point.motor())
         machine = load_motor(name)
+        if context is not None and name != "trum60" and machine.name != load_motor().name:
+            _warn_borrowed(context)
+        return machine
+
+    if not values:
+        return stated()
+    with unquestioned():  # with_values warns of what is left
+        machine = stated()
     return machine.with_values(values)
+
+
+def _warn_borrowed(context: click.Context) -> None:
+    """Say which numbers of the drive are the TRUM-60's, where a motor of one's own is driven by them."""
+    import warnings
+
+    from trum_sym.errors import ValidityWarning
+
+    options = {p.name: p for p in context.command.params if isinstance(p, click.Option)}
+    left = [
+        f"{option_name(quantity.name)} {quantity.default:g}"
+        for quantity in fields(Drive)
+        if quantity.name in ("prepressure", "frequency_difference", "load_torque")
+        and quantity.name in options
+        and options[quantity.name].default is not None
+        and context.get_parameter_source(quantity.name) is click.core.ParameterSource.DEFAULT
+    ]
+    if left:
+        warnings.warn(f"not given, so as for TRUM-60: {', '.join(left)}", ValidityWarning, stacklevel=2)
 
 
 def chosen_drive(options: dict[str, Any]) -> Drive:
     """The drive that an operating point's options mean."""
-    values = {quantity.name: options[quantity.name] for quantity in fields(Drive)}
+    values = {q.name: options[q.name] for q in fields(Drive) if options[q.name] is not None}
     return Drive(**{**values, "phase_lead": int(values["phase_lead"])})
+
+
+def chosen_box(options: dict[str, Any]) -> tuple[Drive, dict[str, Any]]:
+    """The drive without what may vary, and ``bounds`` as ``ts.optimize`` takes them."""
+    from trum_sym.errors import ParameterError
+
+    bounds: dict[str, Any] = {}
+    for name in FREED:
+        text = options[name]
+        if text is None:
+            continue
+        ends = [end.strip() for end in text.split(":")]
+        if not all(ends) or len(ends) > 2:
+            raise ParameterError(option_name(name), text, "a value, which holds it, or LOW:HIGH, which frees it")
+        bounds[name] = (ends[0], ends[1]) if len(ends) == 2 else ends[0]
+    return chosen_drive({**options, **dict.fromkeys(FREED)}), bounds
 
 
 def chosen_levels(options: dict[str, Any]) -> LevelChoice:
     """The levels that an operating point's options mean, as keyword arguments."""
     return cast("LevelChoice", {name: options[name] for name in LEVEL_NAMES})
-
-
-def refuse_sampling_period(options: dict[str, Any], reason: str = "what is optimised is continuous") -> None:
-    """For commands that look at the continuous speed only; ``reason`` says why.
-
-    Raises
-    ------
-    ParameterError
-        If an encoder's period is given.
-    """
-    from trum_sym.errors import ParameterError
-
-    if options["sampling_period"] is not None:
-        raise ParameterError("sampling_period", options["sampling_period"], f"none: {reason}")

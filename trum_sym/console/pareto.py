@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import sys
+from pathlib import Path
 from typing import Any
 
 import click
 
+from trum_sym.console.optimize import constraint_option, sought, target_option
 from trum_sym.console.options import (
-    chosen_drive,
+    box_options,
+    check_plot,
+    chosen_box,
     chosen_levels,
     chosen_motor,
+    examples,
     number_option,
-    point_options,
-    refuse_sampling_period,
+    plot_options,
 )
 from trum_sym.console.say import say
 from trum_sym.text import one_line
@@ -21,13 +25,16 @@ from trum_sym.text import one_line
 __all__ = ["pareto"]
 
 
-@click.command()
+@click.command(
+    epilog=examples(
+        "trum-sym pareto --target-speed '300000 arcsec/s' --load-torque '0.05 N m' --prepressure 180 --points 3",
+        "trum-sym pareto --objective ripple --load-torque 0.05 --prepressure 180 --points 3",
+    )
+)
 @click.option(
     "--objective",
-    default="volatility",
-    show_default=True,
     metavar="NAME|EXPRESSION",
-    help="What is to be small, as for optimize.",
+    help="What is to be small, as for optimize.  [default: volatility]",
 )
 @click.option(
     "--against",
@@ -36,19 +43,20 @@ __all__ = ["pareto"]
     metavar="NAME|EXPRESSION",
     help="torque-margin (large), speed-error (small), or arithmetic on figures (small).",
 )
-@click.option("--target-speed", metavar="SPEED", help='Mean speed to hold, or to be near: "633 arcsec/s".')
+@target_option('Mean speed to hold, or to be near, in rad/s or with a unit: "633 arcsec/s".')
 @number_option("--points", "1", 11, "Limits along the front.", "K")
-@click.option("--bounds", "bounds", multiple=True, metavar="NAME=LOW:HIGH", help="As for optimize.")
-@click.option("--constraint", "constraints", multiple=True, metavar="TEXT", help="As for optimize.")
+@constraint_option("As for optimize.")
+@plot_options("Draw the front")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object instead of a table; SI units, speeds in rad/s.")
-@point_options
+@box_options
 def pareto(
-    objective: str,
+    objective: str | None,
     against: str,
     target_speed: str | None,
     points: Any,  # noqa: ANN401  # a number, which has to be an integer
-    bounds: tuple[str, ...],
     constraints: tuple[str, ...],
+    plot: Path | None,
+    force: bool,
     as_json: bool,
     motor: str,
     overrides: tuple[str, ...],
@@ -58,23 +66,29 @@ def pareto(
 
     Exit code 1 where no point of the box meets the constraints.
     """
-    from trum_sym.console.optimize import ranges_of
     from trum_sym.studies.pareto import pareto as find
 
-    refuse_sampling_period(options)
-    machine, drive = chosen_motor(motor, overrides), chosen_drive(options)
+    check_plot(plot, force)
+    machine, (drive, bounds) = chosen_motor(motor, overrides), chosen_box(options)
+    aim = sought(objective, target_speed, constraints)
     front = find(
         machine,
         drive,
-        objective=objective,
+        objective=aim,
         against=against,
         target_speed=target_speed,
         points=points,
-        bounds=ranges_of(bounds),
+        bounds=bounds,
         constraints=constraints,
         progress=sys.stderr.isatty(),
         **chosen_levels(options),
     )
-    title = f"{one_line(machine.name)}: {objective} against {against}" + (f" at {target_speed}" if target_speed else "")
-    say(front.as_json_text() if as_json else front.as_table(f"{title}, load {drive.load_torque:g} N m"))
+    title = f"{one_line(machine.name)}: {aim} against {against}" + (
+        f" at {target_speed}" if target_speed else " at any speed"
+    )
+    say(front.to_json() if as_json else front.to_text(f"{title}, load {drive.load_torque:g} N m"))
+    if plot is not None and front.points:
+        from trum_sym.plots import answers
+
+        answers.write("--plot", answers.front(front), plot)
     return 0 if front.status == "solved" else 1

@@ -6,13 +6,13 @@ from pathlib import Path
 
 import click
 
-from trum_sym.console.options import chosen_motor
+from trum_sym.console.options import chosen_motor, examples
 from trum_sym.console.say import say
 
 __all__ = ["report"]
 
 
-@click.command()
+@click.command(epilog=examples("trum-sym report out"))
 @click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
 @click.option("--motor", default="trum60", show_default=True, metavar="NAME|FILE", help="Motor: trum60 or a TOML file.")
 @click.option("--set", "overrides", multiple=True, metavar="NAME=VALUE", help="Replace a value of the motor file.")

@@ -11,6 +11,8 @@ from trum_sym.console.options import (
     chosen_drive,
     chosen_levels,
     chosen_motor,
+    examples,
+    force_option,
     number_option,
     point_options,
     tolerance_option,
@@ -20,7 +22,12 @@ from trum_sym.console.say import say
 __all__ = ["simulate"]
 
 
-@click.command()
+@click.command(
+    epilog=examples(
+        "trum-sym simulate --load-torque '0.1 N m'",
+        "trum-sym simulate --cycles 2 --out histories.csv",
+    )
+)
 @point_options
 @tolerance_option
 @number_option("--cycles", "1", 1, "Drive cycles.", "K")
@@ -31,12 +38,14 @@ __all__ = ["simulate"]
     metavar="FILE",
     help="Write the histories: .nc (NetCDF, with every setting and unit) or .csv.  [default: a summary]",
 )
+@force_option
 def simulate(
     motor: str,
     overrides: tuple[str, ...],
     cycles: float,
     samples_per_period: float,
     out: Path | None,
+    force: bool,
     tolerance: float | None,
     **options: Any,  # noqa: ANN401
 ) -> int:
@@ -46,10 +55,10 @@ def simulate(
     balances the load, or the errors' bounds miss the tolerance.
     """
     from trum_sym.model.histories import simulate as simulate_point
-    from trum_sym.output.files import check_target, write
+    from trum_sym.output.files import check_new, write
 
     if out is not None:
-        check_target("--out", out)
+        check_new("--out", out, force=force)
     histories = simulate_point(
         chosen_motor(motor, overrides),
         chosen_drive(options),
@@ -63,7 +72,7 @@ def simulate(
         write("--out", histories, out)
         say(f"{out}: {histories.sizes['time']} times of {len(histories.data_vars)} histories")
     else:
-        from trum_sym.console.tables import histories_table
+        from trum_sym.model.tables import histories_table
 
         say(histories_table(histories))
     return 0 if histories.attrs["converged"] else 1

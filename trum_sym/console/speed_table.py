@@ -9,21 +9,31 @@ from typing import Any
 import click
 
 from trum_sym.console.options import (
-    chosen_drive,
+    box_options,
+    check_plot,
+    chosen_box,
     chosen_levels,
     chosen_motor,
+    examples,
     number_option,
-    point_options,
-    refuse_sampling_period,
+    plot_options,
 )
 from trum_sym.console.say import say
 
 __all__ = ["speed_table"]
 
 
-@click.command("speed-table")
-@click.option("--from", "slowest", required=True, metavar="SPEED", help='Slowest speed: "1 arcsec/s".')
-@click.option("--to", "fastest", required=True, metavar="SPEED", help='Fastest speed: "1000 arcsec/s".')
+@click.command(
+    "speed-table",
+    epilog=examples(
+        "trum-sym speed-table --from '500 arcsec/s' --to '50000 arcsec/s' --load-torque '0.05 N m' --prepressure 180 "
+        "--points 3",
+        "trum-sym speed-table --from '500 arcsec/s' --to '50000 arcsec/s' --load-torque 0.05 --prepressure 180 "
+        "--points 3 --out table.h",
+    ),
+)
+@click.option("--from", "slowest", required=True, metavar="SPEED", help='Slowest speed: "500 arcsec/s".')
+@click.option("--to", "fastest", required=True, metavar="SPEED", help='Fastest speed: "50000 arcsec/s".')
 @click.option(
     "--direction",
     type=click.Choice(("both", "positive", "negative")),
@@ -34,14 +44,6 @@ __all__ = ["speed_table"]
 @number_option("--points", "1", 31, "Speeds in each direction, in equal ratios; more are added as needed.", "K")
 @number_option("--error", "1", 0.01, "Allowed error of interpolated speeds, over the speed.", "E")
 @click.option(
-    "--bounds",
-    "bounds",
-    multiple=True,
-    metavar="NAME=LOW:HIGH",
-    help="As for optimize; --bounds prepressure=180 holds the prepressure.  "
-    "[default: prepressure=160:210, frequency_difference=2800:3300]",
-)
-@click.option(
     "--constraint", "constraints", multiple=True, metavar="TEXT", help='"stall_torque >= 0.1 N*m", as for optimize.'
 )
 @click.option(
@@ -50,17 +52,19 @@ __all__ = ["speed_table"]
     metavar="FILE",
     help="Write the table: .csv, or .h for a C header that interpolates.",
 )
+@plot_options("Draw the drive against the speed")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object instead of a summary; SI units.")
-@point_options
+@box_options
 def speed_table(
     slowest: str,
     fastest: str,
     direction: str,
     points: Any,  # noqa: ANN401  # a number, which has to be an integer
     error: float,
-    bounds: tuple[str, ...],
     constraints: tuple[str, ...],
     out: Path | None,
+    plot: Path | None,
+    force: bool,
     as_json: bool,
     motor: str,
     overrides: tuple[str, ...],
@@ -70,30 +74,33 @@ def speed_table(
 
     Exit code 1 where the box has none of the speeds; gaps are named.
     """
-    from trum_sym.console.optimize import ranges_of
-    from trum_sym.output.files import check_target
+    from trum_sym.output.files import check_new
     from trum_sym.studies.speed_table import speed_table as make
-    from trum_sym.studies.speed_table_text import as_json_text, as_text
 
-    refuse_sampling_period(options, "mean speeds are continuous")
     if out is not None:
-        check_target("--out", out, (".csv", ".h"))
+        check_new("--out", out, (".csv", ".h"), force)
+    check_plot(plot, force)
+    machine, (drive, bounds) = chosen_motor(motor, overrides), chosen_box(options)
     table = make(
-        chosen_motor(motor, overrides),
-        chosen_drive(options),
+        machine,
+        drive,
         slowest=slowest,
         fastest=fastest,
         direction=direction,
         points=points,
         error=error,
-        bounds=ranges_of(bounds),
+        bounds=bounds,
         constraints=constraints,
         progress=sys.stderr.isatty(),
         **chosen_levels(options),
     )
-    say(as_json_text(table) if as_json else as_text(table))
+    say(table.to_json() if as_json else table.to_text())
     if not table.segments:
         return 1
+    if plot is not None:
+        from trum_sym.plots import answers
+
+        answers.write("--plot", answers.table(table), plot)
     if out is not None:
         table.save(out, "--out")
         if not as_json:

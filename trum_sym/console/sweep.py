@@ -8,7 +8,15 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from trum_sym.console.options import QuantityType, chosen_levels, chosen_motor, number_option, point_options
+from trum_sym.console.options import (
+    QuantityType,
+    chosen_levels,
+    chosen_motor,
+    examples,
+    force_option,
+    number_option,
+    point_options,
+)
 from trum_sym.console.say import say
 
 if TYPE_CHECKING:
@@ -28,7 +36,13 @@ class Range(click.ParamType):  # type: ignore[type-arg, unused-ignore]
         return str(value)
 
 
-@click.command()
+@click.command(
+    epilog=examples(
+        "trum-sym sweep --prepressure 160:210:6 --out force.csv",
+        "trum-sym sweep --prepressure 160:210:51 --frequency-difference 2800:3300:by=10 --dry-run",
+        "trum-sym sweep --set friction_coefficient=0.2,0.25,0.3 --load-torque 0:0.1:3 --out friction.zarr",
+    )
+)
 @point_options
 @click.option(
     "--out",
@@ -46,6 +60,7 @@ class Range(click.ParamType):  # type: ignore[type-arg, unused-ignore]
 @number_option(
     "--tolerance", "1", 1e-6, "Largest bound of the errors of speeds over the largest speed, 1e-9 to 1e-2.", "T"
 )
+@force_option
 @click.option("--dry-run", is_flag=True, help="Say points, chunks, size and time, from a sample that is measured.")
 def sweep(
     motor: str,
@@ -55,6 +70,7 @@ def sweep(
     scheduler: str | None,
     chunk: float | None,
     tolerance: float,
+    force: bool,
     dry_run: bool,
     **options: Any,  # noqa: ANN401
 ) -> None:
@@ -75,6 +91,8 @@ def sweep(
     if out is None and not dry_run:
         raise ParameterError("--out", "nothing", "the name of a .zarr store, or of a .nc, .parquet or .csv file")
     check_out("--out", out)
+    if out is not None and out.suffix != ".zarr" and out.exists() and not force and not dry_run:
+        raise ParameterError("--out", str(out), "a new file, or --force to replace it: this one exists")
     ranges = {name: text for name in _RANGED if (text := options[name]) is not None}
     fixed = tuple(text for text in overrides if not _is_range(text))
     for text in overrides:

@@ -11,6 +11,7 @@ import numpy.typing as npt
 from trum_sym.errors import ParameterError
 from trum_sym.inputs.carried import LabelledArray, Labels, in_unit, labels_of, magnitude_and_unit
 from trum_sym.inputs.domain import Domain
+from trum_sym.inputs.units import parse_quantity
 
 __all__ = ["Array", "ArrayLike", "broadcast_shape", "check_labels", "number", "quantity"]
 
@@ -21,8 +22,9 @@ ArrayLike: TypeAlias = float | Array
 def number(name: str, value: object, domain: Domain, unit: str) -> ArrayLike:
     """Return ``value`` as a float or a read-only float64 array, or say what is wrong with it.
 
-    A value that carries a unit, as pint's and astropy's quantities or an xarray.DataArray with ``attrs["units"]`` do,
-    is converted; one that carries none is in ``unit``, the SI unit.  Labels stay with the array.
+    Text is read as a number with a unit, ``"170 N"``.  A value that carries a unit, as pint's and astropy's quantities
+    or an xarray.DataArray with ``attrs["units"]`` do, is converted; one that
+    carries none is in ``unit``, the SI unit.  Labels stay with the array.
 
     Raises
     ------
@@ -38,6 +40,7 @@ def quantity(name: str, value: object, domain: Domain, unit: str | None) -> tupl
     ``unit`` is None where a value may be of any kind; it is then in SI.
     """
     allowed = domain.describe(unit or "its SI unit")
+    value = _spelt_out(name, value, unit)
     try:
         if np.ma.is_masked(value):
             raise TypeError
@@ -66,6 +69,17 @@ def quantity(name: str, value: object, domain: Domain, unit: str | None) -> tupl
         values = labelled
     values.flags.writeable = False
     return values, given
+
+
+def _spelt_out(name: str, value: object, unit: str | None) -> object:
+    """Numbers for text such as ``"170 N"``, or a list of it; anything else as it is."""
+    if unit is None:
+        return value
+    if isinstance(value, str):
+        return parse_quantity(name, value, unit)
+    if isinstance(value, list | tuple) and value and all(isinstance(entry, str) for entry in value):
+        return [parse_quantity(name, entry, unit) for entry in value]
+    return value
 
 
 def check_labels(labels: Mapping[str, Labels | None]) -> None:

@@ -14,10 +14,13 @@ from trum_sym.values import Value
 if TYPE_CHECKING:
     from trum_sym.inputs.checks import ArrayLike
 
-__all__ = ["DRIVE_DOMAINS", "LEAD", "STARTS", "Drive", "Start"]
+__all__ = ["BOX_NAMES", "DRIVE_DOMAINS", "LEAD", "STARTS", "Drive", "Start"]
 
 Start = Literal["periodic", "steady", "rest"]
 STARTS: tuple[Start, ...] = get_args(Start)
+
+BOX_NAMES = ("prepressure", "frequency_difference")
+"""What searches vary unless they are told otherwise; the motor file states the ranges."""
 
 _PULSES = Domain(low=1, low_open=False, high=10_000, high_open=False, integer=True)
 LEAD = Domain(low=-1, low_open=False, high=1, high_open=False)

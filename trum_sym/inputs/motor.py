@@ -15,9 +15,13 @@ from trum_sym.inputs.distributions import Distribution
 from trum_sym.inputs.domain import Domain, Spec
 from trum_sym.inputs.plausible import warn_implausible, warn_outside_range
 from trum_sym.inputs.units import parse_quantity
-from trum_sym.values import Value
+from trum_sym.text import one_line
+from trum_sym.values import FrozenDict, Value
 
-__all__ = ["FLANGE", "SPECS", "Motor", "Parameter", "Published", "spec"]
+__all__ = ["FLANGE", "SPECS", "TO_DO", "Allowed", "Motor", "Parameter", "Published", "spec"]
+
+TO_DO = "to do"
+"""How the source of a value begins that is a template's and not yet the motor's."""
 
 _POSITIVE = Domain(low=0.0)
 _SIZE = Domain(low=0.0, high=10.0)  # m
@@ -82,13 +86,26 @@ def _optional(unit: str, symbol: str, domain: Domain = _POSITIVE) -> Any:  # noq
 
 @dataclass(frozen=True, eq=False)
 class Published(Value):
-    """A figure that a publication states for one drive, to be shown beside ours."""
+    """A figure that a publication states for one drive, to be shown beside ours.
+
+    ``sampling_period`` is that of the encoder, in s, where the figure is of an encoder's readings.
+    """
 
     output: str
     value: float
     unit: str
     source: str
     drive: Mapping[str, float]
+    sampling_period: float | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Allowed(Value):
+    """The range of a number of the drive that the motor's hardware allows, in its SI unit, and who says so."""
+
+    low: float
+    high: float
+    source: str
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -156,10 +173,12 @@ class Motor(Value):
     flange_young_modulus: Parameter | None = _optional("Pa", "E_f")
     flange_poisson_ratio: Parameter | None = _optional("1", "mu_f", _FLANGE_POISSON)
     published: tuple[Published, ...] = ()
+    box: Mapping[str, Allowed] = field(default_factory=dict)  # what searches vary of the drive
     text: str = field(default="", repr=False, compare=False)  # of the motor file, whatever was set since
 
     def __post_init__(self) -> None:
         """Checks every value, and the sizes that must fit each other; warns of what no such motor has."""
+        object.__setattr__(self, "box", FrozenDict(self.box))
         if not isinstance(self.name, str):
             raise ParameterError("name", self.name, "the motor's name as text")
         for name, wanted in SPECS.items():
@@ -183,6 +202,15 @@ class Motor(Value):
         if np.any(gaps >= self.perimeter.value):
             raise ParameterError("slot_width", self.slot_width.value, "less than perimeter / tooth_count")
         warn_implausible(dict(self.parameters()))
+
+    def __repr__(self) -> str:
+        count = sum(1 for _ in self.parameters())
+        assumed = len(self.assumed())
+        return f"<Motor {one_line(self.name)}: {count} parameters, {assumed} of them assumed>"
+
+    def assumed(self) -> dict[str, Parameter]:
+        """The parameters that nobody measured, by name: assumed ones, and those of a template that are still to do."""
+        return {name: p for name, p in self.parameters() if p.source.casefold().startswith(("assumed", TO_DO))}
 
     def parameters(self) -> Iterator[tuple[str, Parameter]]:
         """The parameters that are set, by name."""

@@ -13,8 +13,8 @@ from trum_sym.inputs.choices import path_of
 from trum_sym.inputs.csv_text import read_text
 from trum_sym.inputs.distributions import Distribution, checked
 from trum_sym.inputs.domain import Domain, Spec
-from trum_sym.inputs.drive import DRIVE_DOMAINS
-from trum_sym.inputs.motor import SPECS, Motor, Parameter, Published, spec
+from trum_sym.inputs.drive import BOX_NAMES, DRIVE_DOMAINS
+from trum_sym.inputs.motor import SPECS, Allowed, Motor, Parameter, Published, spec
 from trum_sym.inputs.units import Unit, parse_unit, unit_for
 from trum_sym.quantities import QUANTITIES
 
@@ -23,7 +23,6 @@ __all__ = ["SHIPPED", "load_motor", "motor_text"]
 SHIPPED = ("dual60", "ring60", "trum60")
 """Motors that ship with the package, by name."""
 
-_MAX_BYTES = 1_000_000  # of a motor file: two hundred times the shipped one
 _KEYS = (
     "value",
     "unit",
@@ -155,8 +154,10 @@ def _read_distribution(
 
 def _read_published(entry: object) -> Published:
     keys = {"output", "value", "unit", "source", "drive"}
-    if not isinstance(entry, dict) or set(entry) != keys or not isinstance(entry["drive"], dict):
-        raise ParameterError("published", entry, "tables with output, value, unit, source and a table drive")
+    if not isinstance(entry, dict) or set(entry) - {"sampling_period"} != keys or not isinstance(entry["drive"], dict):
+        raise ParameterError(
+            "published", entry, "tables with output, value, unit, source and a table drive, and maybe sampling_period"
+        )
     for key in ("output", "unit", "source"):
         if not isinstance(entry[key], str):
             raise ParameterError(f"published.{key}", entry[key], "text")
@@ -170,7 +171,31 @@ def _read_published(entry: object) -> Published:
         domain, drive_unit = DRIVE_DOMAINS[name]
         bare = _in_si(f"published.drive.{name}", value, parse_unit(drive_unit), drive_unit)
         number(f"published.drive.{name}", bare, domain, drive_unit)
+    if "sampling_period" in entry:
+        period = _in_si("published.sampling_period", entry["sampling_period"], parse_unit("s"), "s")
+        number("published.sampling_period", period, Domain(low=0.0), "s")
     return Published(**entry)
+
+
+def _read_allowed(name: str, entry: object) -> Allowed:
+    """A range of the table [box]."""
+    place = f"box.{name}"
+    if name not in BOX_NAMES:
+        raise ParameterError("box", name, f"one of {', '.join(BOX_NAMES)}")
+    if not isinstance(entry, dict) or set(entry) != {"range", "unit", "source"}:
+        raise ParameterError(place, entry, "a table with range, unit and source")
+    if not isinstance(entry["unit"], str) or not isinstance(entry["source"], str) or not entry["source"].strip():
+        raise ParameterError(place, entry, "unit and source as text")
+    domain, wanted = DRIVE_DOMAINS[name]
+    unit, ends = _unit(f"{place}.unit", entry["unit"], wanted), entry["range"]
+    if not isinstance(ends, list) or len(ends) != 2:
+        raise ParameterError(f"{place}.range", ends, "two numbers, low and high")
+    low, high = (
+        float(number(f"{place}.range", _in_si(place, end, unit, entry["unit"]), domain, wanted)) for end in ends
+    )
+    if not low < high:
+        raise ParameterError(f"{place}.range", ends, "low < high")
+    return Allowed(low, high, entry["source"].strip())
 
 
 def motor_text(source: str | PathLike[str]) -> str:
@@ -209,9 +234,9 @@ def load_motor(source: str | PathLike[str] = "trum60") -> Motor:
     path_of("motor", source, f"{_NAMES} or the path of a TOML file")
     text = motor_text(source)
     data = _read_toml(source, text)
-    unknown = sorted(set(data) - {"name", "parameters", "published"})
+    unknown = sorted(set(data) - {"name", "parameters", "published", "box"})
     if unknown:
-        raise ParameterError("motor file", unknown[0], "name, parameters and published at the top level")
+        raise ParameterError("motor file", unknown[0], "name, parameters, box and published at the top level")
     if not isinstance(data.get("name"), str) or not data["name"].strip():
         raise ParameterError("motor file: name", data.get("name", "nothing"), "the motor's name as text")
     if not isinstance(data.get("parameters"), dict):
@@ -223,4 +248,7 @@ def load_motor(source: str | PathLike[str] = "trum60") -> Motor:
     if missing:
         raise ParameterError("motor file: parameters", f"no {', '.join(missing)}", "every required parameter")
     published = tuple(_read_published(entry) for entry in data.get("published", []))
-    return Motor(name=data["name"], published=published, text=text, **parameters)
+    if not isinstance(data.get("box", {}), dict):
+        raise ParameterError("box", data["box"], "a table [box]")
+    box = {name: _read_allowed(name, entry) for name, entry in data.get("box", {}).items()}
+    return Motor(name=data["name"], published=published, box=box, text=text, **parameters)

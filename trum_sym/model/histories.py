@@ -13,6 +13,7 @@ from trum_sym.inputs.checks import Array, ArrayLike
 from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
+from trum_sym.inputs.motor_file import load_motor
 from trum_sym.inputs.points import check_single, numbers_of, one_number, period_of
 from trum_sym.model.cycle import response, scaled
 from trum_sym.model.kernels import call
@@ -47,7 +48,7 @@ _MAX_SAMPLES = 50_000_000
 
 
 def simulate(
-    motor: Motor,
+    motor: Motor | None = None,
     drive: Drive | None = None,
     *,
     cycles: float = 1,
@@ -92,6 +93,7 @@ def simulate(
     count_domain = Domain(low=1, low_open=False, high=_MAX_SAMPLES, high_open=False, integer=True)
     repeats = int(one_number("cycles", cycles, "1", count_domain))
     per_period = int(one_number("samples_per_period", samples_per_period, "1", count_domain))
+    motor = load_motor() if motor is None else motor
     drive = Drive() if drive is None else drive
     period = period_of(sampling_period)
     check_single({} if period is None else {"sampling_period": period})
@@ -184,7 +186,7 @@ def _attributes(
 ) -> dict[str, str | float | int]:
     """Every setting, figure and flag, as text and numbers that any file format holds."""
     motor, drive, levels = case.motor, case.drive, case.levels
-    figures = {name: value for name, value in point.as_dict().items() if name not in ("motor", "converged")}
+    figures = {name: value for name, value in point.figures.items() if name not in ("motor", "converged")}
     attributes = {
         "title": f"{one_line(motor.name)}: time histories on the periodic orbit",
         "source": f"trum-sym {version('trum-sym')}",
@@ -204,4 +206,4 @@ def _attributes(
     }
     for name, parameter in motor.parameters():
         attributes[f"motor_{name}"] = f"{float(parameter.value):.12g} {parameter.unit} ({plain(parameter.source)})"
-    return {name: value if isinstance(value, str | int) else float(value) for name, value in attributes.items()}  # type: ignore[arg-type]
+    return {name: value if isinstance(value, str | int) else float(value) for name, value in attributes.items()}

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterable, Mapping
+from pathlib import Path
 
 import numpy as np
 
+from trum_sym.errors import StaleBuildWarning
 from trum_sym.inputs.checks import ArrayLike
 
 try:
@@ -18,7 +21,7 @@ except ImportError as error:  # pragma: no cover - an installed package has them
         "`pip install -e .`, or leave its folder to use the installed package"
     ) from error
 
-__all__ = ["ORBIT_FLAGS", "SLOPE_FIGURES", "SLOPE_PARAMETERS", "call", "expect", "signature"]
+__all__ = ["ORBIT_FLAGS", "SLOPE_FIGURES", "SLOPE_PARAMETERS", "call", "check_build", "expect", "signature"]
 
 _SIGNATURES = {name: (i.split(), o.split()) for name, (i, o) in _kernels.signatures.items()}
 
@@ -26,6 +29,46 @@ _SIGNATURES = {name: (i.split(), o.split()) for name, (i, o) in _kernels.signatu
 ORBIT_FLAGS = tuple(_kernels.orbit_flags.split())
 SLOPE_FIGURES = tuple(_kernels.slope_figures.split())
 SLOPE_PARAMETERS = tuple(_kernels.slope_parameters.split())
+
+
+_SOURCES = {"generated": (".c", ".h"), "trum_sym/_driver": (".h", ".hpp", ".inc", ".cpp")}
+
+
+def check_build(root: Path, made_of: str, built: float) -> None:
+    """Warn where the sources of the compiled kernels have changed since they were built.
+
+    Parameters
+    ----------
+    root : Path
+        Of the source tree; of an installed package there is none, and nothing to check.
+    made_of : str
+        The digest of the sources that the build has kept; CMakeLists.txt says of which.
+    built : float
+        When; only sources that are newer are looked at.
+    """
+    if not made_of or not (root / "generated").is_dir():
+        return
+    files = sorted(
+        (file.relative_to(root).as_posix(), file)
+        for folder, ends in _SOURCES.items()
+        for file in (root / folder).rglob("*")
+        if file.suffix in ends
+    )
+    if max(file.stat().st_mtime for _, file in files) <= built:
+        return
+    import hashlib
+
+    digests = "".join(hashlib.sha256(file.read_bytes()).hexdigest() for _, file in files)
+    if hashlib.sha256(digests.encode()).hexdigest() != made_of:
+        warnings.warn(
+            "the compiled kernels are older than their sources in generated/ and trum_sym/_driver/: every figure is "
+            "that of the old ones; build with `pip install -e .`",
+            StaleBuildWarning,
+            stacklevel=2,
+        )
+
+
+check_build(Path(__file__).parents[2], getattr(_kernels, "made_of", ""), Path(_kernels.__file__ or "").stat().st_mtime)
 
 
 def expect(what: str, names: Iterable[str], compiled: Iterable[str]) -> None:

@@ -3,23 +3,35 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, fields
-from typing import Any, Unpack
+from dataclasses import asdict, dataclass, field, fields
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 
+from trum_sym.errors import MissingExtraError
+from trum_sym.inputs.carried import Labels, labels_of
 from trum_sym.inputs.checks import Array, ArrayLike, broadcast_shape
 from trum_sym.inputs.domain import Domain
-from trum_sym.inputs.drive import Drive
+from trum_sym.inputs.drive import DRIVE_DOMAINS, Drive
 from trum_sym.inputs.motor import Motor
+from trum_sym.inputs.motor_file import load_motor
 from trum_sym.inputs.points import check_point, numbers_of, one_number, period_of
+from trum_sym.inputs.shown import readable
 from trum_sym.model.brush import brush_values, check_drive
 from trum_sym.model.cycle import check_steady_state, cycle_sums, modal_values, scaled, warn_next_to_resonance
+from trum_sym.model.inputs import Inputs, remarks_of, units_of
 from trum_sym.model.kernels import call
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.model.rotor import Orbit, encoder_deviation, history, orbit_values, reasons, solve_orbit
 from trum_sym.model.stator import Stator, solve_stator
+from trum_sym.output.result import Result
+from trum_sym.quantities import ERRORS, QUANTITIES
+from trum_sym.text import one_line
 from trum_sym.values import Value
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
 
 __all__ = [
     "OF_CYCLE",
@@ -66,7 +78,7 @@ _ENCODER_SAMPLES = 64  # per drive period, of the path that the encoder differen
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class OperatingPoint(Value):
+class OperatingPoint(Result, Value):
     """What the motor does at a drive; SI units, frequencies in Hz, speeds in rad/s.
 
     Every number is a float, or an array of the inputs' common shape.
@@ -105,6 +117,8 @@ class OperatingPoint(Value):
         Whether all these bounds meet the tolerance.
     reason : str
         Why not, in words; empty if they do.
+    inputs : Inputs
+        Motor, drive, levels, encoder and tolerance that the figures hold for.
     """
 
     motor: str
@@ -135,20 +149,123 @@ class OperatingPoint(Value):
     stall_torque_error: ArrayLike
     converged: bool | np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
     reason: str | np.ndarray[tuple[int, ...], np.dtype[np.str_]]
+    inputs: Inputs = field(repr=False)
 
-    def as_dict(self) -> dict[str, object]:
-        """The figures by name, in the order of the fields."""
-        return {field.name: getattr(self, field.name) for field in fields(self)}
+    def __repr__(self) -> str:
+        speed, about = np.asarray(self.mean_speed), one_line(self.motor)
+        if speed.ndim:
+            return f"<OperatingPoint {about}, array of shape {speed.shape}>"
+        state = "converged" if self.converged else f"not converged: {self.reason}"
+        return f"<OperatingPoint {about}, mean_speed {float(speed):.6g} rad/s, {state}>"
+
+    @property
+    def figures(self) -> dict[str, Any]:
+        """The figures by name, in the order of the fields; without ``inputs``."""
+        return {field.name: getattr(self, field.name) for field in fields(self) if field.name != "inputs"}
+
+    @property
+    def units(self) -> dict[str, str]:
+        """The SI unit of every figure that has one."""
+        return units_of(self.figures)
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What the figures of a single point do not say by themselves: a load that drives the rotor back, and so on."""
+        return () if np.ndim(self.mean_speed) else remarks_of(self.figures, float(self.inputs.drive.load_torque))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Inputs, figures, remarks and units by name, in SI units: what ``--point`` reads."""
+        found = {**self.inputs.record(), **{k: _plain(v) for k, v in self.figures.items()}, "remarks": self.remarks}
+        return {**found, "units": units_of(found)}
+
+    def to_text(self) -> str:
+        """The figures with their units, a line each; of arrays the range."""
+        lines = []
+        for name, quantity in QUANTITIES.items():
+            values = np.asarray(getattr(self, name), np.float64)
+            low, high = (readable(name, float(x)) for x in (np.nanmin(values), np.nanmax(values)))
+            value = f"{low:.6g}" if not values.ndim else f"{low:.6g} to {high:.6g}"
+            lines.append(f"{name:<20} {value} {'' if quantity.shown == '1' else quantity.shown}".rstrip())
+        return "\n".join([repr(self), *lines, *(f"remark: {remark}" for remark in self.remarks)])
+
+    def to_xarray(self) -> xr.Dataset:
+        """The figures as a labelled data set with units; the inputs are its attributes.
+
+        Dimensions are those of labelled inputs where they name them, else ``dim_0`` and so on.
+
+        Raises
+        ------
+        MissingExtraError
+            Without xarray.
+        """
+        try:
+            import xarray as xr
+        except ImportError:
+            raise MissingExtraError("to_xarray", "xarray", "data") from None
+        shape = np.shape(self.mean_speed)
+        labels = _labels(self.inputs, len(shape))
+        dims = labels.dimensions if labels else tuple(f"dim_{k}" for k in range(len(shape)))
+        coords = dict(zip(dims, labels.indices, strict=True)) if labels else {}
+        units = self.units
+        variables: dict[str, Any] = {}
+        for name in (*RESULTS, "reason"):
+            known = QUANTITIES.get(name) or ERRORS.get(name)
+            attrs = {"units": units[name]} if name in units else {}
+            variables[name] = (dims, getattr(self, name), {**attrs, "long_name": known.label if known else name})
+        settings = self.inputs
+        attributes: dict[str, Any] = {"motor": self.motor, "start": self.start, "tolerance": settings.tolerance}
+        attributes |= {f"{name}_level": level for name, level in asdict(settings.levels).items()}
+        for name, value in settings.drive.numbers().items():
+            if np.ndim(value):
+                variables.setdefault(name, (dims, np.broadcast_to(value, shape), {"units": _unit_of_input(name)}))
+            else:
+                attributes.setdefault(name, value)
+        return xr.Dataset(variables, {n: index for n, index in coords.items() if index is not None}, attrs=attributes)
+
+    def to_frame(self) -> pd.DataFrame:
+        """The figures as a pandas data frame, a row a point; ``attrs["units"]`` has the units.
+
+        Raises
+        ------
+        MissingExtraError
+            Without pandas.
+        """
+        try:
+            import pandas as pd
+        except ImportError:
+            raise MissingExtraError("to_frame", "pandas", "data") from None
+        shape = np.shape(self.mean_speed)
+        columns = {**self.figures, **self.inputs.drive.numbers()}
+        frame = pd.DataFrame({name: np.broadcast_to(value, shape).ravel() for name, value in columns.items()})
+        frame.attrs["units"] = {**{name: _unit_of_input(name) for name in self.inputs.drive.numbers()}, **self.units}
+        return frame
+
+
+def _unit_of_input(name: str) -> str:
+    return DRIVE_DOMAINS[name][1] if name in DRIVE_DOMAINS else "1"
+
+
+def _labels(inputs: Inputs, count: int) -> Labels | None:
+    """Names of the dimensions, where an input of as many brings them."""
+    values = (*inputs.drive.numbers().values(), *(p.value for _, p in inputs.motor.parameters()))
+    found = (labels_of(value) for value in values)
+    return next((labels for labels in found if labels is not None and len(labels.dimensions) == count), None)
+
+
+def _plain(value: object) -> object:
+    return value.tolist() if isinstance(value, np.ndarray) else value
 
 
 RESULTS = tuple(
-    field.name for field in fields(OperatingPoint) if field.name not in ("motor", "start", "contact", "reason")
+    field.name
+    for field in fields(OperatingPoint)
+    if field.name not in ("motor", "start", "contact", "reason", "inputs")
 )
 """The figures of an operating point that depend on its numbers, in order."""
 
 
 def evaluate(
-    motor: Motor,
+    motor: Motor | None = None,
     drive: Drive | None = None,
     *,
     sampling_period: ArrayLike | None = None,
@@ -160,8 +277,8 @@ def evaluate(
 
     Parameters
     ----------
-    motor : Motor
-        Its parameters may be arrays.
+    motor : Motor, optional
+        TRUM-60 if not given.  Its parameters may be arrays.
     drive : Drive, optional
         The paper's Table 3 if not given.  Its fields and the motor's values broadcast.
     sampling_period : float or array, s, optional
@@ -185,12 +302,19 @@ def evaluate(
         For bad input; names the parameter, what it got, what is allowed.
     ConvergenceError
         If the forced amplitude and the resonance do not settle.
+
+    Examples
+    --------
+    >>> import trum_sym as ts
+    >>> point = ts.evaluate(drive=ts.Drive(prepressure="170 N", load_torque=0.1))
+    >>> f"{point.cycle_time * 1e3:.4f} ms, {point.units['mean_speed']}"
+    '0.4757 ms, rad/s'
     """
     return settle(motor, drive, Levels(**levels), tolerance, sampling_period, progress)[1]
 
 
 def settle(
-    motor: Motor,
+    motor: Motor | None,
     drive: Drive | None,
     levels: Levels,
     tolerance: float | None,
@@ -222,10 +346,11 @@ class Case:
     symbols: dict[str, ArrayLike]
     arguments: dict[str, ArrayLike]
     sampling_period: ArrayLike | None
+    tolerance: float
 
 
 def prepare(
-    motor: Motor,
+    motor: Motor | None,
     drive: Drive | None,
     levels: Levels,
     tolerance: float,
@@ -240,6 +365,7 @@ def prepare(
     ParameterError, ConvergenceError
         As :func:`evaluate` does.
     """
+    motor = load_motor() if motor is None else motor
     drive = Drive() if drive is None else drive
     check_point(motor, drive)
     inputs = numbers_of(motor, drive)
@@ -259,13 +385,16 @@ def prepare(
     arguments = orbit_values(scaled(values, stator.W), symbols, levels.contact, tolerance)
     if levels.tangential == "brush":
         arguments |= brush_values(symbols)
-    return Case(motor, drive, levels, shape, stator, values, symbols, arguments, sampling_period)
+    return Case(motor, drive, levels, shape, stator, values, symbols, arguments, sampling_period, tolerance)
 
 
 def point_of(case: Case, progress: bool = False) -> OperatingPoint:
     """All figures of a case from :func:`prepare`."""
     found = results(case, (*RESULTS, "reason"), progress)
-    return OperatingPoint(motor=case.motor.name, start=case.drive.start, contact=case.levels.contact, **found)
+    inputs = Inputs(case.motor, case.drive, case.levels, case.sampling_period, case.tolerance)
+    return OperatingPoint(
+        motor=case.motor.name, start=case.drive.start, contact=case.levels.contact, **found, inputs=inputs
+    )
 
 
 def results(case: Case, wanted: Collection[str], progress: bool = False) -> dict[str, Any]:

@@ -3,24 +3,32 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping
-from dataclasses import replace
-from typing import Unpack
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 
-from trum_sym.errors import ParameterError, ValidityWarning
+from trum_sym.errors import MissingExtraError, ParameterError, ValidityWarning
 from trum_sym.inputs.checks import Array, ArrayLike
-from trum_sym.inputs.drive import Drive
-from trum_sym.inputs.motor import Motor
+from trum_sym.inputs.drive import DRIVE_DOMAINS, Drive
+from trum_sym.inputs.motor import SPECS, Motor
+from trum_sym.inputs.shown import quantity_of, readable
 from trum_sym.model.batch import call_in_blocks
+from trum_sym.model.inputs import Inputs, units_of
 from trum_sym.model.kernels import SLOPE_FIGURES, SLOPE_PARAMETERS, call, expect, signature
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.model.operating_point import Case, prepare
 from trum_sym.model.rotor import Orbit, as_orbit
 from trum_sym.model.stator import solve_stator
+from trum_sym.output.result import Result
+from trum_sym.values import Value
 
-__all__ = ["DIFFERENTIATED", "PARAMETERS", "orbit_with_slopes", "sensitivities"]
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+
+__all__ = ["DIFFERENTIATED", "PARAMETERS", "Sensitivities", "orbit_with_slopes", "sensitivities"]
 
 PARAMETERS = (
     "prepressure",
@@ -52,13 +60,119 @@ expect(
 _STEP = 1e-3  # of the stator's differences, relative: their error is its fourth power
 
 
+@dataclass(frozen=True, eq=False)
+class Sensitivities(Result, Value, Mapping[str, Mapping[str, Array]]):
+    """Slopes of figures by parameters, ``[figure][parameter]``, with units.
+
+    Attributes
+    ----------
+    slopes : mapping of mappings of arrays
+        What ``evaluate``'s figure changes by, per change of the parameter, in SI units (frequencies in Hz).
+    inputs : Inputs
+        Motor, drive, levels and tolerance that they hold for.
+    """
+
+    slopes: Mapping[str, Mapping[str, Array]]
+    inputs: Inputs
+
+    def __getitem__(self, figure: str) -> Mapping[str, Array]:
+        return self.slopes[figure]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.slopes)
+
+    def __len__(self) -> int:
+        return len(self.slopes)
+
+    def __repr__(self) -> str:
+        return f"<Sensitivities of {', '.join(self)} by {', '.join(PARAMETERS)}>"
+
+    @property
+    def units(self) -> dict[str, dict[str, str]]:
+        """The SI unit of every slope, ``[figure][parameter]``."""
+        return {figure: {by: _per(quantity_of(figure).unit, _unit_of(by)) for by in self[figure]} for figure in self}
+
+    def to_dict(self) -> dict[str, Any]:
+        """Inputs, slopes and their units by name, in SI units."""
+        slopes = {figure: {by: np.asarray(slope).tolist() for by, slope in self[figure].items()} for figure in self}
+        found = self.inputs.record()
+        return {**found, "slopes": slopes, "remarks": [], "units": {**units_of(found), "slopes": self.units}}
+
+    def to_text(self) -> str:
+        """A table: a row a figure, a column a parameter, in the units that people read."""
+        from tabulate import tabulate
+
+        rows = []
+        for figure in self:
+            quantity, scale = quantity_of(figure), readable(figure, 1.0)
+            cells = [np.asarray(self[figure][by]) * scale for by in PARAMETERS]
+            unit = "" if quantity.shown == "1" else f" [{quantity.shown}]"
+            rows.append((quantity.label + unit, *(f"{float(x):.6g}" if not x.ndim else f"{x.shape}" for x in cells)))
+        units = {by: "" if _unit_of(by) == "1" else f" [{_unit_of(by)}]" for by in PARAMETERS}
+        headers = ("change of", *(f"per {by}\n{unit.strip()}" for by, unit in units.items()))
+        align = ("left", *["right"] * len(PARAMETERS))
+        return str(tabulate(rows, headers, disable_numparse=True, colalign=align))
+
+    def to_frame(self) -> pd.DataFrame:
+        """A pandas data frame of a single point: figures by parameters; ``attrs["units"]`` has the units.
+
+        Raises
+        ------
+        MissingExtraError
+            Without pandas.
+        ParameterError
+            For an array of points, which :meth:`to_xarray` takes.
+        """
+        try:
+            import pandas as pd
+        except ImportError:
+            raise MissingExtraError("to_frame", "pandas", "data") from None
+        if any(np.ndim(slope) for by in self.values() for slope in by.values()):
+            raise ParameterError("to_frame", "slopes of an array of points", "a single point; to_xarray takes arrays")
+        frame = pd.DataFrame({by: {figure: float(self[figure][by]) for figure in self} for by in PARAMETERS})
+        frame.attrs["units"] = self.units
+        return frame
+
+    def to_xarray(self) -> xr.Dataset:
+        """A data set with a variable a figure over the dimension ``parameter`` and those of the points.
+
+        Raises
+        ------
+        MissingExtraError
+            Without xarray.
+        """
+        try:
+            import xarray as xr
+        except ImportError:
+            raise MissingExtraError("to_xarray", "xarray", "data") from None
+        points = [f"dim_{k}" for k in range(np.ndim(self["mean_speed"]["prepressure"]))]
+        return xr.Dataset(
+            {
+                figure: (["parameter", *points], np.stack([self[figure][by] for by in PARAMETERS]),
+                         {"units": " or ".join(dict.fromkeys(self.units[figure].values()))})
+                for figure in self
+            },
+            {"parameter": list(PARAMETERS)},
+        )  # fmt: skip
+
+
+def _unit_of(parameter: str) -> str:
+    return DRIVE_DOMAINS[parameter][1] if parameter in DRIVE_DOMAINS else SPECS[parameter].unit
+
+
+def _per(figure: str, parameter: str) -> str:
+    if parameter == "1":
+        return figure
+    return f"{figure}/{parameter}" if parameter.isalpha() else f"{figure}/({parameter})"
+
+
 def sensitivities(
-    motor: Motor,
+    motor: Motor | None = None,
     drive: Drive | None = None,
     *,
     tolerance: float = 1e-6,
     **levels: Unpack[LevelChoice],
-) -> dict[str, dict[str, Array]]:
+) -> Sensitivities:
     """Derivatives of an operating point's figures.
 
     The rotor's equation (38) is differentiated along its orbit together with the speed at which the orbit closes
@@ -75,7 +189,7 @@ def sensitivities(
 
     Returns
     -------
-    dict
+    Sensitivities
         ``[figure][parameter]`` for all of :data:`DIFFERENTIATED` and :data:`PARAMETERS`, in SI units (frequencies
         in Hz): what ``evaluate``'s figure changes by, per change of the parameter.  Amplitude and resonance follow
         prepressure and frequency difference as they do in ``evaluate``; under ``amplitude`` and
@@ -90,8 +204,10 @@ def sensitivities(
     ConvergenceError
         If the forced amplitude and the resonance do not settle.
     """
-    _, found = orbit_with_slopes(prepare(motor, drive, Levels(**levels), tolerance))
-    return {name: found[name] for name in DIFFERENTIATED}
+    case = prepare(motor, drive, Levels(**levels), tolerance)
+    _, found = orbit_with_slopes(case)
+    inputs = Inputs(case.motor, case.drive, case.levels, None, case.tolerance)
+    return Sensitivities({name: found[name] for name in DIFFERENTIATED}, inputs)
 
 
 def orbit_with_slopes(case: Case) -> tuple[Orbit, dict[str, dict[str, Array]]]:

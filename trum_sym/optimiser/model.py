@@ -145,7 +145,7 @@ class Model:
         self.evaluations += 1
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", ValidityWarning)
-            found = evaluate(self.motor, drive, **vars(self.levels), tolerance=tolerance).as_dict()
+            found = evaluate(self.motor, drive, **vars(self.levels), tolerance=tolerance).figures
             extra = self._closed(self._case(point[np.newaxis], tolerance))
         figures = {name: value for name, value in found.items() if isinstance(value, float)}
         figures["speed_deviation"] = figures["speed_volatility"] * abs(figures["mean_speed"])

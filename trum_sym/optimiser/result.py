@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, fields, replace
+from typing import TYPE_CHECKING, Any
 
-from trum_sym.inputs.units import parse_unit
+from trum_sym.inputs.shown import full, quantity_of, readable
+from trum_sym.inputs.units import ARCSEC
+from trum_sym.model.inputs import Inputs, remarks_of, units_of
 from trum_sym.output.digits import with_error
-from trum_sym.output.json_text import finite, json_text
-from trum_sym.quantities import QUANTITIES
+from trum_sym.output.json_text import finite
+from trum_sym.output.result import Result
+from trum_sym.text import one_line
 from trum_sym.values import Value
 
 if TYPE_CHECKING:
     from trum_sym.optimiser.solve import Problem
 
-__all__ = ["Evidence", "Optimum", "as_json_text", "as_table"]
+__all__ = ["Evidence", "Optimum"]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -57,7 +60,7 @@ class Evidence(Value):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Optimum(Value):
+class Optimum(Result, Value):
     """An operating point under constraints; SI units, frequencies in Hz, speeds in rad/s.
 
     Attributes
@@ -83,6 +86,8 @@ class Optimum(Value):
         Every figure of the point.
     problem : Problem
         What was solved, at the best pulse counts; for more questions of the same kind.
+    objective_unit : str
+        SI unit of ``objective`` and of the local optima.
     """
 
     status: str
@@ -102,40 +107,77 @@ class Optimum(Value):
     evidence: Evidence
     figures: Mapping[str, float]
     problem: Problem
+    objective_unit: str = "1"
 
-    def as_dict(self) -> dict[str, object]:
+    def __repr__(self) -> str:
+        return f"<Optimum {self.status}: {self.message}>"
+
+    def to_text(self, title: str = "") -> str:
+        """The answer as a table under a title, which is the motor's name if not given."""
+        return _as_table(self, title or one_line(self.problem.motor.name))
+
+    def _answer(self) -> dict[str, object]:
         """The answer by name, without ``figures`` and ``problem``; None for what has no meaning or is infinite."""
-        names = [field.name for field in fields(self) if field.name not in ("figures", "problem")]
+        hidden = ("figures", "problem")
+        names = [field.name for field in fields(self) if field.name not in hidden]
         found = {name: finite(getattr(self, name)) for name in names}
         evidence = {field.name: getattr(self.evidence, field.name) for field in fields(Evidence)}
         return {**found, "evidence": evidence}
 
+    @property
+    def inputs(self) -> Inputs:
+        """Motor, drive at the optimum, levels, and the tolerance at which it was checked."""
+        from trum_sym.optimiser.finish import TOLERANCE
 
-def as_json_text(optimum: Optimum) -> str:
-    """The answer as a JSON object; null where a figure has no meaning."""
-    return json_text(optimum.as_dict())
+        problem, place = self.problem, {}
+        if self.prepressure is not None:
+            names = ("prepressure", "frequency_difference", "on_periods", "periods", "switching_phase")
+            place = {name: getattr(self, name) for name in names}
+        return Inputs(problem.motor, replace(problem.drive, **place), problem.levels, None, TOLERANCE)
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What the figures do not say by themselves."""
+        return remarks_of(self.figures, float(self.problem.drive.load_torque)) if self.figures else ()
+
+    def to_dict(self) -> dict[str, Any]:
+        """Inputs, answer, every figure, remarks and units by name, in SI units: what ``optimize --json`` prints."""
+        problem, inputs = self.problem, self.inputs.record()
+        if self.prepressure is None:
+            inputs["drive"] = {**inputs["drive"], "prepressure": None, "frequency_difference": None}
+        found = {
+            **inputs,
+            **self.figures,
+            **self._answer(),
+            "searched": {
+                name: [float(low), float(high)]
+                for name, low, high in zip(problem.box.names, problem.box.low, problem.box.high, strict=True)
+            },
+            "constraints": [str(constraint) for constraint in problem.constraints],
+            "remarks": self.remarks,
+        }
+        return {**found, "units": units_of(found)}
 
 
 def _shown(name: str, figures: Mapping[str, float]) -> tuple[str, str, str, str]:
-    label, unit, shown = QUANTITIES[name]
-    scale = parse_unit(unit).to_si(1.0) / parse_unit(shown).to_si(1.0)
-    value, error = scale * figures[name], figures.get(f"{name}_error")
-    text = (f"{value:.8g}", "") if error is None else with_error(value, scale * error)
+    label, _, shown = quantity_of(name)[:3]
+    value, error = readable(name, figures[name]), figures.get(f"{name}_error")
+    text = (f"{value:.8g}", "") if error is None else with_error(value, readable(name, error))
     return label, *text, "" if shown == "1" else shown
 
 
-def as_table(optimum: Optimum, title: str) -> str:
-    """The answer as a table."""
+def _as_table(optimum: Optimum, title: str) -> str:
     from tabulate import tabulate
 
     heading = f"{title}\n\n{optimum.status}: {optimum.message}"
     if optimum.prepressure is None:
         return heading
     rows: list[tuple[str, str, str, str]] = [  # the place so that others compute the same figures from it
-        ("prepressure", f"{optimum.prepressure:.12g}", "", "N"),
-        ("frequency difference", f"{optimum.frequency_difference:.12g}", "", "Hz"),
-        ("on periods of periods", f"{optimum.on_periods} of {optimum.periods}", "", ""),
-        ("switching phase", f"{optimum.switching_phase:.12g}", "", "rad"),
+        ("prepressure", full(optimum.prepressure), "", "N"),
+        ("frequency difference", full(optimum.frequency_difference or 0.0), "", "Hz"),
+        ("periods in a cycle", f"{optimum.periods}", "", ""),
+        ("of them on", f"{optimum.on_periods}", "", ""),
+        ("switching phase", full(optimum.switching_phase or 0.0), "", "rad"),
     ]
     names = (
         "mean_speed",
@@ -148,14 +190,26 @@ def as_table(optimum: Optimum, title: str) -> str:
         "contact_fraction",
     )
     rows += [_shown(name, optimum.figures) for name in names]
-    rows.append(("constraint violation", f"{optimum.constraint_violation:.1e}", "", ""))
+    rows.append(("constraint violation, of its bound", f"{optimum.constraint_violation:.1e}", "", ""))
     evidence = optimum.evidence
     grid = " x ".join(map(str, evidence.map_shape))
     notes = [
         f"map of {grid} places; basins meeting the constraints: {evidence.basins}, starts of IPOPT: {evidence.starts}",
-        f"distinct local optima: {', '.join(f'{value:.6g}' for value in evidence.optima) or 'none'}",
+        f"distinct local optima: {_optima(optimum)}",
     ]
     if evidence.pulses > 1:
         notes.append(f"pulse counts: {evidence.pulses} pairs, {evidence.pruned} ruled out by a coarse map")
     table = tabulate(rows, disable_numparse=True, colalign=("left", "right", "left", "left"), tablefmt="plain")
-    return "\n".join([heading, "", table, "", *notes])
+    remarks = [f"remark: {remark}" for remark in optimum.remarks]
+    return "\n".join([heading, "", table, "", *remarks, *[""] * bool(remarks), *notes])
+
+
+def _optima(optimum: Optimum) -> str:
+    """The distinct local optima in the objective's unit that people read."""
+    if not optimum.evidence.optima:
+        return "none"
+    unit, scale = optimum.objective_unit, 1.0
+    if unit == "rad/s":
+        unit, scale = "arcsec/s", 1 / ARCSEC
+    values = ", ".join(f"{scale * value:.6g}" for value in optimum.evidence.optima)
+    return values if unit == "1" else f"{values} {unit}"

@@ -12,8 +12,9 @@ from typing import Any, Unpack
 import numpy as np
 
 from trum_sym.errors import ParameterError, ValidityWarning
-from trum_sym.inputs.drive import DRIVE_DOMAINS, Drive
+from trum_sym.inputs.drive import BOX_NAMES, DRIVE_DOMAINS, Drive
 from trum_sym.inputs.motor import Motor
+from trum_sym.inputs.motor_file import load_motor
 from trum_sym.inputs.points import check_point, check_single, numbers_of, one_number
 from trum_sym.inputs.units import ARCSEC
 from trum_sym.model.levels import LevelChoice, Levels
@@ -22,7 +23,7 @@ from trum_sym.optimiser.expressions import Constraint, Expression, parse_constra
 from trum_sym.optimiser.model import Box, functions
 from trum_sym.optimiser.result import Evidence, Optimum
 from trum_sym.optimiser.solve import Answer, Problem, solve
-from trum_sym.paper.published import BOX
+from trum_sym.output.progress import shown
 
 __all__ = [
     "OBJECTIVES",
@@ -53,23 +54,26 @@ Bound = float | str | tuple[float | str, float | str]
 
 
 def optimize(
-    motor: Motor,
+    motor: Motor | None = None,
     drive: Drive | None = None,
     *,
     objective: str = "volatility",
     target_speed: float | str | None = None,
     bounds: Mapping[str, Bound] | None = None,
     constraints: Sequence[str] = (),
+    progress: bool = False,
     **levels: Unpack[LevelChoice],
 ) -> Optimum:
     """The operating point of least objective in a box, under constraints.
 
     Parameters
     ----------
-    motor : Motor
+    motor : Motor, optional
+        TRUM-60 if not given.
         Of single values, no arrays.
     drive : Drive, optional
-        What does not vary: load torque, start, and whatever ``bounds`` does not name.  By default the paper's Table 3.
+        What does not vary: load torque, start, pulse counts.  By default the paper's Table 3.  Its prepressure and
+        frequency difference do not count: ``bounds`` holds or frees them.
     objective : str
         ``"volatility"`` (speed_volatility, eq. 40), ``"q-volatility"`` (the magnitude of Q_vib, eq. 44),
         ``"speed-error"`` (distance of the mean speed from the target, and among points without, the volatility),
@@ -78,10 +82,13 @@ def optimize(
     target_speed : float or str, rad/s, optional
         Mean speed that the point is to have; text may carry a unit, ``"633 arcsec/s"``.  Its sign is the direction.
     bounds : mapping, optional
-        ``{"prepressure": (160, 210), "frequency_difference": ("2.8 kHz", "3.3 kHz")}`` is the default.  One number
-        holds a variable there.  ``periods`` and ``on_periods`` may have bounds too and are enumerated.
+        ``{"prepressure": (160, 210), "frequency_difference": ("2.8 kHz", "3.3 kHz")}``: by default the ranges that the
+        motor file states in ``[box]``.  One number holds a variable there.  ``periods`` and ``on_periods`` may have
+        bounds too and are enumerated.
     constraints : sequence of str
         ``"stall_torque >= 0.35 N*m"``: arithmetic on figures, ``>=``, ``<=`` or ``==``, a value or more arithmetic.
+    progress : bool
+        Whether to show a bar on the standard error while pulse counts are gone through.
     contact, resonance, foundation, amplitude
         As for :func:`trum_sym.evaluate`.
 
@@ -101,14 +108,17 @@ def optimize(
     Everything below works in SI on :class:`trum_sym.optimiser.solve.Problem`; ``solve(problem)`` returns an ``Answer``
     for one pair of pulse counts, and takes a map and a model from a problem that differs in bounds of constraints only.
     """
+    motor = load_motor() if motor is None else motor
     drive = Drive() if drive is None else drive
     check_scalars(motor, drive)
     target = None if target_speed is None else one_number("target_speed", target_speed, "rad/s")
-    box, pulses, drive = box_of(drive, bounds)
+    box, pulses, drive = box_of(motor, drive, bounds)
     aim, limits = aim_of(objective, target, constraints)
     problem = Problem(motor, drive, Levels(**levels), box, aim, limits)
     warn_outside_fit(problem)
-    best, chosen, pruned, evaluations = _over_pulses(problem, pulses)
+    best, chosen, pruned, evaluations = _over_pulses(
+        problem, pulses, ("maps", "pulse counts") if progress else (None, None)
+    )
     return _optimum(objective, target, chosen, best, len(pulses), pruned, evaluations)
 
 
@@ -118,11 +128,12 @@ def check_scalars(motor: Motor, drive: Drive) -> None:
     check_single(numbers_of(motor, drive), "one number; optimize each case by itself")
 
 
-def box_of(drive: Drive, bounds: Mapping[str, Bound] | None) -> tuple[Box, list[tuple[int, int]], Drive]:
+def box_of(motor: Motor, drive: Drive, bounds: Mapping[str, Bound] | None) -> tuple[Box, list[tuple[int, int]], Drive]:
     """The box of what varies, the pairs of periods and on_periods, and the drive with what is held."""
     if bounds is not None and not isinstance(bounds, Mapping):
         raise ParameterError("bounds", bounds, "a mapping of names to (low, high)")
-    given: dict[str, Any] = {**BOX, **(bounds or {})}
+    stated: dict[str, Any] = {name: (allowed.low, allowed.high) for name, allowed in motor.box.items()}
+    given: dict[str, Any] = {**stated, **(bounds or {})}
     ranges: dict[str, tuple[float, float]] = {}
     held: dict[str, float] = {}
     for name, value in given.items():
@@ -132,11 +143,17 @@ def box_of(drive: Drive, bounds: Mapping[str, Bound] | None) -> tuple[Box, list[
             ranges[name] = _range(name, value)
         else:
             held[name] = _checked(name, name, value)
+    for name in BOX_NAMES:
+        if name not in given:
+            allowed = "a range to search, or a value that holds it: the motor file states no range in [box]"
+            raise ParameterError(f"bounds of {name}", "none", allowed)
     continuous: dict[str, Any] = {name: value for name, value in held.items() if name not in _PULSES}
     drive = replace(drive, **continuous)
     names = tuple(name for name in _VARIABLES if name in ranges)
     if not names:
-        raise ParameterError("bounds", "every variable held", "a range for prepressure or frequency_difference")
+        raise ParameterError(
+            "bounds", "every variable held", "a range for prepressure, frequency_difference or switching_phase"
+        )
     ends = np.array([ranges[name] for name in names])
     return Box(names, ends[:, 0], ends[:, 1]), _pulse_counts(drive, ranges, held), drive
 
@@ -222,14 +239,16 @@ def warn_outside_fit(problem: Problem) -> None:
     if low < least or high > most:
         where = f"{low:g} to {high:g} N" if high > low else f"{low:g} N"
         warnings.warn(
-            f"bounds of prepressure: {where} reaches outside {least:g} to {most:g} N, where eq. 8's amplitude was "
+            f"prepressure: {where} reaches outside {least:g} to {most:g} N, where eq. 8's amplitude was "
             "measured; beyond, the amplitude and every figure of the answer are extrapolated",
             ValidityWarning,
             stacklevel=3,
         )
 
 
-def _over_pulses(problem: Problem, pulses: list[tuple[int, int]]) -> tuple[Answer, Problem, int, int]:
+def _over_pulses(
+    problem: Problem, pulses: list[tuple[int, int]], bars: tuple[str | None, str | None]
+) -> tuple[Answer, Problem, int, int]:
     """The best answer over all pairs of periods and on_periods.
 
     A coarse map ranks the pairs; those whose estimate is worse than the best answer by a margin are not solved.
@@ -246,7 +265,7 @@ def _over_pulses(problem: Problem, pulses: list[tuple[int, int]]) -> tuple[Answe
     high = np.array([constraint.high for constraint in problem.constraints])
     rows = functions([problem.objective, *(constraint.expression for constraint in problem.constraints)])
     ranked, evaluations = [], 0
-    for pair in pulses:
+    for pair in shown(pulses, bars[0]):
         model = at(pair).model()
         coarse = chart(model, _COARSE)
         values = rows.values(coarse.figures)[:, 1:]
@@ -262,7 +281,7 @@ def _over_pulses(problem: Problem, pulses: list[tuple[int, int]]) -> tuple[Answe
     ranked.sort(key=lambda entry: (entry[0], entry[2] if entry[0] else 0.0, entry[1]))
     best: tuple[Answer, Problem] | None = None
     solved = 0
-    for missing, estimate, missed, pair in ranked:
+    for missing, estimate, missed, pair in shown(ranked, bars[1]):
         if best is not None and best[0].status == "solved" and best[0].best is not None:
             most = best[0].best.objective + _MARGIN * abs(best[0].best.objective)
             if (missing and missed > _BEYOND) or estimate > most:
@@ -351,6 +370,7 @@ def _optimum(
         evidence=evidence,
         figures=figures,
         problem=problem,
+        objective_unit="rad/s" if objective == "speed-error" else problem.objective.unit,
     )
 
 

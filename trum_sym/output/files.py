@@ -65,6 +65,19 @@ def check_target(name: str, target: Path, suffixes: tuple[str, ...] = SUFFIXES) 
         raise ParameterError(name, str(target), "a file in a folder that exists and can be written to")
 
 
+def check_new(name: str, target: Path, suffixes: tuple[str, ...] = SUFFIXES, force: bool = False) -> None:
+    """As :func:`check_target`; and refuse a file that exists, unless it is to be replaced.
+
+    Raises
+    ------
+    ParameterError
+        As there, or for a file that exists.
+    """
+    check_target(name, target, suffixes)
+    if target.exists() and not force:
+        raise ParameterError(name, str(target), "a new file, or --force to replace it: this one exists")
+
+
 def check_packages(target: Path) -> None:
     """Refuse a data set's file for which a package is missing.
 

@@ -14,6 +14,7 @@ __all__ = [
     "counted",
     "filtered",
     "ledger_page",
+    "ledger_path",
     "load_ledger",
     "select",
     "table",
@@ -30,11 +31,20 @@ _PLACES = (
 )
 
 
-def _read(name: str) -> str:
+def _place(name: str) -> Path:
     for folder in _PLACES:
         if (folder / name).is_file():
-            return (folder / name).read_text("utf-8")
+            return folder / name
     raise FileNotFoundError(f"no {name} in {' or '.join(str(folder) for folder in _PLACES)}")
+
+
+def _read(name: str) -> str:
+    return _place(name).read_text("utf-8")
+
+
+def ledger_path() -> Path:
+    """Where the ledger's page lies."""
+    return _place("ledger.html")
 
 
 def ledger_page() -> str:

@@ -1,4 +1,4 @@
-"""A tolerance study as a picture: how each output is distributed, and its Sobol indices with their intervals."""
+"""A study of spread as a picture: how each output is distributed, and its Sobol indices with their intervals."""
 
 from __future__ import annotations
 
@@ -14,7 +14,8 @@ from trum_sym.plots.style import without_tex
 from trum_sym.quantities import QUANTITIES
 from trum_sym.text import one_line
 from trum_sym.uncertainty.propagation import CONFIDENCE, Estimate, Indices
-from trum_sym.uncertainty.result import BALANCED, MISSED, Study
+from trum_sym.uncertainty.result import BALANCED, MISSED
+from trum_sym.uncertainty.study import Study
 from trum_sym.uncertainty.tables import label, shown
 
 if TYPE_CHECKING:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
-from typing import Unpack
+from typing import Any, Unpack
 
 import numpy as np
 
@@ -15,16 +15,19 @@ from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
 from trum_sym.inputs.points import one_number
+from trum_sym.inputs.shown import full
 from trum_sym.inputs.units import ARCSEC
+from trum_sym.model.inputs import Inputs, remarks_of, units_of
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.optimiser.chart import chart
 from trum_sym.optimiser.expressions import Constraint, Expression, parse_expression
-from trum_sym.optimiser.finish import Finished
+from trum_sym.optimiser.finish import TOLERANCE, Finished
 from trum_sym.optimiser.model import Model, functions
 from trum_sym.optimiser.solve import Answer, Problem, solve
-from trum_sym.output.json_text import json_text
 from trum_sym.output.progress import shown
+from trum_sym.output.result import Result
 from trum_sym.studies.posed import Bound, posed
+from trum_sym.text import one_line
 from trum_sym.values import Value
 
 __all__ = ["AGAINST", "ParetoFront", "ParetoPoint", "pareto"]
@@ -53,7 +56,7 @@ class ParetoPoint(Value):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class ParetoFront(Value):
+class ParetoFront(Result, Value):
     """A front, from the least ``objective`` to the best ``against``.
 
     Attributes
@@ -70,6 +73,8 @@ class ParetoFront(Value):
     asked, evaluations : int
         Problems solved, orbits computed.
     message : str
+    inputs : Inputs
+        What all points share.
     """
 
     status: str
@@ -81,48 +86,68 @@ class ParetoFront(Value):
     asked: int
     evaluations: int
     message: str
+    inputs: Inputs = field(repr=False)
 
-    def as_json_text(self) -> str:
-        """One JSON object; SI units."""
+    def __repr__(self) -> str:
+        return f"<ParetoFront {self.status}: {self.message}>"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Inputs, points with their drives and remarks, and units by name, in SI units."""
         keys = [name for name in ParetoPoint.__dataclass_fields__ if name != "figures"]
-        points = [{key: getattr(point, key) for key in keys} for point in self.points]
-        record = {name: getattr(self, name) for name in self.__dataclass_fields__ if name != "points"}
-        return json_text({**record, "points": points})
+        load = float(self.inputs.drive.load_torque)
+        points = [
+            {
+                **{key: getattr(point, key) for key in keys},
+                "drive": {
+                    name: point.figures[name] for name in ("prepressure", "frequency_difference", "switching_phase")
+                },
+                "remarks": remarks_of(point.figures, load),
+            }
+            for point in self.points
+        ]
+        own = {name: getattr(self, name) for name in self.__dataclass_fields__ if name not in ("points", "inputs")}
+        found = {**self.inputs.record(), **own, "points": points, "remarks": []}
+        return {**found, "units": units_of(found)}
 
-    def as_table(self, title: str) -> str:
+    def to_text(self, title: str = "") -> str:
         """For people."""
         from tabulate import tabulate
 
         rows = [
             (
+                f"{number}",
                 f"{p.objective:.6g}",
                 f"{p.against:.6g}",
-                f"{p.prepressure:.6g}",
-                f"{p.frequency_difference:.7g}",
+                f"{full(p.prepressure)}",
+                f"{full(p.frequency_difference)}",
                 f"{p.mean_speed / ARCSEC:.6g}",
                 f"{100 * p.speed_volatility:.5g}",
                 f"{p.stall_torque:.5g}",
             )
-            for p in self.points
+            for number, p in enumerate(self.points, 1)
         ]
         headers = (
+            "#",
             self.objective,
             self.against,
             "prepressure N",
-            "difference Hz",
+            "frequency difference Hz",
             "mean arcsec/s",
             "volatility %",
             "stall N m",
         )
-        lines = [title, "", f"{self.status}: {self.message}"]
+        lines = [title or one_line(self.inputs.motor.name), "", f"{self.status}: {self.message}"]
         if rows:
-            lines += ["", tabulate(rows, headers, disable_numparse=True, colalign=("right",) * 7)]
+            lines += ["", tabulate(rows, headers, disable_numparse=True, colalign=("right",) * 8)]
+        load = float(self.inputs.drive.load_torque)
+        for number, point in enumerate(self.points, 1):
+            lines += [f"remark on #{number}: {remark}" for remark in remarks_of(point.figures, load)]
         lines += [f"gap: nothing between {self.against} {low:.6g} and {high:.6g}" for low, high in self.gaps]
         return "\n".join([*lines, "", f"{self.asked} problems, {self.evaluations} orbits computed"])
 
 
 def pareto(
-    motor: Motor,
+    motor: Motor | None = None,
     drive: Drive | None = None,
     *,
     objective: str = "volatility",
@@ -187,6 +212,7 @@ def pareto(
         asked=len(answers),
         evaluations=walk.model.evaluations,
         message=message,
+        inputs=Inputs(problem.motor, problem.drive, problem.levels, None, TOLERANCE),
     )
 
 

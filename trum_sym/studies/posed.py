@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from trum_sym.errors import ParameterError
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
+from trum_sym.inputs.motor_file import load_motor
 from trum_sym.model.levels import Levels
 from trum_sym.optimiser.search import Bound, aim_of, box_of, check_scalars, warn_outside_fit
 from trum_sym.optimiser.solve import Problem
@@ -15,7 +16,7 @@ __all__ = ["Bound", "posed"]
 
 
 def posed(
-    motor: Motor,
+    motor: Motor | None,
     drive: Drive | None,
     levels: Levels,
     objective: str,
@@ -30,11 +31,14 @@ def posed(
     ParameterError
         For bad input, and for a range of pulse counts.
     """
+    motor = load_motor() if motor is None else motor
     drive = Drive() if drive is None else drive
     check_scalars(motor, drive)
-    box, pulses, drive = box_of(drive, bounds)
+    box, pulses, drive = box_of(motor, drive, bounds)
     if len(pulses) != 1:
-        raise ParameterError("bounds", f"{len(pulses)} pairs of periods and on_periods", "one value of each in a study")
+        raise ParameterError(
+            "periods", f"{len(pulses)} pairs of periods and on_periods", "one value of each in a study"
+        )
     drive = Drive(**{**drive.numbers(), "start": drive.start, "periods": pulses[0][0], "on_periods": pulses[0][1]})  # type: ignore[arg-type]
     aim, limits = aim_of(objective, target, constraints)
     problem = Problem(motor, drive, levels, box, aim, limits)

@@ -1,11 +1,11 @@
-"""Robust points: the best worst case over tolerances or samples of what is not known exactly."""
+"""Robust points: the best worst case over spreads or samples of what is not known exactly."""
 
 from __future__ import annotations
 
 import itertools
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any, TypeVar, Unpack
 
@@ -17,22 +17,26 @@ from trum_sym.inputs.drive import DRIVE_DOMAINS, Drive
 from trum_sym.inputs.motor import Motor, spec
 from trum_sym.inputs.plausible import unquestioned
 from trum_sym.inputs.points import one_number
+from trum_sym.inputs.shown import full
+from trum_sym.inputs.spreads import Spread, read_spread
 from trum_sym.inputs.units import ARCSEC
+from trum_sym.model.inputs import Inputs, remarks_of, units_of
 from trum_sym.model.levels import LevelChoice, Levels
+from trum_sym.optimiser.finish import TOLERANCE
 from trum_sym.optimiser.model import Model
 from trum_sym.optimiser.solve import Problem, solve
-from trum_sym.output.json_text import json_text
 from trum_sym.output.progress import shown
+from trum_sym.output.result import Result
 from trum_sym.studies.minimax import Minimax, Outcome
 from trum_sym.studies.posed import Bound, posed
+from trum_sym.text import one_line
 from trum_sym.values import Value
 
 __all__ = ["RobustCase", "RobustPoint", "robust"]
 
-_MOST_TOLERANCES, _MOST_SAMPLES = 6, 200
-_INSIDE = 64  # random cases inside the tolerances by which corners are checked
+_MOST_SPREADS, _MOST_SAMPLES = 6, 200
+_INSIDE = 64  # random cases inside the spreads by which corners are checked
 _SEED = 1
-Tolerance = float | str | tuple[float | str, float | str]
 _T = TypeVar("_T")
 
 
@@ -49,7 +53,7 @@ class RobustCase(Value):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class RobustPoint(Value):
+class RobustPoint(Result, Value):
     """The point of a box whose worst case is the best.
 
     Attributes
@@ -62,7 +66,7 @@ class RobustPoint(Value):
     worst_of_nominal_optimum : float
         What the point that :func:`trum_sym.optimize` finds for the nominal case has as its worst; NaN if it finds none.
     worst_inside : float
-        The worst of 64 random cases inside the tolerances: more than ``worst`` if a corner is not the worst; NaN for
+        The worst of 64 random cases inside the spreads: more than ``worst`` if a corner is not the worst; NaN for
         samples.
     prepressure, frequency_difference, switching_phase : float
     cases : tuple of RobustCase
@@ -71,6 +75,8 @@ class RobustPoint(Value):
         The largest in any case, over the constraint's bound.
     evaluations : int
     message : str
+    inputs : Inputs
+        Motor, drive at the point, levels.
     """
 
     status: str
@@ -86,22 +92,38 @@ class RobustPoint(Value):
     cases: tuple[RobustCase, ...]
     evaluations: int
     message: str
+    inputs: Inputs = field(repr=False)
 
-    def as_json_text(self) -> str:
-        """One JSON object; SI units."""
-        record = {name: getattr(self, name) for name in self.__dataclass_fields__ if name != "cases"}
-        keys = RobustCase.__dataclass_fields__
-        cases = [{key: getattr(case, key) for key in keys} for case in self.cases]
-        return json_text({**record, "cases": cases})
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What the figures of the cases do not say by themselves."""
+        return tuple(
+            f"{_words(case.changed)}: {remark}"
+            for case in self.cases
+            for remark in remarks_of(
+                {"mean_speed": case.mean_speed, "stall_torque": case.stall_torque},
+                case.changed.get("load_torque", float(self.inputs.drive.load_torque)),
+            )
+        )
 
-    def as_table(self, title: str) -> str:
+    def __repr__(self) -> str:
+        return f"<RobustPoint {self.status}: {self.message}>"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Inputs, the point, every case, remarks and units by name, in SI units."""
+        own = {name: getattr(self, name) for name in self.__dataclass_fields__ if name not in ("cases", "inputs")}
+        cases = [{key: getattr(case, key) for key in RobustCase.__dataclass_fields__} for case in self.cases]
+        found = {**self.inputs.record(), **own, "cases": cases, "remarks": self.remarks}
+        return {**found, "units": units_of(found)}
+
+    def to_text(self, title: str = "") -> str:
         """For people: the point, then every case."""
         from tabulate import tabulate
 
-        lines = [title, "", f"{self.status}: {self.message}"]
+        lines = [title or one_line(self.inputs.motor.name), "", f"{self.status}: {self.message}"]
         if math.isfinite(self.prepressure):
-            at = f"prepressure {self.prepressure:.7g} N, frequency difference {self.frequency_difference:.8g} Hz"
-            lines += ["", f"{at}, switching phase {self.switching_phase:.6g} rad"]
+            at = f"prepressure {full(self.prepressure)} N, frequency difference {full(self.frequency_difference)} Hz"
+            lines += ["", f"{at}, switching phase {full(self.switching_phase)} rad"]
             rows = [
                 (
                     _words(case.changed),
@@ -115,8 +137,9 @@ class RobustPoint(Value):
             ]
             headers = ("case", self.objective, "mean arcsec/s", "volatility %", "stall N m", "violation")
             lines += ["", tabulate(rows, headers, disable_numparse=True, colalign=("left", *["right"] * 5)), ""]
+            lines += [f"remark on {remark}" for remark in self.remarks]
             if math.isfinite(self.worst_inside):
-                lines.append(f"worst of {_INSIDE} random cases inside the tolerances: {self.worst_inside:.6g}")
+                lines.append(f"worst of {_INSIDE} random cases inside the spreads: {self.worst_inside:.6g}")
             if math.isfinite(self.worst_of_nominal_optimum):
                 lines.append(f"worst case of the nominal optimum: {self.worst_of_nominal_optimum:.6g}")
         return "\n".join([*lines, f"{self.evaluations} orbits computed"])
@@ -127,11 +150,11 @@ def _words(changed: Mapping[str, float]) -> str:
 
 
 def robust(
-    motor: Motor,
+    motor: Motor | None = None,
     drive: Drive | None = None,
     *,
     objective: str = "volatility",
-    tolerances: Mapping[str, Tolerance] | None = None,
+    spreads: Mapping[str, Spread] | None = None,
     samples: Sequence[Mapping[str, float | str]] | None = None,
     target_speed: float | str | None = None,
     bounds: Mapping[str, Bound] | None = None,
@@ -149,9 +172,10 @@ def robust(
     motor, drive, objective, target_speed, bounds, constraints, contact, resonance, foundation, amplitude
         As for :func:`trum_sym.optimize`; pulse counts have one value each.  With a target, volatility is the speed's
         standard deviation over the target's magnitude in every case.
-    tolerances : mapping
-        By name of the motor file, or ``load_torque``: a share of the value, ``0.1`` or ``"10 %"``, or the two ends,
-        ``("0.2", "0.3")``.  The cases are the nominal one and all corners; at most six.
+    spreads : mapping
+        By name of the motor file, or ``load_torque``: a share of the value, ``0.1`` or ``"10 %"``, two ends,
+        ``(0.2, 0.3)`` or ``"0.2:0.3"``, or None for the range that the motor file states.  The cases are the nominal
+        one and all corners; at most six.
     samples : sequence of mappings
         Instead: the cases themselves, each by the same names, ``[{"friction_coefficient": 0.22}, ...]``.
     progress : bool
@@ -170,7 +194,7 @@ def robust(
         raise ParameterError("target_speed", "none", "a speed in rad/s for the objective speed-error")
     aim, held = ("mean_speed", None) if error else (objective, target)
     problem = posed(motor, drive, Levels(**levels), aim, held, bounds, constraints)
-    ranges = _ranges(problem, tolerances, samples)
+    ranges = _ranges(problem, spreads, samples)
     cases = _cases(problem, ranges, samples)
     models = [_model(problem, case) for case in cases]
     task = Minimax(problem, models, target if error else None, held=target is not None and not error)
@@ -190,30 +214,30 @@ def robust(
     return _result(problem, objective, cases, found, nominal_optimum, inside, task.total())
 
 
-def _ranges(
-    problem: Problem, tolerances: Mapping[str, Tolerance] | None, samples: object
-) -> dict[str, tuple[float, float]]:
-    """Both ends of every tolerance, in SI."""
-    if (tolerances is None) == (samples is None):
-        both = "both tolerances and samples" if samples is not None else "neither tolerances nor samples"
-        raise ParameterError("tolerances", both, "one of the two")
-    if tolerances is None:
+def _ranges(problem: Problem, spreads: Mapping[str, Spread] | None, samples: object) -> dict[str, tuple[float, float]]:
+    """Both ends of every spread, in SI."""
+    if (spreads is None) == (samples is None):
+        both = "spreads and samples" if samples is not None else "neither spreads nor samples"
+        raise ParameterError("spreads", both, "one of the two")
+    if spreads is None:
         return {}
-    if not isinstance(tolerances, Mapping) or not 1 <= len(tolerances) <= _MOST_TOLERANCES:
-        raise ParameterError("tolerances", tolerances, f"1 to {_MOST_TOLERANCES} names with a share, or two ends")
+    if not isinstance(spreads, Mapping) or not 1 <= len(spreads) <= _MOST_SPREADS:
+        raise ParameterError("spreads", spreads, f"1 to {_MOST_SPREADS} names with a share, or two ends")
     found = {}
-    for name, given in tolerances.items():
+    for name, given in spreads.items():
         value = _nominal(problem, name)
-        if isinstance(given, tuple | list):
-            if len(given) != 2:
-                raise ParameterError(f"tolerance of {name}", given, "two numbers, low and high, or one share")
-            low, high = (_value(name, end) for end in given)
-        else:
-            share = one_number(f"tolerance of {name}", given, "1", Domain(low=0.0, high=1.0))
-            low, high = sorted((_value(name, value * (1 - share)), _value(name, value * (1 + share))))
-        if not low <= value <= high or low == high:
-            raise ParameterError(f"tolerance of {name}", f"{low:g} to {high:g}", f"low < high around {value:g}")
-        found[name] = (low, high)
+        domain, unit = _domain(name)
+        stated = getattr(problem.motor, name).spread() if name not in DRIVE_DOMAINS else None
+        spread = read_spread(name, given, value, unit, domain, stated)
+        if spread.kind != "uniform":
+            raise ParameterError(
+                f"spread of {name}", f"a {spread.kind} distribution", "two ends or a share: cases have ends"
+            )
+        if not spread.low <= value <= spread.high:
+            raise ParameterError(
+                f"spread of {name}", f"{spread.low:g} to {spread.high:g}", f"low < high around {value:g}"
+            )
+        found[name] = (spread.low, spread.high)
     return found
 
 
@@ -221,17 +245,21 @@ def _nominal(problem: Problem, name: str) -> float:
     if name == "load_torque":
         return float(problem.drive.load_torque)
     if name in DRIVE_DOMAINS:
-        raise ParameterError("tolerances", name, "names of the motor file, or load_torque")
+        raise ParameterError("spreads", name, "names of the motor file, or load_torque")
     if spec(name).domain.integer:
-        raise ParameterError("tolerances", name, "parameters that vary continuously")
+        raise ParameterError("spreads", name, "parameters that vary continuously")
     parameter = getattr(problem.motor, name)
     if parameter is None:
-        raise ParameterError("tolerances", name, "a parameter that the motor has; set it first")
+        raise ParameterError("spreads", name, "a parameter that the motor has; set it first")
     return float(parameter.value)
 
 
+def _domain(name: str) -> tuple[Domain, str]:
+    return DRIVE_DOMAINS[name] if name in DRIVE_DOMAINS else (spec(name).domain, spec(name).unit)
+
+
 def _value(name: str, given: float | str) -> float:
-    domain, unit = DRIVE_DOMAINS[name] if name in DRIVE_DOMAINS else (spec(name).domain, spec(name).unit)
+    domain, unit = _domain(name)
     return one_number(name, given, unit, domain)
 
 
@@ -285,12 +313,16 @@ def _result(
             constraint_violation=math.nan,
             cases=(),
             evaluations=evaluations,
+            inputs=Inputs(problem.motor, problem.drive, problem.levels, None, TOLERANCE),
             message="no point found that meets the constraints in every case, by map and searches from its best places",
         )
     drive = {**problem.drive.numbers(), **dict(zip(problem.box.names, found.point.tolist(), strict=True))}
     worst = max(found.objectives)
     alike = [case for case, value in zip(cases, found.objectives, strict=True) if value >= worst - 1e-4 * abs(worst)]
     named = " and at ".join(_words(case) for case in alike[:4]) + (" and others" if len(alike) > 4 else "")
+    at: dict[str, Any] = {
+        name: float(drive[name]) for name in ("prepressure", "frequency_difference", "switching_phase")
+    }
     return RobustPoint(
         status="solved",
         objective=objective,
@@ -298,7 +330,8 @@ def _result(
         nominal=found.objectives[0],
         worst_of_nominal_optimum=nominal_optimum,
         worst_inside=inside,
-        **{name: float(drive[name]) for name in ("prepressure", "frequency_difference", "switching_phase")},
+        **at,
+        inputs=Inputs(problem.motor, replace(problem.drive, **at), problem.levels, None, TOLERANCE),
         constraint_violation=max(found.violations),
         evaluations=evaluations,
         cases=tuple(

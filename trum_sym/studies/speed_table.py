@@ -13,13 +13,14 @@ from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
 from trum_sym.inputs.points import one_number
+from trum_sym.model.inputs import Inputs
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.optimiser.chart import chart
 from trum_sym.optimiser.model import Model
 from trum_sym.output.progress import said
 from trum_sym.studies.posed import Bound, posed
 from trum_sym.studies.speed_table_result import Gap, Segment, SpeedTable
-from trum_sym.studies.table_builder import Builder, TableEntry
+from trum_sym.studies.table_builder import TOLERANCE, Builder, TableEntry
 
 __all__ = ["speed_table"]
 
@@ -29,7 +30,7 @@ _COUNT = Domain(low=2, low_open=False, high=1000, high_open=False, integer=True)
 
 
 def speed_table(
-    motor: Motor,
+    motor: Motor | None = None,
     drive: Drive | None = None,
     *,
     slowest: float | str,
@@ -71,12 +72,16 @@ def speed_table(
     MissingExtraError
         Without CasADi.
     """
+    if isinstance(slowest, str) and isinstance(fastest, str):
+        said_slowest, said_fastest = slowest, fastest
+    else:
+        said_slowest, said_fastest = f"{slowest} rad/s", f"{fastest} rad/s"
     low, high = (
         one_number(name, value, "rad/s", Domain(low=0.0))
         for name, value in (("slowest", slowest), ("fastest", fastest))
     )
     if low >= high:
-        raise ParameterError("slowest", f"{low:g} rad/s", f"less than fastest, {high:g} rad/s")
+        raise ParameterError("slowest", said_slowest, f"less than fastest, {said_fastest}")
     count = int(one_number("points", points, "1", _COUNT))
     error = one_number("error", error, "1", Domain(low=1e-6, low_open=False, high=0.5, high_open=False))
     choice("direction", direction, _DIRECTIONS)
@@ -95,7 +100,7 @@ def speed_table(
     table = Builder(model, known, problem.constraints, speeds, low, error, say)
     segments = tuple(_segment(model, entries) for entries in table.build())
     return SpeedTable(
-        motor=motor.name,
+        motor=problem.motor.name,
         drive=problem.drive,
         variables=problem.box.names,
         segments=segments,
@@ -104,6 +109,7 @@ def speed_table(
         largest_error=table.largest_error,
         floor=low,
         evaluations=model.evaluations,
+        inputs=Inputs(problem.motor, problem.drive, problem.levels, None, TOLERANCE),
         reachable=(float(np.nanmin(found)), float(np.nanmax(found))),
     )
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from os import PathLike
+from typing import Any
 
 import numpy as np
 
@@ -14,6 +15,8 @@ from trum_sym.inputs.choices import path_of
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.points import one_number
 from trum_sym.inputs.units import ARCSEC
+from trum_sym.model.inputs import Inputs, units_of
+from trum_sym.output.result import Result
 from trum_sym.text import one_line
 from trum_sym.values import Value
 
@@ -45,7 +48,7 @@ class Gap(Value):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class SpeedTable(Value):
+class SpeedTable(Result, Value):
     """The drive against the mean speed.
 
     Attributes
@@ -70,6 +73,8 @@ class SpeedTable(Value):
         Lowest and highest mean speed on the map of the box, rad/s.
     evaluations : int
         Orbits computed.
+    inputs : Inputs
+        Motor, drive, levels, and the tolerance of the orbits.
     """
 
     motor: str
@@ -82,9 +87,21 @@ class SpeedTable(Value):
     floor: float
     reachable: tuple[float, float]
     evaluations: int
+    inputs: Inputs = field(repr=False)
 
     def __len__(self) -> int:
         return sum(segment.speed.size for segment in self.segments)
+
+    def __repr__(self) -> str:
+        return f"<SpeedTable {one_line(self.motor)}, {len(self)} entries, {len(self.gaps)} gaps>"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Inputs, segments, every entry as a point, gaps and units by name, in SI units."""
+        return _as_dict(self)
+
+    def to_text(self) -> str:
+        """The segments, the gaps, and how it was checked."""
+        return _as_text(self)
 
     def held(self) -> str:
         """What does not vary of prepressure and frequency difference, in words."""
@@ -156,3 +173,63 @@ class SpeedTable(Value):
             as_csv(self.about(), self.columns(), rows) if csv else as_c(path.stem, self.about(), self.columns(), rows)
         )
         write_bytes(name, text.encode(), path)
+
+
+def _as_text(table: SpeedTable) -> str:
+    """For people: the segments, the gaps, and how it was checked."""
+    from tabulate import tabulate
+
+    rows = []
+    for number, segment in enumerate(table.segments, 1):
+        ends = [f"{value:.6g}" for value in (segment.speed[[0, -1]] / ARCSEC)]
+        drives = [f"{column[0]:.7g} to {column[-1]:.7g}" for column in table.values(segment)]
+        rows.append((number, segment.speed.size, *ends, *drives))
+    headers = (
+        "segment",
+        "entries",
+        "from arcsec/s",
+        "to arcsec/s",
+        *(f"{name} {unit}" for name, unit in table.columns().items()),
+    )
+    low, high = (speed / ARCSEC for speed in table.reachable)
+    body = (
+        [tabulate(rows, headers, disable_numparse=True, colalign=("right",) * len(headers))] if rows else ["no entries"]
+    )
+    return "\n".join(
+        [
+            *table.about()[:2],
+            "",
+            *body,
+            "",
+            *table.about()[2:],
+            f"mean speeds on the map of the box: {low:.6g} to {high:.6g} arcsec/s; {table.evaluations} orbits computed",
+        ]
+    )
+
+
+def _as_dict(table: SpeedTable) -> dict[str, Any]:
+    record = {
+        **table.inputs.record(),
+        "variables": list(table.variables),
+        "error": table.error,
+        "largest_error": table.largest_error,
+        "floor": table.floor,
+        "reachable": list(table.reachable),
+        "gaps": [{"low": gap.low, "high": gap.high, "reason": gap.reason} for gap in table.gaps],
+        "segments": [
+            {
+                "mean_speed": segment.speed.tolist(),
+                **{name: column.tolist() for name, column in zip(table.columns(), table.values(segment), strict=True)},
+                "speed_deviation": segment.deviation.tolist(),
+            }
+            for segment in table.segments
+        ],
+        "points": [
+            {"mean_speed": float(segment.speed[k]), "drive": {name: float(x[k]) for name, x in segment.drive.items()}}
+            for segment in table.segments
+            for k in range(segment.speed.size)
+        ],
+        "evaluations": table.evaluations,
+        "remarks": [f"{gap.low:.9g} to {gap.high:.9g} rad/s: {gap.reason}" for gap in table.gaps],
+    }
+    return {**record, "units": units_of(record)}

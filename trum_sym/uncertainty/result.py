@@ -1,4 +1,4 @@
-"""A tolerance study's result: the points that were computed, what spreads them, and which targets they miss."""
+"""A study of spread's result: the points that were computed, what spreads them, and which targets they miss."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from trum_sym.values import Value
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["BALANCED", "MISSED", "Study", "Target", "unit_of"]
+__all__ = ["BALANCED", "MISSED", "Drawn", "Target", "unit_of"]
 
 BALANCED, MISSED = "balanced", "missed"  # outputs of the study itself: 1 or 0
 _COMPARE = {">=": np.greater_equal, "<=": np.less_equal, ">": np.greater, "<": np.less}
@@ -48,8 +48,8 @@ class Target(Value):
 
 
 @dataclass(frozen=True, eq=False)
-class Study(Value):
-    """A tolerance study; SI units, frequencies in Hz, speeds in rad/s.
+class Drawn(Value):
+    """What a study of spread has drawn and found; SI units, frequencies in Hz, speeds in rad/s.
 
     Attributes
     ----------
@@ -104,7 +104,7 @@ class Study(Value):
         values = self.propagation.values
         return share(values[MISSED][:2] == 1 if target is None else target.missed(values[target.output][:2]))
 
-    def dataset(self) -> xr.Dataset:
+    def to_xarray(self) -> xr.Dataset:
         """Every computed point with its figures, units and settings.
 
         Raises
@@ -128,7 +128,7 @@ class Study(Value):
             variables[name] = (dims, found.values[name], {"units": output.unit, "long_name": output.label})
         variables["converged"] = (dims, self.settled, {"long_name": "the orbit met its tolerance"})
         attributes = {
-            "title": f"tolerance study of {one_line(self.motor.name)}",
+            "title": f"spread of {one_line(self.motor.name)}",
             "trum_sym": version("trum-sym"),
             "samples": self.samples,
             "seed": self.seed,

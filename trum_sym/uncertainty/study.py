@@ -1,40 +1,56 @@
-"""Tolerance study of a motor: how uncertain parameters of motor and drive spread an operating point's figures."""
+"""Spread of a motor: how uncertain parameters of motor and drive spread an operating point's figures."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, replace
-from typing import TYPE_CHECKING, Unpack
+from dataclasses import asdict, dataclass, replace
+from typing import Any, Unpack
 
 import numpy as np
 
 from trum_sym.errors import ParameterError
 from trum_sym.inputs.checks import Array, ArrayLike
 from trum_sym.inputs.choices import words
-from trum_sym.inputs.distributions import Distribution, checked, from_text
+from trum_sym.inputs.distributions import Distribution, checked
 from trum_sym.inputs.domain import Spec
 from trum_sym.inputs.drive import DRIVE_DOMAINS, Drive
 from trum_sym.inputs.motor import FLANGE, SPECS, Motor, spec
+from trum_sym.inputs.motor_file import load_motor
 from trum_sym.inputs.plausible import unquestioned
 from trum_sym.inputs.points import check_point, check_single, numbers_of, period_of
+from trum_sym.inputs.spreads import Spread, read_spread
 from trum_sym.inputs.units import parse_quantity
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.model.operating_point import evaluate
+from trum_sym.output.result import Result
 from trum_sym.quantities import QUANTITIES
+from trum_sym.text import one_line
 from trum_sym.uncertainty.propagation import check_design, propagate
-from trum_sym.uncertainty.result import BALANCED, MISSED, Study, Target
+from trum_sym.uncertainty.result import BALANCED, MISSED, Drawn, Target
+from trum_sym.uncertainty.tables import as_dict, as_text
 
-if TYPE_CHECKING:
-    pass
-
-__all__ = ["MOTOR_FILE", "Given", "tolerance"]
+__all__ = ["MOTOR_FILE", "Study", "spread"]
 
 MOTOR_FILE = "motor"  # stands for every parameter that the motor file gives a range or a distribution
 
-Given = Distribution | str | None
-
 _TARGET = re.compile(r"\s*(\w+)\s*(>=|<=|>|<)\s*(.+)", re.DOTALL)
+
+
+@dataclass(frozen=True, eq=False)
+class Study(Result, Drawn):
+    """A study of spread: what was drawn, and what it can be turned into."""
+
+    def __repr__(self) -> str:
+        return f"<Study of {one_line(self.motor.name)}: {', '.join(self.distributions)}; {self.samples} samples>"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Inputs, distributions, indices, targets, remarks and units by name, in SI units."""
+        return as_dict(self)
+
+    def to_text(self) -> str:
+        """All of it, in units that people read; intervals hold at 95 %."""
+        return as_text(self)
 
 
 def _spec_of(name: str) -> Spec:
@@ -46,7 +62,7 @@ def _spec_of(name: str) -> Spec:
 
         close = get_close_matches(name, [*SPECS, *DRIVE_DOMAINS], n=3, cutoff=0.5)
         hint = f"; close names: {', '.join(close)}" if close else ""
-        raise ParameterError("parameters", name, f"a number of the motor file or the drive{hint}")
+        raise ParameterError("spreads", name, f"a number of the motor file or the drive{hint}")
     return spec(name)
 
 
@@ -58,40 +74,29 @@ def _uncertain(motor: Motor, levels: Levels) -> dict[str, Distribution]:
 
 
 def _chosen(
-    motor: Motor, parameters: Mapping[str, Given] | Sequence[str] | None, levels: Levels
+    motor: Motor, drive: Drive, spreads: Mapping[str, Spread] | Sequence[str] | None, levels: Levels
 ) -> dict[str, Distribution]:
     """The uncertain parameters, as given."""
-    uncertain = _uncertain(motor, levels)
-    if parameters is None:
-        parameters = [MOTOR_FILE]
-    if isinstance(parameters, str) or not isinstance(parameters, Mapping | Sequence):
-        raise ParameterError("parameters", parameters, "names, or distributions by name")
-    if not isinstance(parameters, Mapping):
-        parameters = words("parameters", parameters, "names, or distributions by name") if len(parameters) else ()
-    given: dict[str, Given] = dict(parameters) if isinstance(parameters, Mapping) else dict.fromkeys(parameters)
+    uncertain, values = _uncertain(motor, levels), numbers_of(motor, drive)
+    if spreads is None:
+        spreads = [MOTOR_FILE]
+    if isinstance(spreads, str) or not isinstance(spreads, Mapping | Sequence):
+        raise ParameterError("spreads", spreads, "names, or spreads by name")
+    if not isinstance(spreads, Mapping):
+        spreads = words("spreads", spreads, "names, or spreads by name") if len(spreads) else ()
+    given: dict[str, Spread] = dict(spreads) if isinstance(spreads, Mapping) else dict.fromkeys(spreads)
     chosen: dict[str, Distribution] = {}
     for name, wish in given.items():
         if name == MOTOR_FILE and wish is None:
             chosen = {**uncertain, **chosen}
             continue
         if not isinstance(name, str):
-            raise ParameterError("parameters", name, "names of uncertain parameters")
+            raise ParameterError("spreads", name, "names of uncertain parameters")
         wanted = _spec_of(name)
-        if isinstance(wish, str):
-            wish = from_text(name, wish, wanted.unit)
-        elif wish is None:
-            wish = uncertain.get(name)
-            if wish is None:
-                raise ParameterError(
-                    name,
-                    "no distribution",
-                    "one, such as uniform:LOW:HIGH; the motor file gives neither range nor more",
-                )
-        elif not isinstance(wish, Distribution):
-            raise ParameterError(name, wish, "a Distribution or its text, such as normal:MEAN:STANDARD_DEVIATION")
-        chosen[name] = wish
+        value = float(values.get(name, np.nan))  # an optional one that the motor lacks has no share
+        chosen[name] = read_spread(name, wish, value, wanted.unit, wanted.domain, uncertain.get(name))
     if not chosen:
-        raise ParameterError("parameters", "none", "at least one; the motor file gives no range or distribution")
+        raise ParameterError("spreads", "none", "at least one; the motor file gives no range or distribution")
     return chosen
 
 
@@ -121,11 +126,11 @@ def _texts(name: str, given: object) -> tuple[str, ...]:
     return tuple(dict.fromkeys(given))
 
 
-def tolerance(
-    motor: Motor,
+def spread(
+    motor: Motor | None = None,
     drive: Drive | None = None,
     *,
-    parameters: Mapping[str, Given] | Sequence[str] | None = None,
+    spreads: Mapping[str, Spread] | Sequence[str] | None = None,
     samples: int = 1024,
     outputs: Sequence[str] = ("mean_speed", "speed_volatility"),
     target: str | Sequence[str] = (),
@@ -139,13 +144,15 @@ def tolerance(
 
     Parameters
     ----------
-    motor : Motor
+    motor : Motor, optional
+        TRUM-60 if not given.
         Of plain numbers, no arrays; so is the drive.
     drive : Drive, optional
         The paper's Table 3 if not given.
-    parameters : mapping or sequence of names, optional
-        The uncertain ones, of motor and drive, taken as independent: distributions by name, as :class:`Distribution`,
-        as text (``"normal:180:5"``), or None for what the motor file says.  ``"motor"`` stands for all that the motor
+    spreads : mapping or sequence of names, optional
+        The uncertain parameters, of motor and drive, taken as independent: by name a share of the value, ``0.1`` or
+        ``"10 %"``, two ends, ``(0.2, 0.3)`` or ``"0.2:0.3"``, a :class:`Distribution` or its text,
+        ``"normal:180:5"``, or None for what the motor file says.  ``"motor"`` stands for all that the motor
         file gives a range or a distribution, which is the default.
     samples : int
         Rows of the design, a power of two; samples (d + 2) points are computed for d parameters.
@@ -172,6 +179,7 @@ def tolerance(
         As :func:`trum_sym.evaluate` does.
     """
     samples, seed = check_design(samples, seed)
+    motor = load_motor() if motor is None else motor
     drive = Drive() if drive is None else drive
     check_point(motor, drive)
     period = period_of(sampling_period)
@@ -182,7 +190,7 @@ def tolerance(
     if not outputs:
         raise ParameterError("outputs", "none", f"at least one of {', '.join(QUANTITIES)}")
     targets = tuple(map(read_target, _texts("target", target)))
-    distributions = _chosen(motor, parameters, Levels(**levels))
+    distributions = _chosen(motor, drive, spreads, Levels(**levels))
     sampled = {name: checked(name, given, _spec_of(name)) for name, given in distributions.items()}
     nominal = evaluate(motor, drive, tolerance=tolerance, sampling_period=period, **levels)
     settled = []

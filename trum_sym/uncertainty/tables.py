@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 
-from trum_sym.inputs.units import parse_unit
-from trum_sym.output.json_text import json_text
+from trum_sym.inputs.shown import full, readable
+from trum_sym.model.inputs import units_of
 from trum_sym.quantities import QUANTITIES
 from trum_sym.text import one_line
 from trum_sym.uncertainty.propagation import CONFIDENCE, Estimate, Indices
-from trum_sym.uncertainty.result import BALANCED, MISSED, Study, unit_of
+from trum_sym.uncertainty.result import BALANCED, MISSED, Drawn, unit_of
 
-if TYPE_CHECKING:
-    pass
-
-__all__ = ["as_json_text", "as_text", "label", "shown"]
+__all__ = ["as_dict", "as_text", "label", "shown"]
 
 _NAMED = 3  # points of each kind that the text names; the JSON names all
 
@@ -31,7 +28,7 @@ def label(output: str) -> str:
 
 def shown(output: str, value: float) -> float:
     """A value in the unit that people read."""
-    return value / parse_unit(QUANTITIES[output].shown).to_si(1.0)
+    return readable(output, value)
 
 
 def _percent(share: Estimate) -> str:
@@ -45,13 +42,14 @@ def _range(estimate: Estimate) -> str:
 # --- Text ----------------------------------------------------------------------------------------
 
 
-def as_text(study: Study) -> str:
+def as_text(study: Drawn) -> str:
     """All of it, in units that people read; intervals hold at 95 %."""
     drive, count = study.drive, len(study.distributions)
     lines = [
         f"{one_line(study.motor.name)} at "
-        f"{drive.prepressure:g} N, {drive.frequency_difference:+g} Hz, {drive.on_periods:g} of "
-        f"{drive.periods:g} periods on, load {drive.load_torque:g} N m, start {drive.start}",
+        f"{full(drive.prepressure)} N, {'+' * (drive.frequency_difference >= 0)}{full(drive.frequency_difference)} Hz, "
+        f"{full(drive.on_periods)} of {full(drive.periods)} periods on, load {full(drive.load_torque)} N m, "
+        f"start {drive.start}",
         f"{count} uncertain parameter{'s' * (count != 1)}, {study.samples} samples, "
         f"{study.samples * (count + 2)} points, seed {study.seed}; intervals at {100 * CONFIDENCE:g} %",
         "",
@@ -73,7 +71,7 @@ def _table(rows: Sequence[tuple[str, ...]], headers: tuple[str, ...], align: str
     return text.splitlines()
 
 
-def _parameters(study: Study) -> list[str]:
+def _parameters(study: Drawn) -> list[str]:
     rows = []
     for name, distribution in study.distributions.items():
         unit = unit_of(name)
@@ -81,7 +79,7 @@ def _parameters(study: Study) -> list[str]:
     return _table(rows, ("uncertain", "distribution", "unit"), "lll")
 
 
-def _spreads(study: Study) -> list[str]:
+def _spreads(study: Drawn) -> list[str]:
     rows = []
     for output in study.outputs:
         spread, unit = study.propagation.spread(output), QUANTITIES[output].shown
@@ -100,7 +98,7 @@ def _spreads(study: Study) -> list[str]:
     return lines
 
 
-def _indices(study: Study, output: str, indices: Indices) -> list[str]:
+def _indices(study: Drawn, output: str, indices: Indices) -> list[str]:
     order = sorted(indices.first, key=lambda name: -indices.total[name].value)
     rows = [
         (name, f"{first.value:.3f}", _range(first), f"{total.value:.3f}", _range(total))
@@ -140,7 +138,7 @@ def _advice(output: str, indices: Indices) -> Iterator[str]:
         yield f"no effect at any point: {', '.join(idle)}"
 
 
-def _balance(study: Study) -> Iterator[str]:
+def _balance(study: Drawn) -> Iterator[str]:
     values = study.propagation.values
     lost, loose = values[BALANCED] == 0, ~study.settled & (values[BALANCED] == 1)
     if not (lost.any() or loose.any()):
@@ -157,7 +155,7 @@ def _balance(study: Study) -> Iterator[str]:
         yield from _named(study, loose)
 
 
-def _named(study: Study, chosen: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]) -> Iterator[str]:
+def _named(study: Drawn, chosen: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]) -> Iterator[str]:
     points = study.points_where(chosen)
     for point in points[:_NAMED]:
         yield "  " + ", ".join(f"{name} = {value:.6g}" for name, value in point.items())
@@ -165,7 +163,7 @@ def _named(study: Study, chosen: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
         yield f"  and {len(points) - _NAMED} more of the {2 * study.samples} random ones; --json names all, --out too"
 
 
-def _targets(study: Study) -> Iterator[str]:
+def _targets(study: Drawn) -> Iterator[str]:
     for target in study.targets:
         yield f"probability of missing {target.text}: {_percent(study.missing(target))}"
     if len(study.targets) > 1:
@@ -175,16 +173,14 @@ def _targets(study: Study) -> Iterator[str]:
 # --- JSON ----------------------------------------------------------------------------------------
 
 
-def as_json_text(study: Study) -> str:
-    """A JSON object; null where there is no number."""
+def as_dict(study: Drawn) -> dict[str, Any]:
+    """All of it by name, in SI units."""
     values, settled = study.propagation.values, study.settled
     lost, loose = values[BALANCED] == 0, ~settled & (values[BALANCED] == 1)
     found = {
-        "motor": study.motor.name,
-        "drive": {**study.drive.numbers(), "start": study.drive.start},
-        "levels": dict(study.levels),
+        **study.nominal.inputs.record(),
         "samples": study.samples,
-        "points": lost.size,
+        "count": lost.size,
         "seed": study.seed,
         "confidence": CONFIDENCE,
         "parameters": {
@@ -204,10 +200,10 @@ def as_json_text(study: Study) -> str:
         if not study.targets
         else {**study.missing().as_dict(), "indices": _indices_record(study.propagation.indices[MISSED])},
     }
-    return json_text(found)
+    return {**found, "remarks": study.nominal.remarks, "units": units_of(found)}
 
 
-def _output_record(study: Study, output: str) -> dict[str, object]:
+def _output_record(study: Drawn, output: str) -> dict[str, object]:
     spread, nominal = study.propagation.spread(output), getattr(study.nominal, output)
     return {
         "unit": QUANTITIES[output].unit,

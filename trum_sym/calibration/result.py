@@ -1,23 +1,135 @@
-"""A calibration for people (tables) and for programs (JSON)."""
+"""A calibration's result: for people, for programs, and as a motor file."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
+from importlib.metadata import version
+from os import PathLike
+from typing import Any
 
 import numpy as np
 
-from trum_sym.calibration.calibrate import Calibration, FittedParameter
+from trum_sym.calibration.least_squares import Residuals, Separation
+from trum_sym.errors import ParameterError
+from trum_sym.inputs.checks import Array
 from trum_sym.inputs.motor import Motor
-from trum_sym.output.json_text import json_text
+from trum_sym.model.inputs import SCHEMA
+from trum_sym.output.result import Result
 from trum_sym.text import one_line
+from trum_sym.values import Value
 
-__all__ = ["calibration_json", "calibration_table"]
+__all__ = ["Calibration", "FittedParameter"]
 
 _SHOWN_CORRELATION = 0.9
 
 
-def calibration_json(found: Calibration) -> str:
-    """One JSON object in SI units; null where a figure has no meaning or is infinite."""
+@dataclass(frozen=True, eq=False)
+class FittedParameter(Value):
+    """One fitted parameter, in SI.
+
+    Attributes
+    ----------
+    value, low, high : float
+        The best value and the ends of its interval, symmetric by construction (linearised, Student's t).
+    standard_error : float
+    before : float
+        The motor's value, at which the search began.
+    in_motor : bool
+        Whether it is a parameter of the motor; the others belong to the record alone.
+    exact_slopes : bool
+        Whether its derivatives are exact; otherwise central differences.
+    """
+
+    name: str
+    unit: str
+    value: float
+    low: float
+    high: float
+    standard_error: float
+    before: float
+    in_motor: bool
+    exact_slopes: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Calibration(Result, Value):
+    """What the data say about the motor.
+
+    Attributes
+    ----------
+    status : str
+        ``"solved"``, or ``"unidentifiable"``: the data do not fix these parameters, whatever the figures look like.
+    message : str
+        In words; for an unidentifiable fit, which combination stays open.
+    motor : Motor
+        With the fitted values in place; the motor as it came if the status is not ``"solved"``.
+    estimates : tuple of FittedParameter
+    covariance, correlation : (k, k) array
+        Of the estimates in their order.
+    residuals, separation
+        See ``Residuals`` and ``Separation`` in :mod:`trum_sym.calibration.least_squares`.
+    explained : float
+        Share of the measured columns' variance that the fit explains, R^2.
+    """
+
+    data: str
+    observed: tuple[str, ...]
+    errors: str
+    confidence: float
+    status: str
+    message: str
+    motor: Motor
+    estimates: tuple[FittedParameter, ...]
+    covariance: Array
+    correlation: Array
+    residuals: Residuals
+    residual_unit: str
+    separation: Separation
+    explained: float
+    iterations: int
+
+    def __repr__(self) -> str:
+        fitted = ", ".join(f"{e.name} {e.value:.6g}" for e in self.estimates)
+        return f"<Calibration {self.status}: {fitted}>"
+
+    def to_dict(self) -> dict[str, Any]:
+        """All of it by name, in SI units."""
+        return _as_dict(self)
+
+    def to_text(self, before: Motor | None = None) -> str:
+        """What was fitted beside what the motor had, what is left, and what the data can tell apart.
+
+        Parameters
+        ----------
+        before : Motor, optional
+            The motor as it came, for the sources of its values.
+        """
+        return _as_text(self, before or self.motor)
+
+    def __getitem__(self, name: str) -> FittedParameter:
+        """The estimate of a parameter."""
+        for estimate in self.estimates:
+            if estimate.name == name:
+                return estimate
+        raise KeyError(name)
+
+    def save(self, target: str | PathLike[str], base: str | PathLike[str] = "trum60") -> None:
+        """Write a motor file: ``base`` with the fitted values in place, its other lines as they are.
+
+        Raises
+        ------
+        ParameterError
+            If the status is not ``"solved"``, or the file cannot be written.
+        """
+        from trum_sym.inputs.motor_writer import write_motor
+
+        if self.status != "solved":
+            raise ParameterError("calibration", self.status, f"a solved one; {self.message}")
+        write_motor(self.motor, base, target)
+
+
+def _as_dict(found: Calibration) -> dict[str, Any]:
     left, apart = found.residuals, found.separation
     record = {
         "status": found.status,
@@ -50,7 +162,7 @@ def calibration_json(found: Calibration) -> str:
         },
         "iterations": found.iterations,
     }
-    return json_text(record)
+    return {"schema": SCHEMA, "trum_sym": version("trum-sym"), **record}
 
 
 def _estimate(e: FittedParameter) -> dict[str, object]:
@@ -66,8 +178,7 @@ def _estimate(e: FittedParameter) -> dict[str, object]:
     }
 
 
-def calibration_table(found: Calibration, motor: Motor) -> str:
-    """What was fitted beside what the motor had, what is left, and what the data can tell apart."""
+def _as_text(found: Calibration, motor: Motor) -> str:
     from tabulate import tabulate
 
     rows = []

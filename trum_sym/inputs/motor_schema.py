@@ -1,0 +1,273 @@
+"""What a motor file may say, from the one list that also checks it: a template, a JSON Schema, a page of the docs."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+from trum_sym.inputs.distributions import KINDS
+from trum_sym.inputs.drive import BOX_NAMES, DRIVE_DOMAINS
+from trum_sym.inputs.motor import SPECS, TO_DO, Motor
+from trum_sym.inputs.motor_file import load_motor
+from trum_sym.inputs.units import parse_unit
+from trum_sym.quantities import QUANTITIES
+
+__all__ = ["ENTRIES", "Entry", "in_unit", "page", "schema", "template"]
+
+
+class Entry(NamedTuple):
+    """A parameter for people: the unit that they write it in, and what it is."""
+
+    unit: str
+    meaning: str
+
+
+_SECTIONS: dict[str, dict[str, Entry]] = {
+    "Stator ring: metal beam with teeth": {
+        "radius": Entry("mm", "outer radius of the stator; half of the diameter"),
+        "tooth_count": Entry("1", "teeth on the ring"),
+        "perimeter": Entry("mm", "circumference, 2 pi radius"),
+        "slot_width": Entry("mm", "width of the slots between teeth"),
+        "beam_width": Entry("mm", "width of the ring, from inner to outer radius"),
+        "beam_thickness": Entry("mm", "height of the metal with its teeth"),
+        "tooth_height": Entry("mm", "height of the teeth, less than beam_thickness"),
+        "beam_density": Entry("kg/m^3", "of the metal"),
+        "beam_young_modulus": Entry("GPa", "of the metal"),
+        "beam_shear_modulus": Entry("GPa", "of the metal"),
+        "beam_poisson_ratio": Entry("1", "of the metal"),
+    },
+    "Piezoelectric ring": {
+        "piezo_width": Entry("mm", "width of the ceramic ring"),
+        "piezo_thickness": Entry("mm", "thickness of the ceramic"),
+        "piezo_density": Entry("kg/m^3", "of the ceramic"),
+        "piezo_young_modulus": Entry("GPa", "of the ceramic"),
+        "piezo_shear_modulus": Entry("GPa", "of the ceramic"),
+        "piezo_poisson_ratio": Entry("1", "of the ceramic"),
+        "piezo_strain_constant": Entry(
+            "pC/N", "d_31 of the ceramic, as its sheet gives it; used by --amplitude forced"
+        ),
+        "piezo_compliance": Entry("m^2/N", "s_11 at constant field; used by --amplitude forced"),
+        "voltage": Entry("V", "amplitude of the drive, half of peak to peak; used by --amplitude forced"),
+    },
+    "Friction layer on the rotor": {
+        "layer_width": Entry("mm", "radial width of the layer in contact"),
+        "layer_thickness": Entry("mm", "thickness of the layer"),
+        "layer_density": Entry("kg/m^3", "of the layer"),
+        "layer_young_modulus": Entry("GPa", "of the layer"),
+        "layer_poisson_ratio": Entry("1", "of the layer"),
+    },
+    "Vibration": {
+        "crests": Entry("1", "wavelengths around the ring, as in mode B_09"),
+        "shear_correction": Entry("1", "Timoshenko's coefficient of the section"),
+        "damping_ratio": Entry("1", "of the stator under prepressure, as a decay of its vibration shows"),
+        "free_amplitude": Entry("um", "amplitude of one phase without prepressure"),
+        "amplitude_factor": Entry("1", "C_f of eq. 8, amplitude over prepressure in newton; calibrate fits it"),
+        "amplitude_exponent": Entry("1", "exponent of eq. 8; calibrate fits it"),
+        "fit_prepressure_min": Entry("N", "eq. 8 was measured from here"),
+        "fit_prepressure_max": Entry("N", "eq. 8 was measured up to here"),
+    },
+    "Contact and rotor": {
+        "friction_coefficient": Entry("1", "between layer and stator"),
+        "contact_radius": Entry("mm", "radius of the circle of contact"),
+        "curvature_radius": Entry("mm", "of the contact, eq. 25; used by --contact hertz"),
+        "rotor_inertia": Entry("kg*m^2", "of the rotor and all that turns with it"),
+    },
+    "Measured values that replace the modelled ones; each is optional": {
+        "resonance_frequency": Entry("kHz", "of the stator under prepressure"),
+        "amplitude": Entry("um", "of one phase at the prepressure of the drive"),
+        "neutral_axis": Entry("mm", "from the tooth surface"),
+        "wavenumber": Entry("1/m", "crests / radius if not given"),
+        "layer_stiffness": Entry("N/m^2", "force per length of the circumference and depth"),
+    },
+}
+ENTRIES = {name: entry for section in _SECTIONS.values() for name, entry in section.items()}
+"""Every parameter of a motor file."""
+
+_KEYS = {
+    "value": "a number, in ``unit``",
+    "unit": "any unit that converts",
+    "source": "where it comes from: a drawing, a data sheet, ``measured``, ``assumed``",
+    "symbol": "the equations' symbol, to be read beside them",
+    "range": "``[low, high]``, what is plausible; needed beside ``assumed``",
+    "reason": "why this value; needed beside ``assumed``",
+    "note": "anything",
+    "distribution": "``uniform``, ``triangular``, ``normal`` or ``lognormal``, for ``trum-sym spread``",
+    "mean": "of a normal or lognormal distribution, if not the value",
+    "standard_deviation": "of a normal or lognormal distribution",
+    "interval": "of a calibrated value: its confidence interval",
+    "data": "of a calibrated value: the name of the data",
+}
+
+
+def in_unit(value: float, unit: str) -> float:
+    """A value in SI in the unit that people write."""
+    return float(f"{value / parse_unit(unit).to_si(1.0):.12g}")
+
+
+def template(name: str, like: Motor | None = None) -> str:
+    """A motor file to fill in: every parameter with its unit and meaning, the values still those of another motor.
+
+    Parameters
+    ----------
+    name : str
+        The new motor's.
+    like : Motor, optional
+        Whose values stand in it; TRUM-60 if not given.
+    """
+    like = load_motor() if like is None else like
+    quoted = name.replace("\\", "\\\\").replace('"', '\\"')
+    lines = [
+        f"# {quoted}: a motor file of trum-sym.  Replace every value whose source begins with '{TO_DO}',",
+        "# and its source.",
+        "# `trum-sym motor check FILE` says what is left to do, assumed, out of range or contradictory.",
+        "# Units may be any that convert: mm, um, GPa, g/cm^3, kHz, N*m, %, ...",
+        "",
+        f'name = "{quoted}"',
+        "",
+        "# What searches (optimize, pareto, robust, speed-table) vary of the drive; without it they ask for ranges",
+        "# [box]",
+        '# prepressure = { range = [10.0, 40.0], unit = "N", source = "spring of the housing" }',
+        '# frequency_difference = { range = [500.0, 3000.0], unit = "Hz", source = "amplifier" }',
+        "",
+        "[parameters]",
+    ]
+    known = dict(like.parameters())
+    for title, entries in _SECTIONS.items():
+        lines += ["", f"# --- {title} " + "-" * max(3, 94 - len(title))]
+        for parameter, entry in entries.items():
+            spec = SPECS[parameter]
+            allowed = "" if spec.domain.describe("1") == "a finite number" else f"; {spec.domain.describe(spec.unit)}"
+            lines.append(f"# {entry.meaning}{allowed}")
+            value = in_unit(float(known[parameter].value), entry.unit) if parameter in known else 0.0
+            text = repr(int(value)) if spec.domain.integer else repr(value)
+            source = f"{TO_DO}: value of {like.name}" if spec.required else "measured"
+            about = f'unit = "{entry.unit}", symbol = "{spec.symbol}", source = "{source}"'
+            line = f"{parameter} = {{ value = {text}, {about} }}"
+            lines.append(line if parameter in known else f"# {line}")
+    lines += [
+        "",
+        "# --- Figures that were measured or published, to be shown beside the computed ones --------------",
+        "# [[published]]",
+        '# output = "mean_speed"          # a figure as evaluate --json names it',
+        "# value = 100.0",
+        '# unit = "arcsec/s"',
+        '# source = "measured, June"',
+        "# drive = { prepressure = 20.0, load_torque = 0.01 }  # in SI units; what it was measured at",
+        "# sampling_period = 2e-3         # s; only of an encoder's speed_volatility",
+        "",
+    ]
+    return "\n".join(lines)
+
+
+def schema() -> dict[str, Any]:
+    """A JSON Schema of motor files, for editors that complete and check TOML by one."""
+    text: dict[str, Any] = {"type": "string"}
+    ends = {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2}
+    kinds: dict[str, dict[str, Any]] = {
+        **{key: {**text, "description": said} for key, said in _KEYS.items()},
+        **{key: {**ends, "description": _KEYS[key]} for key in ("range", "interval")},
+        **{key: {"type": "number", "description": _KEYS[key]} for key in ("value", "mean", "standard_deviation")},
+        "distribution": {"enum": list(KINDS), "description": _KEYS["distribution"]},
+    }
+    parameters = {
+        name: {
+            "type": "object",
+            "description": f"{entry.meaning}; {SPECS[name].domain.describe(SPECS[name].unit)}",
+            "properties": {**kinds, "symbol": {"const": SPECS[name].symbol}},
+            "required": ["value", "unit", "source"],
+            "additionalProperties": False,
+        }
+        for name, entry in ENTRIES.items()
+    }
+    allowed = {
+        "type": "object",
+        "properties": {"range": ends, "unit": text, "source": text},
+        "required": ["range", "unit", "source"],
+        "additionalProperties": False,
+    }
+    drive = {
+        name: {"type": "number", "description": domain.describe(unit)} for name, (domain, unit) in DRIVE_DOMAINS.items()
+    }
+    published = {
+        "type": "object",
+        "properties": {
+            "output": {"enum": list(QUANTITIES)},
+            "value": {"type": "number"},
+            "unit": text,
+            "source": text,
+            "drive": {"type": "object", "properties": drive, "additionalProperties": False},
+            "sampling_period": {"type": "number", "exclusiveMinimum": 0},
+        },
+        "required": ["output", "value", "unit", "source", "drive"],
+        "additionalProperties": False,
+    }
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "Motor file of trum-sym",
+        "type": "object",
+        "properties": {
+            "name": text,
+            "parameters": {
+                "type": "object",
+                "properties": parameters,
+                "required": [name for name, spec in SPECS.items() if spec.required],
+                "additionalProperties": False,
+            },
+            "box": {"type": "object", "properties": dict.fromkeys(BOX_NAMES, allowed), "additionalProperties": False},
+            "published": {"type": "array", "items": published},
+        },
+        "required": ["name", "parameters"],
+        "additionalProperties": False,
+    }
+
+
+def page() -> str:
+    """The page of the docs on motor files; ``trum-sym motor schema --format markdown`` prints it."""
+    lines = [
+        "# Motor files",
+        "",
+        "<!-- made by trum-sym motor schema --format markdown -->",
+        "",
+        "A motor is a TOML file.  Begin with a template, fill it in, check it, use it:",
+        "",
+        "    trum-sym motor new my.toml --name 'my motor'",
+        "    trum-sym motor check my.toml",
+        "    trum-sym evaluate --motor my.toml --prepressure 20 --load-torque '0.01 N m'",
+        "",
+        "`motor show FILE` lists every value with its source, `motor diff FILE FILE` what two motors differ in, and",
+        "`motor schema > motor.schema.json` gives editors a JSON Schema to complete and check by (with Taplo or Even",
+        "Better TOML: `#:schema ./motor.schema.json` in the file's first line).  `trum60` ships with the package.",
+        "",
+        'A parameter is a line, `radius = { value = 15, unit = "mm", source = "drawing" }`, with these keys:',
+        "",
+        "| key | what it says |",
+        "|---|---|",
+        *(f"| `{key}` | {said.replace('``', '`')} |" for key, said in _KEYS.items()),
+        "",
+        "`value`, `unit` and `source` are needed.  A file may have the tables",
+        "",
+        "| table | what it says |",
+        "|---|---|",
+        "| `[parameters]` | the parameters below |",
+        "| `[box]` | ranges that searches vary: " + " and ".join(f"`{name}`" for name in BOX_NAMES) + ", each "
+        "`{ range = [LOW, HIGH], unit = ..., source = ... }`; a motor without them is asked for ranges |",
+        "| `[[published]]` | figures to be shown beside the computed ones: `output`, `value`, `unit`, `source`, "
+        "`drive`, and `sampling_period` where an encoder's |",
+    ]
+    for title, entries in _SECTIONS.items():
+        lines += [
+            "",
+            f"## {title}",
+            "",
+            "| name | symbol | unit | allowed, in SI | what it is |",
+            "|---|---|---|---|---|",
+        ]
+        for name, entry in entries.items():
+            spec = SPECS[name]
+            unit = "" if entry.unit == "1" else entry.unit
+            lines.append(f"| `{name}` | {spec.symbol} | {unit} | {spec.domain.describe('1')} | {entry.meaning} |")
+    return "\n".join([*lines, ""])
+
+
+assert set(ENTRIES) == set(SPECS), "every parameter has a place in the template"
+assert all(math.isfinite(float(parse_unit(entry.unit).to_si(1.0))) for entry in ENTRIES.values())
