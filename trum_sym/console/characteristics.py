@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from trum_sym.console.options import (
+    check_plot,
     chosen_drive,
     chosen_levels,
     chosen_motor,
+    continuous_options,
+    examples,
     number_option,
-    point_options,
-    refuse_sampling_period,
+    plot_options,
 )
 from trum_sym.console.say import say
 
@@ -25,8 +27,14 @@ __all__ = ["characteristics"]
 _RPM = 9.549296585513721  # of 1 rad/s
 
 
-@click.command()
-@point_options
+@click.command(
+    epilog=examples(
+        "trum-sym characteristics --amplitude forced --frequency-difference 500 --points 9",
+        "trum-sym characteristics --motor ring60 --points 9 --plot curves.png",
+        "trum-sym characteristics --compliance flange --points 9 --out curves.csv",
+    )
+)
+@continuous_options
 @number_option("--points", "1", 25, "Points of each curve.", "N")
 @number_option(
     "--tolerance", "1", 1e-6, "Largest bound of the errors of speeds over the largest speed, 1e-9 to 1e-2.", "T"
@@ -43,9 +51,7 @@ _RPM = 9.549296585513721  # of 1 rad/s
     metavar="FILE",
     help="Write the curves: .nc (NetCDF, with every setting and unit) or .csv, a row a point of a curve.",
 )
-@click.option(
-    "--plot", type=click.Path(path_type=Path), metavar="FILE", help="Draw them, as a .png, .svg or .pdf file."
-)
+@plot_options("Draw them")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object instead of a table; SI units.")
 def characteristics(
     motor: str,
@@ -55,25 +61,23 @@ def characteristics(
     measured: Path | None,
     out: Path | None,
     plot: Path | None,
+    force: bool,
     as_json: bool,
     **options: Any,  # noqa: ANN401
 ) -> None:
     """Speed, power and contact efficiency under load, speed by frequency and prepressure, stall by prepressure.
 
     For the plain wave (both phases always on), and for pulse drive where --on-periods is less than --periods.  Loads
-    run from none to what friction can carry; --load-torque is not looked at.
+    run from none to what friction can carry, so --load-torque is refused.
     """
     from trum_sym.inputs.measured_points import load_measured, measured_of
-    from trum_sym.output.files import check_packages, check_target
+    from trum_sym.output.files import check_new, check_packages
     from trum_sym.studies.characteristics import characteristics as curves_of
 
-    refuse_sampling_period(options, "characteristics are of the mean speed")
-    if plot is not None:
-        from trum_sym.plots.characteristics import check_picture
-
-        check_picture("--plot", plot)
+    _refuse_load()
+    check_plot(plot, force)
     if out is not None:
-        check_target("--out", out, (".nc", ".csv"))
+        check_new("--out", out, (".nc", ".csv"), force)
         check_packages(out)
     beside = measured_of(motor) if measured is None else measured
     found = curves_of(
@@ -96,6 +100,14 @@ def characteristics(
         say(json_text(_as_json(found)))
     else:
         say(_as_text(found))
+
+
+def _refuse_load() -> None:
+    from trum_sym.errors import ParameterError
+
+    context = click.get_current_context()
+    if context.get_parameter_source("load_torque") is click.core.ParameterSource.COMMANDLINE:
+        raise ParameterError("load_torque", context.params["load_torque"], "nothing: the curves run over all loads")
 
 
 def _write(found: xr.Dataset, out: Path) -> None:
