@@ -34,6 +34,8 @@ DRIVES = [
     "load_torque=0.05 resonance_frequency=39703 damping_ratio=0.008 rotor_inertia=1e-3",
     "on_periods=20 load_torque=0.1",
     "load_torque=2",
+    "load_inertia=1e-3 start=rest phase_lead=-1",
+    "load=weight load_radius=0.03 load_inertia=5e-3 start=rest phase_lead=-1",
 ]
 
 
@@ -89,7 +91,7 @@ def python(arguments, tolerance):
         name, value = argument.split("=")
         if name in ("contact", "resonance", "foundation") or value == "forced":
             levels[name] = value
-        elif name == "start":
+        elif name in ("start", "load"):
             drive[name] = value
         else:
             (drive if name in ts.Drive().numbers() else motor)[name] = float(value)
@@ -177,6 +179,9 @@ def test_scalar_kernels_agree_with_their_expressions_at_50_digits(harness):
         ("radius=inf", "radius"),
         ("prepressure=0", "prepressure"),
         ("rotor_inertia=-1", "rotor_inertia"),
+        ("load_inertia=-1", "load_inertia"),
+        ("load=weight", "load_radius"),
+        ("load_radius=0.03", "load_radius"),
         ("periods=20.5", "periods"),
         ("on_periods=9", "on_periods"),
         ("phase_lead=0", "phase_lead"),

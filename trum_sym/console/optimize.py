@@ -81,7 +81,7 @@ def optimize(
         **chosen_levels(options),
     )
     title = f"{one_line(machine.name)}: least {objective}" + (f" at {target_speed}" if target_speed else "")
-    say(as_json_text(found) if as_json else as_table(found, f"{title}, load {drive.load_torque:g} N m"))
+    say(as_json_text(found) if as_json else as_table(found, f"{title}, {drive.load_text()}"))
     if plot is not None:
         draw(found, plot, "--plot")
     return 0 if found.status == "solved" else 1

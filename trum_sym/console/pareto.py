@@ -76,5 +76,5 @@ def pareto(
         **chosen_levels(options),
     )
     title = f"{one_line(machine.name)}: {objective} against {against}" + (f" at {target_speed}" if target_speed else "")
-    say(front.as_json_text() if as_json else front.as_table(f"{title}, load {drive.load_torque:g} N m"))
+    say(front.as_json_text() if as_json else front.as_table(f"{title}, {drive.load_text()}"))
     return 0 if front.status == "solved" else 1

@@ -86,5 +86,5 @@ def robust(
         **chosen_levels(options),
     )
     title = f"{one_line(machine.name)}: least worst {objective}" + (f" at {target_speed}" if target_speed else "")
-    say(found.as_json_text() if as_json else found.as_table(f"{title}, load {drive.load_torque:g} N m"))
+    say(found.as_json_text() if as_json else found.as_table(f"{title}, {drive.load_text()}"))
     return 0 if found.status == "solved" else 1

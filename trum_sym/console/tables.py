@@ -101,7 +101,7 @@ def as_table(motor: Motor, drive: Drive, point: OperatingPoint, levels: Mapping[
     title = (
         f"{one_line(motor.name)} at "
         f"{drive.prepressure:g} N, {drive.frequency_difference:+g} Hz, {drive.on_periods:g} of "
-        f"{drive.periods:g} periods on, load {drive.load_torque:g} N m\n"
+        f"{drive.periods:g} periods on, {drive.load_text()}\n"
         f"start {point.start}, phase lead {drive.phase_lead:+g}, switching phase {drive.switching_phase:g} rad\n"
         + ", ".join(f"{name} {level}" for name, level in levels.items() if level is not None)
     )

@@ -15,7 +15,7 @@ from trum_sym.inputs.distributions import Distribution
 from trum_sym.inputs.domain import Domain, Spec
 from trum_sym.inputs.plausible import warn_implausible, warn_outside_range
 from trum_sym.inputs.units import parse_quantity
-from trum_sym.values import Value
+from trum_sym.values import FrozenDict, Value
 
 __all__ = ["SPECS", "Motor", "Parameter", "Published", "spec"]
 
@@ -95,7 +95,8 @@ class Motor(Value):
     """A travelling-wave rotary ultrasonic motor: every number with unit and source.
 
     The names are those of the motor file and of ``--set``.  The last five are optional: a measured
-    value there replaces the modelled one.
+    value there replaces the modelled one.  ``bench`` has what the file says of the bench that the published figures
+    were measured on, by the names of :class:`trum_sym.Drive`; nothing is computed with it unless a drive takes it.
     """
 
     name: str
@@ -147,6 +148,7 @@ class Motor(Value):
     neutral_axis: Parameter | None = _optional("m", "D", _SIZE)
     wavenumber: Parameter | None = _optional("1/m", "k_c")
     layer_stiffness: Parameter | None = _optional("N/m^2", "k_N")
+    bench: Mapping[str, Parameter] = field(default_factory=FrozenDict)
     published: tuple[Published, ...] = ()
     text: str = field(default="", repr=False, compare=False)  # of the motor file, whatever was set since
 

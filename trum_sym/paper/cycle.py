@@ -13,11 +13,10 @@ from trum_sym.inputs.drive import Drive, Start
 from trum_sym.inputs.motor import Motor
 from trum_sym.inputs.motor_file import load_motor
 from trum_sym.model.cycle import response
-from trum_sym.model.histories import surface_and_contact
 from trum_sym.model.kernels import call
 from trum_sym.model.levels import Levels
 from trum_sym.model.operating_point import Case, prepare
-from trum_sym.model.rotor import Orbit, history, solve_orbit
+from trum_sym.model.rotor import Orbit, history, solve_orbit, surface_and_contact
 
 __all__ = ["READINGS", "Cycle", "Reading", "pulling", "solve", "weight_inertia"]
 

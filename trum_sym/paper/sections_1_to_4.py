@@ -10,11 +10,10 @@ from trum_sym.inputs.checks import Array
 from trum_sym.inputs.drive import STARTS, Drive, Start
 from trum_sym.inputs.motor import Motor
 from trum_sym.model.cycle import modal_values, response
-from trum_sym.model.histories import surface_and_contact
 from trum_sym.model.kernels import call
 from trum_sym.model.levels import Levels
 from trum_sym.model.operating_point import prepare
-from trum_sym.model.rotor import history, solve_orbit
+from trum_sym.model.rotor import history, solve_orbit, surface_and_contact
 from trum_sym.model.stator import solve_stator
 from trum_sym.paper.findings import LOADS, ByInertia, Check, Context, Finding, by_load, falls, of_rotor
 from trum_sym.paper.readings import (

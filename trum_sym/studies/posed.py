@@ -35,7 +35,7 @@ def posed(
     box, pulses, drive = box_of(drive, bounds)
     if len(pulses) != 1:
         raise ParameterError("bounds", f"{len(pulses)} pairs of periods and on_periods", "one value of each in a study")
-    drive = Drive(**{**drive.numbers(), "start": drive.start, "periods": pulses[0][0], "on_periods": pulses[0][1]})  # type: ignore[arg-type]
+    drive = Drive(**{**drive.numbers(), **drive.words(), "periods": pulses[0][0], "on_periods": pulses[0][1]})  # type: ignore[arg-type]
     aim, limits = aim_of(objective, target, constraints)
     problem = Problem(motor, drive, levels, box, aim, limits)
     warn_outside_fit(problem)

@@ -30,6 +30,7 @@ from trum_sym.values import Value
 __all__ = ["RobustCase", "RobustPoint", "robust"]
 
 _MOST_TOLERANCES, _MOST_SAMPLES = 6, 200
+_OF_LOAD = ("load_torque", "load_inertia")  # what may be off beside the motor
 _INSIDE = 64  # random cases inside the tolerances by which corners are checked
 _SEED = 1
 Tolerance = float | str | tuple[float | str, float | str]
@@ -150,8 +151,8 @@ def robust(
         As for :func:`trum_sym.optimize`; pulse counts have one value each.  With a target, volatility is the speed's
         standard deviation over the target's magnitude in every case.
     tolerances : mapping
-        By name of the motor file, or ``load_torque``: a share of the value, ``0.1`` or ``"10 %"``, or the two ends,
-        ``("0.2", "0.3")``.  The cases are the nominal one and all corners; at most six.
+        By name of the motor file, ``load_torque`` or ``load_inertia``: a share of the value, ``0.1`` or ``"10 %"``, or
+        the two ends, ``("0.2", "0.3")``.  The cases are the nominal one and all corners; at most six.
     samples : sequence of mappings
         Instead: the cases themselves, each by the same names, ``[{"friction_coefficient": 0.22}, ...]``.
     progress : bool
@@ -218,10 +219,10 @@ def _ranges(
 
 
 def _nominal(problem: Problem, name: str) -> float:
-    if name == "load_torque":
-        return float(problem.drive.load_torque)
+    if name in _OF_LOAD:
+        return float(getattr(problem.drive, name))
     if name in DRIVE_DOMAINS:
-        raise ParameterError("tolerances", name, "names of the motor file, or load_torque")
+        raise ParameterError("tolerances", name, f"names of the motor file, {' or '.join(_OF_LOAD)}")
     if spec(name).domain.integer:
         raise ParameterError("tolerances", name, "parameters that vary continuously")
     parameter = getattr(problem.motor, name)
@@ -256,7 +257,7 @@ def _cases(
 
 def _model(problem: Problem, case: Mapping[str, float]) -> Model:
     values: dict[str, Any] = dict(case)
-    drive = replace(problem.drive, load_torque=values.pop("load_torque", problem.drive.load_torque))
+    drive = replace(problem.drive, **{name: values.pop(name) for name in _OF_LOAD if name in values})
     with unquestioned():
         motor = problem.motor.with_values(values)
     return Model(motor, drive, problem.levels, problem.box, problem.names)

@@ -45,7 +45,7 @@ def as_json_text(table: SpeedTable) -> str:
     """One JSON object in SI units."""
     record = {
         "motor": table.motor,
-        "drive": {**{name: float(value) for name, value in table.drive.numbers().items()}, "start": table.drive.start},
+        "drive": {**{name: float(value) for name, value in table.drive.numbers().items()}, **table.drive.words()},
         "variables": list(table.variables),
         "error": table.error,
         "largest_error": table.largest_error,

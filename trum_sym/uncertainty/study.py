@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, replace
 from typing import TYPE_CHECKING, Unpack
 
@@ -15,7 +15,7 @@ from trum_sym.inputs.choices import words
 from trum_sym.inputs.distributions import Distribution, checked, from_text
 from trum_sym.inputs.domain import Spec
 from trum_sym.inputs.drive import DRIVE_DOMAINS, Drive
-from trum_sym.inputs.motor import SPECS, Motor, spec
+from trum_sym.inputs.motor import SPECS, Motor, Parameter, spec
 from trum_sym.inputs.plausible import unquestioned
 from trum_sym.inputs.points import check_point, check_single, numbers_of, period_of
 from trum_sym.inputs.units import parse_quantity
@@ -50,10 +50,14 @@ def _spec_of(name: str) -> Spec:
     return spec(name)
 
 
+def _spreads(parameters: Iterable[tuple[str, Parameter]]) -> dict[str, Distribution]:
+    """Distributions of the parameters that have one."""
+    return {name: found for name, p in parameters if (found := p.spread()) is not None}
+
+
 def _chosen(motor: Motor, parameters: Mapping[str, Given] | Sequence[str] | None) -> dict[str, Distribution]:
     """The uncertain parameters, as given."""
-    own = {name: p.spread() for name, p in motor.parameters()}
-    uncertain = {name: found for name, found in own.items() if found is not None}
+    uncertain, of_bench = _spreads(motor.parameters()), _spreads(motor.bench.items())
     if parameters is None:
         parameters = [MOTOR_FILE]
     if isinstance(parameters, str) or not isinstance(parameters, Mapping | Sequence):
@@ -72,7 +76,7 @@ def _chosen(motor: Motor, parameters: Mapping[str, Given] | Sequence[str] | None
         if isinstance(wish, str):
             wish = from_text(name, wish, wanted.unit)
         elif wish is None:
-            wish = uncertain.get(name)
+            wish = uncertain.get(name, of_bench.get(name))
             if wish is None:
                 raise ParameterError(
                     name,

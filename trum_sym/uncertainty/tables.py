@@ -51,7 +51,7 @@ def as_text(study: Study) -> str:
     lines = [
         f"{one_line(study.motor.name)} at "
         f"{drive.prepressure:g} N, {drive.frequency_difference:+g} Hz, {drive.on_periods:g} of "
-        f"{drive.periods:g} periods on, load {drive.load_torque:g} N m, start {drive.start}",
+        f"{drive.periods:g} periods on, {drive.load_text()}, start {drive.start}",
         f"{count} uncertain parameter{'s' * (count != 1)}, {study.samples} samples, "
         f"{study.samples * (count + 2)} points, seed {study.seed}; intervals at {100 * CONFIDENCE:g} %",
         "",
@@ -181,7 +181,7 @@ def as_json_text(study: Study) -> str:
     lost, loose = values[BALANCED] == 0, ~settled & (values[BALANCED] == 1)
     found = {
         "motor": study.motor.name,
-        "drive": {**study.drive.numbers(), "start": study.drive.start},
+        "drive": {**study.drive.numbers(), **study.drive.words()},
         "levels": dict(study.levels),
         "samples": study.samples,
         "points": lost.size,
