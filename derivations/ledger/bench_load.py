@@ -166,9 +166,9 @@ def _effect() -> str:
         f"{figure(added, 3)} kg m^2, {figure(added / p['J'], 3)} times J. With no plate the string is slack wherever "
         f"the friction fraction is below {figure(slack, 2)}, as soon as friction turns back; from a plate of "
         f"{figure(plate, 3)} kg m^2 on it is never. Within a cycle, {figure(1 / p['T'], 4)} Hz, the weight moves with "
-        f"the rotor only on a string stiffer than {figure(needed, 2)} N/m; a steel wire 0.5 mm thick and 0.3 m long "
-        f"has {figure(wire, 2)} N/m, and with it the rotor meets {figure(met, 3)} times J: the weight pulls, and what "
-        "adds inertia is the plate."
+        f"the rotor only on a string stiffer than {figure(needed, 2)} N/m; a steel wire half a millimetre thick, 0.3 m "
+        f"long, has {figure(wire, 2)} N/m, and with it the rotor meets {figure(met, 3)} times J: the weight pulls, and "
+        "what adds inertia is the plate."
     )
 
 

@@ -172,6 +172,13 @@ def test_scalar_kernels_agree_with_their_expressions_at_50_digits(harness):
                 assert abs(float.fromhex(ours) - value) <= 1e-12 * size, (line, out)
 
 
+def test_a_string_that_friction_could_make_slack_is_said(example):
+    """Unless rotor and plate weigh at least mu F_c r_c r/g = 3.648e-3 kg m^2, 0.25 * 180 * 0.0265 * 0.03 / 9.80665."""
+    hung = ("load=weight", "load_radius=0.03", "load_torque=0.05")
+    for plate, said in (("3.643e-3", "friction could make the string go slack"), ("3.644e-3", "")):
+        assert figures(example, *hung, f"load_inertia={plate}")["reason"] == said
+
+
 @pytest.mark.parametrize(
     ("argument", "words"),
     [
