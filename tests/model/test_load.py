@@ -12,6 +12,7 @@ import trum_sym as ts
 from studies import bench
 from tests.orbit_reference import GATES, Reference, modal, surface
 from tests.refusals import refusal
+from trum_sym.model.kernels import call
 from trum_sym.model.string import SLACK
 
 J = 4.5e-6
@@ -26,6 +27,24 @@ def test_a_plate_is_so_much_more_of_the_rotors_own(trum60):
     for inertia in (0.0, 2.5e-4, 1.0):
         heavier = trum60.with_values({"rotor_inertia": J + inertia})
         assert ts.evaluate(trum60, replace(REST, load_inertia=inertia)) == ts.evaluate(heavier, REST)
+
+
+def test_without_a_load_s_inertia_the_rotor_s_equation_is_eq_38_to_the_last_bit(trum60):
+    """Push and drag as the product and quotient of eq. 38's numbers, in this order, with J alone."""
+    rng, count = np.random.default_rng(38), 20_000
+    drawn = {
+        "F_c": rng.uniform(10, 400, count),
+        "mu": rng.uniform(0.05, 0.5, count),
+        "r_c": rng.uniform(0.01, 0.05, count),
+        "J": 10 ** rng.uniform(-9, 0, count),
+        "T_load": rng.uniform(-2, 2, count),
+    }
+    point = ts.evaluate(trum60)
+    section = {"k_c": point.wavenumber, "k_N": 3e10, "E_eq": 2e10}
+    found = call("trum_rotor_coefficients", {**trum60.symbols(), **section, **drawn, "J_load": 0.0, "r_s": 0.0})
+    F_c, mu, r_c, J, T_load = drawn.values()
+    assert np.array_equal(found["push"], F_c * mu * (r_c * r_c) / J)
+    assert np.array_equal(found["drag"], T_load * r_c / J)
 
 
 @pytest.mark.parametrize("sense", [1, -1])
@@ -88,8 +107,9 @@ def test_a_string_goes_slack_where_the_rotor_outruns_the_weight(trum60):
 
 def test_friction_that_could_make_a_string_slack_need_not(trum60):
     """One speed all the time: the orbit is looked at, not what friction might do."""
-    steady = ts.Drive(on_periods=20, load_torque=0.1, load="weight", load_radius=0.03)
-    assert ts.evaluate(trum60, steady).reason == ""
+    for load in (0.1, -0.1):  # friction lifts the weight in either sense
+        steady = ts.Drive(on_periods=20, load_torque=load, load="weight", load_radius=0.03)
+        assert ts.evaluate(trum60, steady).reason == ""
 
 
 def test_a_runaway_has_no_string_to_speak_of(trum60):
