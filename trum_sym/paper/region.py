@@ -14,6 +14,7 @@ import numpy as np
 from trum_sym.inputs.checks import Array
 from trum_sym.inputs.drive import Drive, Start
 from trum_sym.inputs.motor import Motor
+from trum_sym.inputs.motor_file import load_motor
 from trum_sym.inputs.plausible import unquestioned
 from trum_sym.paper.findings import ASSUMED, Context, Truth, together
 from trum_sym.paper.readings import POINTS, published
@@ -68,7 +69,7 @@ def region(
     Parameters
     ----------
     motor : Motor
-        The paper's; single numbers.
+        Of single numbers; its friction and contact radius do not count.
     start, phase_lead, switching_phase
         The reading.
     inertia : (n,) array, kg m^2
@@ -76,7 +77,7 @@ def region(
     radius : (k,) array, m
         Contact radii.
     """
-    wanted = published(motor)["mean_speed"]
+    wanted = published(load_motor("trum60"))["mean_speed"]
     own = float(motor.rotor_inertia.value)
     grid = np.broadcast_shapes((radius.size, 1), (1, inertia.size))
     load = np.broadcast_to(inertia - own, grid)

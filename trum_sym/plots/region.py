@@ -39,7 +39,7 @@ def load_region(motor: Motor | None = None, reading: Reading = READINGS[2], *, a
     machine = load_motor("trum60") if motor is None else motor
     left, right = panels(axes, 1, 2, 3.2)
     found = region(machine, reading.start, float(reading.phase_lead), 0.0, _INERTIA, _RADIUS)
-    wanted = published(machine)["speed_volatility"]
+    wanted = published(load_motor("trum60"))["speed_volatility"]
     for k, (colour, line) in enumerate(zip(COLOURS, ("-", "--", "-."), strict=False)):
         left.plot(found.inertia, found.friction[k], line, color=colour, label=f"r_c {1e3 * found.radius[k]:g} mm")
         right.plot(found.inertia, 100 * found.volatility[k], line, color=colour)
