@@ -176,3 +176,9 @@ def test_histories_and_batches_take_it(trum60):
     acceleration = np.gradient(data.rotor_speed.values, data.time.values)[5:-5]
     wanted = (0.25 * 180 * 0.0265 * data.friction.values - 0.3) / (J + 0.02 + 0.3 * 0.03 / 9.80665)
     assert np.median(np.abs(acceleration / wanted[5:-5] - 1)) < 1e-3
+
+
+@pytest.mark.parametrize("given", [{"load_inertia": 1e-4}, [1e-4], 1.0])
+def test_a_motor_s_bench_is_a_mapping_of_parameters(trum60, given):
+    with refusal("bench", "a mapping of names to Parameters"):
+        replace(trum60, bench=given)

@@ -168,6 +168,9 @@ class Motor(Value):
             value = number(name, parameter.value, wanted.domain, wanted.unit)
             if value is not parameter.value:
                 object.__setattr__(self, name, replace(parameter, value=value))
+        if not isinstance(self.bench, Mapping) or not all(isinstance(p, Parameter) for p in self.bench.values()):
+            raise ParameterError("bench", self.bench, "a mapping of names to Parameters, as load_motor reads it")
+        object.__setattr__(self, "bench", FrozenDict(self.bench))
         broadcast_shape({name: parameter.value for name, parameter in self.parameters()})
         _ordered(self, "tooth_height", "beam_thickness")
         _ordered(self, "fit_prepressure_min", "fit_prepressure_max")
