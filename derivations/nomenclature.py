@@ -126,6 +126,10 @@ p_larger    | 1        | r | p_1 | ours | the larger pressure where the surface 
 p_smaller   | 1        | r | p_2 | ours | the smaller one
 step        | s        | + | h_t | ours | length of a time step
 T_load      | N*m      | r | T_{load} | eq. 38 | load torque
+J_load      | kg*m^2   | + | J_{load} | ours | moment of inertia of what turns with the rotor: plate, coupling
+r_s         | m        | + | r_s | ours | radius at which the string that bears a weight runs off the plate
+g           | m/s^2    | + | g | ours | standard gravity
+J_total     | kg*m^2   | + | J_{total} | ours | moment of inertia of all that turns or moves with the rotor
 """
 
 # The paper's symbols that only the ledger needs, in the order of the paper.
@@ -305,7 +309,7 @@ _LATEX = {entry.symbol: entry.latex for entry in NOMENCLATURE.values() if isinst
 # Keeps a quotient finite where both sides vanish; has whatever dimension it is added to.
 TINY = sp.Symbol("tiny", positive=True)
 # Symbols that are no arguments: their values in the kernels.
-CONSTANTS = {NOMENCLATURE["N_1"].symbol: 1.0, TINY: 1e-37}
+CONSTANTS = {NOMENCLATURE["N_1"].symbol: 1.0, NOMENCLATURE["g"].symbol: 9.80665, TINY: 1e-37}
 
 
 def sym(names: str) -> tuple[sp.Symbol, ...]:

@@ -13,6 +13,7 @@ from functools import cache
 import mpmath as mp
 import sympy as sp
 
+from derivations import bench
 from derivations.contact import hertz_half_angle
 from derivations.nomenclature import TINY, sym
 
@@ -44,7 +45,7 @@ f_A_re, f_A_im, f_B_re, f_B_im = sym("f_A_re f_A_im f_B_re f_B_im")
 p_re, p_im, e_re, e_im, d_re, d_im, g_A, g_B = sym("p_re p_im e_re e_im d_re d_im g_A g_B")
 W_c, engagement, share, theta, phi, R_v, v = sym("W_c engagement share theta phi R_v v")
 fullness, fullness_root, sin_theta, cos_phi, sin_phi = sym("fullness fullness_root sin_theta cos_phi sin_phi")
-n_j, k_N, F_c, mu, r_c, J, T_load, b_m = sym("n_j k_N F_c mu r_c J T_load b_m")
+n_j, k_N, F_c, mu, r_c, T_load, b_m = sym("n_j k_N F_c mu r_c T_load b_m")
 engagement_per_height, W_full, fraction = sym("engagement_per_height W_full f")
 
 
@@ -144,12 +145,14 @@ def coefficients() -> dict[str, sp.Expr]:
     """What a point's steps share: engagement per wave height, and the accelerations of the rotor's rim (eq. 38).
 
     engagement = 2 n_j k_N W_c / (k_c F_c) compares the layer's force at full wave with the prepressure; the rim's
-    speed v = omega r_c obeys v' = push f - drag.
+    speed v = omega r_c obeys v' = push f - drag.  The moment of inertia is the
+    rotor's with the load's.
     """
+    inertia = bench.inertia()
     return {
         "engagement_per_height": 2 * n_j * k_N / (k_c * F_c),
-        "push": r_c**2 * mu * F_c / J,
-        "drag": r_c * T_load / J,
+        "push": r_c**2 * mu * F_c / inertia,
+        "drag": r_c * T_load / inertia,
     }
 
 

@@ -63,9 +63,12 @@ static const struct trum_drive trum_table3 = {
   (trum_real)20.0, /* periods */
   (trum_real)14.0, /* on_periods */
   (trum_real)0.3, /* load_torque */
+  (trum_real)0.0, /* load_inertia */
+  (trum_real)0.0, /* load_radius */
   (trum_real)0.0, /* switching_phase */
   (trum_real)1.0, /* phase_lead */
   TRUM_START_PERIODIC,
+  TRUM_LOAD_TORQUE,
   TRUM_CONTACT_WINKLER,
   TRUM_RESONANCE_QUARTIC,
   TRUM_FOUNDATION_HARMONIC,

@@ -59,6 +59,8 @@
   X(periods, m, "1", 1.0, 10000.0, 0, 0, 1, 1) \
   X(on_periods, n, "1", 1.0, 10000.0, 0, 0, 1, 1) \
   X(load_torque, T_load, "N*m", -1000000000.0, 1000000000.0, 1, 1, 0, 1) \
+  X(load_inertia, J_load, "kg*m^2", 0.0, 1000000.0, 0, 1, 0, 1) \
+  X(load_radius, r_s, "m", 0.0, 10.0, 0, 1, 0, 1) \
   X(switching_phase, psi, "rad", -1000000.0, 1000000.0, 1, 1, 0, 1) \
   X(phase_lead, s, "1", -1.0, 1.0, 0, 0, 0, 1)
 /* figure, SI unit */
@@ -87,6 +89,7 @@
 /* choice, number of words, the words in the order of their numbers */
 #define TRUM_CHOICES(X) \
   X(start, 3, "periodic steady rest") \
+  X(load, 2, "torque weight") \
   X(contact, 2, "winkler hertz") \
   X(resonance, 4, "quartic eq6 printed euler") \
   X(foundation, 4, "harmonic smeared printed none") \
@@ -94,6 +97,7 @@
   X(compliance, 2, "layer flange") \
   X(tangential, 2, "rigid brush")
 enum { TRUM_START_PERIODIC, TRUM_START_STEADY, TRUM_START_REST };
+enum { TRUM_LOAD_TORQUE, TRUM_LOAD_WEIGHT };
 enum { TRUM_CONTACT_WINKLER, TRUM_CONTACT_HERTZ };
 enum { TRUM_RESONANCE_QUARTIC, TRUM_RESONANCE_EQ6, TRUM_RESONANCE_PRINTED, TRUM_RESONANCE_EULER };
 enum { TRUM_FOUNDATION_HARMONIC, TRUM_FOUNDATION_SMEARED, TRUM_FOUNDATION_PRINTED, TRUM_FOUNDATION_NONE };

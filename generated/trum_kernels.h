@@ -139,7 +139,7 @@ enum { trum_rotation_out_e_re, trum_rotation_out_e_im, trum_rotation_out_d_re, t
 
 /* What the steps of a point share (eqs. 25, 26, 38) */
 int trum_rotor_coefficients(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
-enum { trum_rotor_coefficients_in_E_eq, trum_rotor_coefficients_in_E_m, trum_rotor_coefficients_in_F_c, trum_rotor_coefficients_in_J, trum_rotor_coefficients_in_T_load, trum_rotor_coefficients_in_b_m, trum_rotor_coefficients_in_k_N, trum_rotor_coefficients_in_k_c, trum_rotor_coefficients_in_mu, trum_rotor_coefficients_in_mu_e, trum_rotor_coefficients_in_mu_m, trum_rotor_coefficients_in_n_j, trum_rotor_coefficients_in_r_c, trum_rotor_coefficients_in_r_t, trum_rotor_coefficients_n_arg };
+enum { trum_rotor_coefficients_in_E_eq, trum_rotor_coefficients_in_E_m, trum_rotor_coefficients_in_F_c, trum_rotor_coefficients_in_J, trum_rotor_coefficients_in_J_load, trum_rotor_coefficients_in_T_load, trum_rotor_coefficients_in_b_m, trum_rotor_coefficients_in_k_N, trum_rotor_coefficients_in_k_c, trum_rotor_coefficients_in_mu, trum_rotor_coefficients_in_mu_e, trum_rotor_coefficients_in_mu_m, trum_rotor_coefficients_in_n_j, trum_rotor_coefficients_in_r_c, trum_rotor_coefficients_in_r_s, trum_rotor_coefficients_in_r_t, trum_rotor_coefficients_n_arg };
 enum { trum_rotor_coefficients_out_engagement_per_height, trum_rotor_coefficients_out_push, trum_rotor_coefficients_out_drag, trum_rotor_coefficients_out_W_full_hertz, trum_rotor_coefficients_out_W_full_winkler, trum_rotor_coefficients_n_res };
 
 /* Wave height and surface speed (eqs. 11, 16, 20) */
@@ -171,6 +171,16 @@ enum { trum_peak_pressure_out_pressure, trum_peak_pressure_n_res };
 int trum_stall_torque(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_stall_torque_in_F_c, trum_stall_torque_in_f, trum_stall_torque_in_mu, trum_stall_torque_in_r_c, trum_stall_torque_n_arg };
 enum { trum_stall_torque_out_torque, trum_stall_torque_n_res };
+
+/* Moment of inertia of rotor, plate and weight (eq. 38, Sect. 8.1) */
+int trum_total_inertia(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_total_inertia_in_J, trum_total_inertia_in_J_load, trum_total_inertia_in_T_load, trum_total_inertia_in_r_s, trum_total_inertia_n_arg };
+enum { trum_total_inertia_out_J_total, trum_total_inertia_n_res };
+
+/* Tension of the string that bears the weight, over the weight (Sect. 8.1) */
+int trum_string_tension(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_string_tension_in_F_c, trum_string_tension_in_J, trum_string_tension_in_J_load, trum_string_tension_in_T_load, trum_string_tension_in_f, trum_string_tension_in_mu, trum_string_tension_in_r_c, trum_string_tension_in_r_s, trum_string_tension_n_arg };
+enum { trum_string_tension_out_tension, trum_string_tension_n_res };
 
 /* Net friction fraction, its slope, pressure where the surface is as fast as the rotor (eqs. 33 to 37) */
 int trum_friction(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
@@ -253,13 +263,15 @@ enum { trum_interface_out_v_x, trum_interface_out_v_x_slope, trum_interface_out_
   X(trum_measures, 5, 4, "T p_minus p_plus q_minus q_plus", "q_ratio q_square_ratio q_average q_volatility") \
   X(trum_phasor, 4, 2, "a b omega_n xi", "re im") \
   X(trum_rotation, 4, 4, "Delta_omega omega_n tau xi", "e_re e_im d_re d_im") \
-  X(trum_rotor_coefficients, 14, 5, "E_eq E_m F_c J T_load b_m k_N k_c mu mu_e mu_m n_j r_c r_t", "engagement_per_height push drag W_full_hertz W_full_winkler") \
+  X(trum_rotor_coefficients, 16, 5, "E_eq E_m F_c J J_load T_load b_m k_N k_c mu mu_e mu_m n_j r_c r_s r_t", "engagement_per_height push drag W_full_hertz W_full_winkler") \
   X(trum_wave, 19, 5, "D Delta_omega W d_im d_re e_im e_re f_A_im f_A_re f_B_im f_B_re g_A g_B k_c omega_n p_im p_re s xi", "W_c R_v phi cos_phi sin_phi") \
   X(trum_filling, 2, 2, "W_c engagement_per_height", "engagement fullness") \
   X(trum_contact_winkler, 2, 3, "fullness fullness_root", "theta sin_theta share") \
   X(trum_contact_hertz, 2, 4, "W_c W_full", "theta sin_theta share engagement") \
   X(trum_peak_pressure, 6, 1, "F_c b_m engagement k_c n_j share", "pressure") \
   X(trum_stall_torque, 4, 1, "F_c f mu r_c", "torque") \
+  X(trum_total_inertia, 4, 1, "J J_load T_load r_s", "J_total") \
+  X(trum_string_tension, 8, 1, "F_c J J_load T_load f mu r_c r_s", "tension") \
   X(trum_friction, 9, 4, "R_v cos_phi engagement phi share sin_phi sin_theta theta v", "f f_v p_1 p_2") \
   X(trum_start_periodic_slopes, 8, 8, "Delta_omega W m n omega_n psi s xi", "a_A_omega_n b_A_omega_n a_B_omega_n b_B_omega_n a_A_Delta_omega b_A_Delta_omega a_B_Delta_omega b_B_Delta_omega") \
   X(trum_start_rest_slopes, 5, 8, "Delta_omega W omega_n psi s", "a_A_omega_n b_A_omega_n a_B_omega_n b_B_omega_n a_A_Delta_omega b_A_Delta_omega a_B_Delta_omega b_B_Delta_omega") \

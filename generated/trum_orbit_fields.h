@@ -256,8 +256,8 @@ typedef struct {
   double engagement_per_height; /* 1/m: engagement over wave height */
   double W_full; /* m: wave height below which the whole wave touches */
   double hertz; /* 1: whether the contact has the paper's Hertz width (1) or is the Winkler layer's (0) */
-  double push; /* m/s^2: mu F_c r_c^2 / J, the rim's acceleration by full friction (eq. 38) */
-  double drag; /* m/s^2: the load's T_load r_c / J (eq. 38) */
+  double push; /* m/s^2: mu F_c r_c^2 / J_total, the rim's acceleration by full friction (eq. 38) */
+  double drag; /* m/s^2: the load's T_load r_c / J_total (eq. 38) */
   double tolerance; /* 1: of mean and extremes, relative to the largest speed */
   double held; /* 1: whether (1 or 0) contact and stall torque of a rotor that is held are wanted */
 } trum_orbit_in;

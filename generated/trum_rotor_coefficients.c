@@ -6,23 +6,25 @@
  * in  1: E_m [Pa]
  * in  2: F_c [N]
  * in  3: J [kg*m^2]
- * in  4: T_load [N*m]
- * in  5: b_m [m]
- * in  6: k_N [N/m^2]
- * in  7: k_c [1/m]
- * in  8: mu [1]
- * in  9: mu_e [1]
- * in  10: mu_m [1]
- * in  11: n_j [1]
- * in  12: r_c [m]
- * in  13: r_t [m]
+ * in  4: J_load [kg*m^2]
+ * in  5: T_load [N*m]
+ * in  6: b_m [m]
+ * in  7: k_N [N/m^2]
+ * in  8: k_c [1/m]
+ * in  9: mu [1]
+ * in  10: mu_e [1]
+ * in  11: mu_m [1]
+ * in  12: n_j [1]
+ * in  13: r_c [m]
+ * in  14: r_s [m]
+ * in  15: r_t [m]
  * out 0: engagement_per_height [1/m]
  * out 1: push [m/s^2]
  * out 2: drag [m/s^2]
  * out 3: W_full_hertz [m]
  * out 4: W_full_winkler [m]
  *
- * 31 operations: 14 mul, 7 div, 6 sq, 2 sub, 1 add, 1 twice
+ * 36 operations: 15 mul, 8 div, 6 sq, 3 add, 2 sub, 1 fabs, 1 twice
  */
 /* How to prefix internal symbols */
 #ifdef CASADI_CODEGEN_PREFIX
@@ -45,6 +47,7 @@
 
 /* Add prefix to internal symbols */
 #define casadi_f0 CASADI_PREFIX(f0)
+#define casadi_fabs CASADI_PREFIX(fabs)
 #define casadi_s0 CASADI_PREFIX(s0)
 #define casadi_sq CASADI_PREFIX(sq)
 
@@ -65,6 +68,15 @@
 
 casadi_real casadi_sq(casadi_real x) { return x*x;}
 
+casadi_real casadi_fabs(casadi_real x) {
+/* Pre-c99 compatibility */
+#if __STDC_VERSION__ < 199901L
+  return x>0 ? x : -x;
+#else
+  return fabs(x);
+#endif
+}
+
 /* Configuration this file was compiled with */
 CASADI_SYMBOL_EXPORT void trum_rotor_coefficients_casadi_version(int* major, int* minor, int* patch) {
   *major = 3;
@@ -76,64 +88,72 @@ CASADI_SYMBOL_EXPORT int trum_rotor_coefficients_casadi_real_size(void) { return
 
 static const casadi_int casadi_s0[3] = {1, 1, 1};
 
-/* trum_rotor_coefficients:(E_eq,E_m,F_c,J,T_load,b_m,k_N,k_c,mu,mu_e,mu_m,n_j,r_c,r_t)->(engagement_per_height,push,drag,W_full_hertz,W_full_winkler) */
+/* trum_rotor_coefficients:(E_eq,E_m,F_c,J,J_load,T_load,b_m,k_N,k_c,mu,mu_e,mu_m,n_j,r_c,r_s,r_t)->(engagement_per_height,push,drag,W_full_hertz,W_full_winkler) */
 static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
   (void)iw, (void)w, (void)mem;
-  casadi_real a0, a1, a2, a3, a4, a5, a6, a7;
-  a0=arg[6]? arg[6][0] : 0;
-  a1=((casadi_real)2.*a0);
-  a2=arg[11]? arg[11][0] : 0;
-  a1=(a1*a2);
-  a3=arg[2]? arg[2][0] : 0;
-  a4=arg[7]? arg[7][0] : 0;
-  a5=(a3*a4);
-  a1=(a1/a5);
-  if (res[0]!=0) res[0][0]=a1;
-  a1=arg[8]? arg[8][0] : 0;
-  a1=(a3*a1);
-  a6=arg[12]? arg[12][0] : 0;
-  a7=casadi_sq(a6);
-  a1=(a1*a7);
-  a7=arg[3]? arg[3][0] : 0;
-  a1=(a1/a7);
-  if (res[1]!=0) res[1][0]=a1;
-  a1=arg[4]? arg[4][0] : 0;
-  a1=(a1*a6);
-  a1=(a1/a7);
-  if (res[2]!=0) res[2][0]=a1;
-  a1=(casadi_real)32.;
-  a1=(a1*a3);
-  a4=casadi_sq(a4);
-  a1=(a1*a4);
-  a4=arg[13]? arg[13][0] : 0;
-  a4=casadi_sq(a4);
-  a1=(a1*a4);
-  a4=(casadi_real)1.;
-  a3=arg[9]? arg[9][0] : 0;
-  a3=casadi_sq(a3);
-  a3=(a4-a3);
-  a7=arg[0]? arg[0][0] : 0;
-  a3=(a3/a7);
-  a7=arg[10]? arg[10][0] : 0;
-  a7=casadi_sq(a7);
-  a4=(a4-a7);
-  a7=arg[1]? arg[1][0] : 0;
-  a4=(a4/a7);
-  a3=(a3+a4);
-  a1=(a1*a3);
-  a3=(casadi_real)2.4674011002723395e+02;
-  a4=arg[5]? arg[5][0] : 0;
-  a3=(a3*a4);
-  a4=casadi_sq(a2);
-  a4=(a2*a4);
-  a3=(a3*a4);
-  a1=(a1/a3);
-  if (res[3]!=0) res[3][0]=a1;
-  a1=(casadi_real)6.2831853071795862e+00;
-  a1=(a1*a0);
-  a1=(a1*a2);
-  a5=(a5/a1);
-  if (res[4]!=0) res[4][0]=a5;
+  casadi_real a00, a01, a02, a03, a04, a05, a06, a07, a08, a09, a10;
+  a00=arg[7]? arg[7][0] : 0;
+  a01=((casadi_real)2.*a00);
+  a02=arg[12]? arg[12][0] : 0;
+  a01=(a01*a02);
+  a03=arg[2]? arg[2][0] : 0;
+  a04=arg[8]? arg[8][0] : 0;
+  a05=(a03*a04);
+  a01=(a01/a05);
+  if (res[0]!=0) res[0][0]=a01;
+  a01=arg[9]? arg[9][0] : 0;
+  a01=(a03*a01);
+  a06=arg[13]? arg[13][0] : 0;
+  a07=casadi_sq(a06);
+  a01=(a01*a07);
+  a07=arg[3]? arg[3][0] : 0;
+  a08=arg[4]? arg[4][0] : 0;
+  a07=(a07+a08);
+  a08=arg[14]? arg[14][0] : 0;
+  a09=arg[5]? arg[5][0] : 0;
+  a10=casadi_fabs(a09);
+  a08=(a08*a10);
+  a10=(casadi_real)9.8066499999999994e+00;
+  a08=(a08/a10);
+  a07=(a07+a08);
+  a01=(a01/a07);
+  if (res[1]!=0) res[1][0]=a01;
+  a09=(a09*a06);
+  a09=(a09/a07);
+  if (res[2]!=0) res[2][0]=a09;
+  a09=(casadi_real)32.;
+  a09=(a09*a03);
+  a04=casadi_sq(a04);
+  a09=(a09*a04);
+  a04=arg[15]? arg[15][0] : 0;
+  a04=casadi_sq(a04);
+  a09=(a09*a04);
+  a04=(casadi_real)1.;
+  a03=arg[10]? arg[10][0] : 0;
+  a03=casadi_sq(a03);
+  a03=(a04-a03);
+  a07=arg[0]? arg[0][0] : 0;
+  a03=(a03/a07);
+  a07=arg[11]? arg[11][0] : 0;
+  a07=casadi_sq(a07);
+  a04=(a04-a07);
+  a07=arg[1]? arg[1][0] : 0;
+  a04=(a04/a07);
+  a03=(a03+a04);
+  a09=(a09*a03);
+  a03=(casadi_real)2.4674011002723395e+02;
+  a04=arg[6]? arg[6][0] : 0;
+  a03=(a03*a04);
+  a04=casadi_sq(a02);
+  a04=(a02*a04);
+  a03=(a03*a04);
+  a09=(a09/a03);
+  if (res[3]!=0) res[3][0]=a09;
+  a09=(casadi_real)6.2831853071795862e+00;
+  a09=(a09*a00);
+  a09=(a09*a02);
+  a05=(a05/a09);
+  if (res[4]!=0) res[4][0]=a05;
   return 0;
 }
 
@@ -155,7 +175,7 @@ CASADI_SYMBOL_EXPORT void trum_rotor_coefficients_incref(void) {
 CASADI_SYMBOL_EXPORT void trum_rotor_coefficients_decref(void) {
 }
 
-CASADI_SYMBOL_EXPORT casadi_int trum_rotor_coefficients_n_in(void) { return 14;}
+CASADI_SYMBOL_EXPORT casadi_int trum_rotor_coefficients_n_in(void) { return 16;}
 
 CASADI_SYMBOL_EXPORT casadi_int trum_rotor_coefficients_n_out(void) { return 5;}
 
@@ -171,16 +191,18 @@ CASADI_SYMBOL_EXPORT const char* trum_rotor_coefficients_name_in(casadi_int i) {
     case 1: return "E_m";
     case 2: return "F_c";
     case 3: return "J";
-    case 4: return "T_load";
-    case 5: return "b_m";
-    case 6: return "k_N";
-    case 7: return "k_c";
-    case 8: return "mu";
-    case 9: return "mu_e";
-    case 10: return "mu_m";
-    case 11: return "n_j";
-    case 12: return "r_c";
-    case 13: return "r_t";
+    case 4: return "J_load";
+    case 5: return "T_load";
+    case 6: return "b_m";
+    case 7: return "k_N";
+    case 8: return "k_c";
+    case 9: return "mu";
+    case 10: return "mu_e";
+    case 11: return "mu_m";
+    case 12: return "n_j";
+    case 13: return "r_c";
+    case 14: return "r_s";
+    case 15: return "r_t";
     default: return 0;
   }
 }
@@ -212,6 +234,8 @@ CASADI_SYMBOL_EXPORT const casadi_int* trum_rotor_coefficients_sparsity_in(casad
     case 11: return casadi_s0;
     case 12: return casadi_s0;
     case 13: return casadi_s0;
+    case 14: return casadi_s0;
+    case 15: return casadi_s0;
     default: return 0;
   }
 }
@@ -228,7 +252,7 @@ CASADI_SYMBOL_EXPORT const casadi_int* trum_rotor_coefficients_sparsity_out(casa
 }
 
 CASADI_SYMBOL_EXPORT int trum_rotor_coefficients_work(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 14;
+  if (sz_arg) *sz_arg = 16;
   if (sz_res) *sz_res = 5;
   if (sz_iw) *sz_iw = 0;
   if (sz_w) *sz_w = 0;
@@ -236,7 +260,7 @@ CASADI_SYMBOL_EXPORT int trum_rotor_coefficients_work(casadi_int *sz_arg, casadi
 }
 
 CASADI_SYMBOL_EXPORT int trum_rotor_coefficients_work_bytes(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 14*sizeof(const casadi_real*);
+  if (sz_arg) *sz_arg = 16*sizeof(const casadi_real*);
   if (sz_res) *sz_res = 5*sizeof(casadi_real*);
   if (sz_iw) *sz_iw = 0*sizeof(casadi_int);
   if (sz_w) *sz_w = 0*sizeof(casadi_real);

@@ -26,6 +26,8 @@ enum {
   trum_at_G_p,
   trum_at_I_z,
   trum_at_J,
+  trum_at_J_load,
+  trum_at_J_total,
   trum_at_Q,
   trum_at_Q_rate,
   trum_at_R,
@@ -192,6 +194,7 @@ enum {
   trum_at_q_volatility,
   trum_at_quartic,
   trum_at_r_c,
+  trum_at_r_s,
   trum_at_r_t,
   trum_at_ratio,
   trum_at_re,
@@ -233,6 +236,7 @@ enum {
   trum_at_stuck,
   trum_at_t_0,
   trum_at_tau,
+  trum_at_tension,
   trum_at_theta,
   trum_at_theta_E,
   trum_at_time_add,
@@ -405,7 +409,7 @@ static inline void trum_call_rotation(trum_real* v) {
 }
 
 static inline void trum_call_rotor_coefficients(trum_real* v) {
-  const trum_real* arg[trum_rotor_coefficients_n_arg] = {v + trum_at_E_eq, v + trum_at_E_m, v + trum_at_F_c, v + trum_at_J, v + trum_at_T_load, v + trum_at_b_m, v + trum_at_k_N, v + trum_at_k_c, v + trum_at_mu, v + trum_at_mu_e, v + trum_at_mu_m, v + trum_at_n_j, v + trum_at_r_c, v + trum_at_r_t};
+  const trum_real* arg[trum_rotor_coefficients_n_arg] = {v + trum_at_E_eq, v + trum_at_E_m, v + trum_at_F_c, v + trum_at_J, v + trum_at_J_load, v + trum_at_T_load, v + trum_at_b_m, v + trum_at_k_N, v + trum_at_k_c, v + trum_at_mu, v + trum_at_mu_e, v + trum_at_mu_m, v + trum_at_n_j, v + trum_at_r_c, v + trum_at_r_s, v + trum_at_r_t};
   trum_real* res[trum_rotor_coefficients_n_res] = {v + trum_at_engagement_per_height, v + trum_at_push, v + trum_at_drag, v + trum_at_W_full_hertz, v + trum_at_W_full_winkler};
   trum_rotor_coefficients(arg, res, 0, 0, 0);
 }
@@ -444,6 +448,18 @@ static inline void trum_call_stall_torque(trum_real* v) {
   const trum_real* arg[trum_stall_torque_n_arg] = {v + trum_at_F_c, v + trum_at_f, v + trum_at_mu, v + trum_at_r_c};
   trum_real* res[trum_stall_torque_n_res] = {v + trum_at_torque};
   trum_stall_torque(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_total_inertia(trum_real* v) {
+  const trum_real* arg[trum_total_inertia_n_arg] = {v + trum_at_J, v + trum_at_J_load, v + trum_at_T_load, v + trum_at_r_s};
+  trum_real* res[trum_total_inertia_n_res] = {v + trum_at_J_total};
+  trum_total_inertia(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_string_tension(trum_real* v) {
+  const trum_real* arg[trum_string_tension_n_arg] = {v + trum_at_F_c, v + trum_at_J, v + trum_at_J_load, v + trum_at_T_load, v + trum_at_f, v + trum_at_mu, v + trum_at_r_c, v + trum_at_r_s};
+  trum_real* res[trum_string_tension_n_res] = {v + trum_at_tension};
+  trum_string_tension(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_friction(trum_real* v) {

@@ -57,6 +57,8 @@ def base(motor, drive, point, name):
     """A parameter's value, and what it is a value of."""
     if name in ("prepressure", "frequency_difference", "load_torque"):
         return getattr(drive, name)
+    if name == "load_inertia":  # which the rotor's own stands for
+        return motor.rotor_inertia.value
     return motor.friction_coefficient.value if name == "friction_coefficient" else getattr(point, name)
 
 
@@ -64,8 +66,10 @@ def moved(motor, drive, point, name, values):
     """The figures at other values of one parameter."""
     if name in ("prepressure", "frequency_difference", "load_torque"):
         drive = replace(drive, **{name: values})
-    elif name == "friction_coefficient":
-        motor = motor.with_values({name: values})
+    elif name in ("friction_coefficient", "load_inertia"):
+        own = "rotor_inertia" if name == "load_inertia" else name
+        with unquestioned():
+            motor = motor.with_values({own: values})
     else:
         motor = motor.with_values(
             {"amplitude": point.amplitude, "resonance_frequency": point.resonance_frequency} | {name: values}

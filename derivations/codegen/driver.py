@@ -223,8 +223,8 @@ _SIZE = _named("W D k_c")
 _ROTOR = (
     *_named("engagement_per_height W_full"),
     Field("hertz", "1", "whether the contact has the paper's Hertz width (1) or is the Winkler layer's (0)"),
-    Field("push", "m/s^2", "mu F_c r_c^2 / J, the rim's acceleration by full friction (eq. 38)"),
-    Field("drag", "m/s^2", "the load's T_load r_c / J (eq. 38)"),
+    Field("push", "m/s^2", "mu F_c r_c^2 / J_total, the rim's acceleration by full friction (eq. 38)"),
+    Field("drag", "m/s^2", "the load's T_load r_c / J_total (eq. 38)"),
     Field("tolerance", "1", "of mean and extremes, relative to the largest speed"),
     Field("held", "1", "whether (1 or 0) contact and stall torque of a rotor that is held are wanted"),
 )

@@ -15,6 +15,7 @@ import sympy as sp
 from derivations import (
     amplitude,
     beam,
+    bench,
     brush,
     contact,
     determinant,
@@ -388,6 +389,18 @@ def _rotor() -> list[Kernel]:
         ),
         Kernel(
             "trum_stall_torque", "Torque on a held rotor (eq. 38)", {"torque": rotor.stall_torque()}, {"torque": "N*m"}
+        ),
+        Kernel(
+            "trum_total_inertia",
+            "Moment of inertia of rotor, plate and weight (eq. 38, Sect. 8.1)",
+            {"J_total": bench.inertia()},
+            {"J_total": "kg*m^2"},
+        ),
+        Kernel(
+            "trum_string_tension",
+            "Tension of the string that bears the weight, over the weight (Sect. 8.1)",
+            {"tension": bench.tension()},
+            {"tension": "1"},
         ),
         Kernel(
             "trum_friction",

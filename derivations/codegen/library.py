@@ -7,7 +7,7 @@ from collections.abc import Iterable
 
 from derivations.codegen.kernels import Kernel
 from trum_sym.inputs.domain import Domain
-from trum_sym.inputs.drive import DRIVE_DOMAINS, LEAD, STARTS, Drive
+from trum_sym.inputs.drive import DRIVE_DOMAINS, LEAD, LOADS, STARTS, Drive
 from trum_sym.inputs.motor import SPECS
 from trum_sym.inputs.motor_file import load_motor
 from trum_sym.model.levels import AMPLITUDES, COMPLIANCES, CONTACTS, FOUNDATIONS, RESONANCES, TANGENTIALS
@@ -17,6 +17,7 @@ __all__ = ["headers"]
 
 _CHOICES = {
     "start": STARTS,
+    "load": LOADS,
     "contact": CONTACTS,
     "resonance": RESONANCES,
     "foundation": FOUNDATIONS,
@@ -31,6 +32,8 @@ _DRIVE_SYMBOLS = {
     "periods": "m",
     "on_periods": "n",
     "load_torque": "T_load",
+    "load_inertia": "J_load",
+    "load_radius": "r_s",
     "switching_phase": "psi",
     "phase_lead": "s",
 }

@@ -5,6 +5,7 @@ from __future__ import annotations
 from derivations.ledger import (
     appendix_a,
     appendix_b_c,
+    bench_load,
     claims,
     claims_appendix_c,
     rotor_flange,
@@ -61,6 +62,7 @@ _ALL: tuple[Entry, ...] = (
     *section_4_nonsliding.ENTRIES,
     *section_4_transfer.ENTRIES,
     *rotor_orbit.ENTRIES,
+    *bench_load.ENTRIES,
     *table_1.ENTRIES,
     *section_6.ENTRIES,
     *section_7.ENTRIES,

@@ -80,7 +80,8 @@ def _inertia_estimate() -> str:
     return (
         f"Sect. 8.1 loads the rotor with a weight on a string over the outer ring of a torque plate. For 0.3 N m, "
         f"m g r, it adds m r^2 = 0.3 N m r/g, {_rig_inertia():.2g} kg m^2 and {times:.0f} times J at r = 30 mm, more "
-        "on a larger plate, and the plate's own."
+        "on a larger plate, and the plate's own. A string that gives or goes slack keeps the weight's part from the "
+        "rotor within a cycle (entry load-inertia), not the plate's."
     )
 
 

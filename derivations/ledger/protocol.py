@@ -31,6 +31,11 @@ PREMISES: tuple[tuple[str, tuple[str, ...], str], ...] = (
         "claims, a friction that depends on speed is not computed",
     ),
     (
+        "A load that is a torque, a plate's inertia or a weight on a string that does not give",
+        ("38", "load-inertia"),
+        "the rotor's swing and, through it, its mean speed; a slack string is named, its motion not computed",
+    ),
+    (
         "A prescribed wave: the rotor does not act back on the phases",
         ("8", "9", "10", "11"),
         "amplitude and direction of the wave; the mean effect of the prepressure is in eqs. 6 and 8, none within a "

@@ -733,6 +733,21 @@ def _orbit() -> list[Any]:
     return [100 * (ends[1] - ends[0]) / 8, most * _v("r_c")]
 
 
+@_route("load-inertia")
+def _load_inertia() -> list[Any]:
+    """Of a weight that pulls 0.3 N m at 30 mm: by moments of force, and by the receptances of two bodies."""
+    weight = 0.3 / 0.03  # N
+    mass, friction, rate = weight / 9.80665, _v("mu") * 180 * _v("r_c"), 2 * math.pi / _ends()[3]
+    wire = 2.1e11 * math.pi * 0.25e-3**2 / 0.3
+    # rotor falls freely with the string's end: friction alone makes the angular acceleration g / r
+    slack = -9.80665 / 0.03 * _v("J") / friction
+    plate = friction / (9.80665 / 0.03) - _v("J")
+    through = 1 / (-1 / (mass * rate**2) + 1 / wire)  # spring and mass in series
+    met = (_v("J") * rate**2 - through * 0.03**2) / rate**2 / _v("J")
+    added = mass * 0.03**2
+    return [mass, added, added / _v("J"), slack, plate, 1 / _ends()[3], mass * rate**2, wire, met]
+
+
 # --- Tables -------------------------------------------------------------------------------------------------
 @_route("table-1-R")
 def _table_r() -> list[Any]:

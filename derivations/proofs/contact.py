@@ -61,15 +61,35 @@ def _coefficients(p: Point, m: Maths) -> Found:
     squeezed = (1 - p.mu_e) * (1 + p.mu_e) / p.E_eq + (1 - p.mu_m) * (1 + p.mu_m) / p.E_m
     # width^2 = rounded^2 P rho_k C_E is the square of a wavelength, rho_k = 2 r_t^2/(n_j^2 W)
     length = 2 * m.pi / p.k_c
+    inertia = 2 * _energy(p, m)
     factor = rounded**2 if isinstance(p.k_c, sp.Basic) else mp.mpf(int(rounded.p)) ** 2 / int(rounded.q) ** 2
     return {
         # force of all crests over prepressure is the engagement times sin theta - theta cos theta: at theta = pi, pi
         "engagement_per_height": p.n_j * one_crest / p.F_c / m.pi,
-        "push": p.r_c * (p.r_c * p.mu * p.F_c) / p.J,
-        "drag": p.r_c * p.T_load / p.J,
+        "push": p.r_c * (p.r_c * p.mu * p.F_c) / inertia,
+        "drag": p.r_c * p.T_load / inertia,
         "W_full_hertz": factor * p.F_c / (p.n_j * p.b_m) * 2 * (p.r_t / p.n_j) ** 2 * squeezed / length**2,
         "W_full_winkler": p.F_c / (p.n_j * one_crest),
     }
+
+
+def _gravity(p: Point) -> Number:
+    return sp.Rational(980665, 100000) if isinstance(p.J, sp.Basic) else mp.mpf(9.80665)
+
+
+def _energy(p: Point, m: Maths) -> Number:
+    """Kinetic energy at one radian a second: of rotor and plate, and of the weight that the string moves with them."""
+    weight = m.absolute(p.T_load) / p.r_s / _gravity(p)
+    return (p.J + p.J_load) / 2 + weight * p.r_s**2 / 2
+
+
+def _tension(p: Point, m: Maths) -> Found:
+    """Newton's law for both bodies: rotor and plate under friction and string, the weight under string and gravity."""
+    weight = m.absolute(p.T_load) / p.r_s / _gravity(p)
+    # (J + J_load) turn = friction - S r_s and weight r_s turn = S - weight g, by Cramer's rule
+    bodies, friction = p.J + p.J_load, p.r_c * p.mu * p.F_c * p.f
+    pull = (weight * p.r_s * friction + weight * _gravity(p) * bodies) / (bodies + weight * p.r_s**2)
+    return {"tension": pull / (weight * _gravity(p))}
 
 
 def _filling(p: Point, m: Maths) -> Found:
@@ -177,10 +197,31 @@ PROOFS = (
     Proof(
         "trum_rotor_coefficients",
         "engagement_per_height push drag W_full_hertz W_full_winkler",
-        "25 26 30 31 38",
-        "force of the layer under a whole wave; angular momentum; heights at which the half-angle is pi",
+        "25 26 30 31 38 load-inertia",
+        "force of the layer under a whole wave; angular momentum; kinetic energy of rotor, plate and weight; heights "
+        "at which the half-angle is pi",
         _coefficients,
-        grid("E_eq E_m F_c J T_load b_m k_N k_c mu mu_e mu_m n_j r_c r_t"),
+        grid("E_eq E_m F_c J J_load T_load b_m k_N k_c mu mu_e mu_m n_j r_c r_s r_t"),
+        "random points around TRUM-60",
+        symbolic=True,
+    ),
+    Proof(
+        "trum_total_inertia",
+        "J_total",
+        "load-inertia",
+        "twice the kinetic energy of rotor, plate and weight at one radian a second",
+        lambda p, m: {"J_total": 2 * _energy(p, m)},
+        grid("J J_load T_load r_s"),
+        "random points around TRUM-60",
+        symbolic=True,
+    ),
+    Proof(
+        "trum_string_tension",
+        "tension",
+        "load-inertia",
+        "Newton's law for rotor and weight, solved for the string's pull",
+        _tension,
+        grid("F_c J J_load T_load f mu r_c r_s"),
         "random points around TRUM-60",
         symbolic=True,
     ),

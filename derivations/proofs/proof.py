@@ -63,6 +63,8 @@ _RANGES: dict[str, tuple[float, float]] = {
     "psi": (-3.0, 3.0),
     "T": (4e-4, 6e-4),
     "T_load": (-0.4, 0.4),
+    "J_load": (1e-5, 1e-2),
+    "r_s": (0.01, 0.2),
     "f": (-1.0, 1.0),
     **dict.fromkeys(("q_plus", "q_minus", "p_plus", "p_minus"), (0.5, 90.0)),
     **dict.fromkeys(("a", "a_A", "a_B", "w_A", "w_B", "f_A_re", "f_A_im", "f_B_re", "f_B_im"), (-5e-06, 5e-06)),

@@ -77,6 +77,7 @@ int main(int count, char** arguments) {
 #define PRINT(name, unit) print_number(#name, point.name);
   TRUM_FIGURES(PRINT)
   printf("  \"converged\": %s,\n", point.converged ? "true" : "false");
-  printf("  \"reason\": \"%s\"\n}\n", point.converged ? "" : trum_status_text((int)status));
+  printf("  \"reason\": \"%s\"\n}\n", !point.converged ? trum_status_text((int)status)
+                                        : point.taut ? "" : "friction could make the string go slack");
   return 0;
 }

@@ -121,11 +121,14 @@ def test_an_envelope_gives_the_logarithmic_decrement():
 # --- Operating points -----------------------------------------------------------------------------
 
 
+@pytest.mark.parametrize(
+    "drive", [ts.Drive(), ts.Drive(load="weight", load_radius=0.03, load_inertia=2e-5)], ids=["torque", "weight"]
+)
 @pytest.mark.parametrize("figure", ["mean_speed", "max_speed", "speed_volatility", "contact_fraction", "stall_torque"])
-def test_slopes_of_the_model_are_those_of_evaluate(trum60, figure):
+def test_slopes_of_the_model_are_those_of_evaluate(trum60, figure, drive):
     data = from_columns("rows", {"load_torque": np.array([-0.05, 0.08]), figure: np.array([0.5, 0.6])}, {}, False)
     names = ("friction_coefficient", "contact_radius", "rotor_inertia")
-    model = PointModel(data, trum60, names, ts.Drive(), LEVELS, None)
+    model = PointModel(data, trum60, names, drive, LEVELS, None)
     assert model.exact == (True, True, True)
     values = model.start
     slopes = model.slopes(values)

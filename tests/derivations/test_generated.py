@@ -221,6 +221,8 @@ def random_arguments(kernel, rng):
         b_B=0.5,
         g_A=1,
         g_B=0,
+        J_load=1e-3,
+        r_s=0.03,
         q_plus=80.0,
         q_minus=30.0,
         p_plus=3e6,

@@ -101,6 +101,13 @@ def test_the_page_on_the_optimiser_shows_what_its_example_prints():
     alike(shown("docs/optimise.md", "examples/optimise.py"), done.stdout)
 
 
+@pytest.mark.slow
+def test_the_page_on_the_optimiser_shows_how_sharp_its_optima_are():
+    command = [sys.executable, ROOT / "examples" / "knife_edge.py"]
+    done = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", check=True)
+    alike(shown("docs/optimise.md", "examples/knife_edge.py"), done.stdout)
+
+
 def test_the_python_of_the_page_on_the_optimiser_runs(capsys):
     text = (ROOT / "docs/optimise.md").read_text("utf-8")
     exec(re.search(r"```python\n(.*?)```", text, re.DOTALL)[1], {})

@@ -20,10 +20,11 @@ PICTURES = {
     "evaluate": "phases",
     "starts": "starts",
     "torque_speed": "torque-speed",
+    "load_region": "load-region",
     "optimize": "optimum",
     "own_motor": "own-motor",
 }
-ON_A_PAGE = ("evaluate", "starts", "torque_speed")
+ON_A_PAGE = ("evaluate", "starts", "torque_speed", "load_region")
 image = lazily("matplotlib.image")
 NUMBER = re.compile(r"-?\d+\.?\d*(?:e-?\d+)?")
 

@@ -37,6 +37,8 @@ DRIVES = [
     "on_periods=20 load_torque=0.3 contact_stiffness=2e9 amplitude=forced frequency_difference=500",
     "on_periods=20 load_torque=-0.3 phase_lead=-1 compliance=flange tangential=brush flange_thickness=1.4e-3",
     "load_torque=2",
+    "load_inertia=1e-3 start=rest phase_lead=-1",
+    "load=weight load_radius=0.03 load_inertia=5e-3 start=rest phase_lead=-1",
 ]
 
 
@@ -92,7 +94,7 @@ def python(arguments, tolerance):
         name, value = argument.split("=")
         if name in ("contact", "resonance", "foundation", "compliance", "tangential") or value == "forced":
             levels[name] = value
-        elif name == "start":
+        elif name in ("start", "load"):
             drive[name] = value
         else:
             (drive if name in ts.Drive().numbers() else motor)[name] = float(value)
@@ -173,6 +175,13 @@ def test_scalar_kernels_agree_with_their_expressions_at_50_digits(harness):
                 assert abs(float.fromhex(ours) - value) <= 1e-12 * size, (line, out)
 
 
+def test_a_string_that_friction_could_make_slack_is_said(example):
+    """Unless rotor and plate weigh at least mu F_c r_c r/g = 3.648e-3 kg m^2, 0.25 * 180 * 0.0265 * 0.03 / 9.80665."""
+    hung = ("load=weight", "load_radius=0.03", "load_torque=0.05")
+    for plate, said in (("3.643e-3", "friction could make the string go slack"), ("3.644e-3", "")):
+        assert figures(example, *hung, f"load_inertia={plate}")["reason"] == said
+
+
 @pytest.mark.parametrize(
     ("argument", "words"),
     [
@@ -180,6 +189,9 @@ def test_scalar_kernels_agree_with_their_expressions_at_50_digits(harness):
         ("radius=inf", "radius"),
         ("prepressure=0", "prepressure"),
         ("rotor_inertia=-1", "rotor_inertia"),
+        ("load_inertia=-1", "load_inertia"),
+        ("load=weight", "load_radius"),
+        ("load_radius=0.03", "load_radius"),
         ("periods=20.5", "periods"),
         ("on_periods=9", "on_periods"),
         ("phase_lead=0", "phase_lead"),

@@ -84,8 +84,8 @@ def test_motor_file_refuses_a_bad_entry(motor_file, changes, naming):
         pytest.param("name = " + "{a=" * 5000, ("motor",), id="nested-tables"),
         pytest.param(b"\x7fELF\x02\x01\x01\x00\xff\xfe", ("motor", "not UTF-8 text"), id="binary"),
         pytest.param(MOTOR_TEXT.encode("utf-16"), ("motor", "not UTF-8 text"), id="utf-16"),
-        pytest.param("colour = 1\n" + MOTOR_TEXT, ("colour", "name, parameters, box and published"), id="unknown-key"),
-        pytest.param("[motor]\n" + MOTOR_TEXT, ("motor", "name, parameters, box and published"), id="name-in-a-table"),
+        pytest.param("colour = 1\n" + MOTOR_TEXT, ("colour", "parameters, bench, box and"), id="unknown-key"),
+        pytest.param("[motor]\n" + MOTOR_TEXT, ("motor", "parameters, bench, box and"), id="name-in-a-table"),
         pytest.param('"two\\nlines" = 1\n' + MOTOR_TEXT, ("two lines", "parameters"), id="unknown-two-line-key"),
         pytest.param(MOTOR_TEXT.replace('"TRUM-60"', "60"), ("name: got 60", "text"), id="name-a-number"),
         pytest.param(MOTOR_TEXT.replace('"TRUM-60"', "[]"), ("name: got []", "text"), id="name-a-list"),
@@ -187,3 +187,27 @@ def test_motor_refuses_a_directory(tmp_path):
 def test_motor_refuses_a_path_through_a_file(motor_file):
     with refusal("motor: got", "TOML file"):
         ts.load_motor(motor_file(MOTOR_TEXT) / "motor.toml")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "naming"),
+    [
+        ("[bench]", "[bench]\nstring_stiffness = 1e5", ("bench", "string_stiffness", "load_inertia, load_radius")),
+        ("[bench]\n", "bench = 1\n[other]\n", ("other",)),
+        ('unit = "kg*m^2", symbol = "J_load"', 'unit = "kg", symbol = "J_load"', ("load_inertia.unit", "kg*m^2")),
+        ("range = [1.7e-5, 4.0e-3]", "range = [1e-3, 4.0e-3]", ("load_inertia.range", "low <= value <= high")),
+        ("value = 2.7e-4", "value = -2.7e-4", ("load_inertia", ">= 0")),
+    ],
+)
+def test_a_bench_that_is_none_is_refused(motor_file, old, new, naming):
+    assert MOTOR_TEXT.count(old) == 1
+    with refusal(*naming):
+        ts.load_motor(motor_file(MOTOR_TEXT.replace(old, new)))
+
+
+def test_a_motor_file_may_say_nothing_of_a_bench(motor_file):
+    without = MOTOR_TEXT[: MOTOR_TEXT.index("[bench]")] + MOTOR_TEXT[MOTOR_TEXT.index("[[published]]") :]
+    assert dict(ts.load_motor(motor_file(without)).bench) == {}
+    stated = ts.load_motor("trum60").bench
+    assert stated["sampling_period"].value == 2e-3
+    assert stated["load_inertia"].range == (1.7e-5, 4e-3)

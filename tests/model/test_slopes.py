@@ -21,6 +21,7 @@ STEPS = {
     "prepressure": 1e-4,
     "frequency_difference": 1e-4,
     "load_torque": 1e-4,
+    "load_inertia": 1e-4,
     "friction_coefficient": 1e-4,
     "amplitude": 1e-4,
     "resonance_frequency": 1e-5,
@@ -33,6 +34,8 @@ def changed(motor, drive, point, name, factor):
         return motor, replace(drive, **{name: getattr(drive, name) * factor})
     if name == "friction_coefficient":
         return motor.with_values({name: motor.friction_coefficient.value * factor}), drive
+    if name == "load_inertia":  # a rotor that is so much heavier
+        return motor.with_values({"rotor_inertia": motor.rotor_inertia.value * factor}), drive
     fixed = {"amplitude": point.amplitude, "resonance_frequency": point.resonance_frequency}
     fixed[name] = fixed[name] * factor
     return motor.with_values(fixed), drive
@@ -50,6 +53,7 @@ def test_derivatives_are_those_of_evaluate(trum60, start, contact):
         step = STEPS[name]
         up, down = (ts.evaluate(*changed(trum60, drive, point, name, 1 + e), **options) for e in (step, -step))
         base = getattr(drive, name, None) or getattr(point, name, None) or trum60.friction_coefficient.value
+        base = trum60.rotor_inertia.value if name == "load_inertia" else base
         for figure in DIFFERENTIATED:
             difference = (getattr(up, figure) - getattr(down, figure)) / (2 * step * base)
             # differences see the orbit's own tolerance

@@ -7,6 +7,7 @@ method of order 8.  It shares no formula with the kernels behind the figures.
 from __future__ import annotations
 
 import importlib
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -573,6 +574,18 @@ def test_a_motor_of_ones_own_is_drawn():
     assert np.abs(data(axes)[1]).max() < 0.9 * np.abs(data(usual)[1]).max()
 
 
+def test_where_friction_gives_table_4_is_drawn_for_a_motor_that_publishes_nothing():
+    """Its own friction and contact radius do not count; a stator that is damped more is another one."""
+    motor = replace(ts.load_motor("trum60").with_values({"damping_ratio": 0.007}), published=())
+    (left, right) = plots.load_region(motor).axes
+    for line in left.get_lines():
+        friction = line.get_ydata()
+        assert np.isnan(friction[0]) or (np.diff(friction[np.isfinite(friction)]) > 0).all()
+    heavy = [line.get_ydata()[-1] for line in left.get_lines()]
+    assert np.multiply(heavy, (0.025, 0.0265, 0.030)) == pytest.approx(heavy[1] * 0.0265, rel=2e-3)
+    assert right.get_lines()[-1].get_ydata()[0] == pytest.approx(17.3)
+
+
 def test_the_catalogue_has_every_figure_of_the_paper_that_can_be_drawn():
     anchors = [picture.anchor for picture in PICTURES]
     numbers = ["3", "6", "7", "8", *map(str, range(9, 24)), "25b", "26b", "27b", *map(str, range(29, 33))]
@@ -582,5 +595,6 @@ def test_the_catalogue_has_every_figure_of_the_paper_that_can_be_drawn():
         "map-rest",
         "speed-determinant",
         "torque-speed",
+        "load-region",
         "contact-zone",
     }

@@ -120,9 +120,11 @@ def test_only_what_the_outputs_need_is_computed(trum60, monkeypatch, outputs, ke
 def test_every_number_can_be_swept(trum60, name):
     optional = {"resonance_frequency": 39e3, "amplitude": 5e-6, "neutral_axis": 2.8e-3, "wavenumber": 300.0}
     start = {**ts.Drive().numbers(), "sampling_period": 2e-3, "layer_stiffness": 3e10, **optional}
+    drive = ts.Drive(load="weight", load_radius=0.03) if name == "load_radius" else ts.Drive()
     value = start[name] if name in start else getattr(trum60, name).value
+    value = 0.03 if name == "load_radius" else value
     other = -value if name == "phase_lead" else value + 1 if value == round(value) and value < 1e3 else value * 1.001
-    found = ts.sweep(trum60, outputs=("q_average",), **{name: [value, other]})
+    found = ts.sweep(trum60, drive, outputs=("q_average",), **{name: [value, other]})
     assert found[name].units == PARAMETERS[name][1]
     assert not found.status.any()
 

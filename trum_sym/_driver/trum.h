@@ -38,6 +38,7 @@ struct trum_point {
   TRUM_FIGURES(TRUM_FIGURE_FIELD)
   int converged;    /* do the bounds of the errors meet the tolerance? */
   int full_contact; /* is the whole wave in contact at times? */
+  int taut;         /* no string, or one that friction cannot make slack whatever it does? */
   int outside_fit;  /* is the prepressure outside those at which the amplitude was measured? */
   int field;        /* bad input: which, for trum_field_name; else -1 */
 };

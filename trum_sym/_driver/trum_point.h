@@ -102,6 +102,7 @@ static inline int trum_wrong_field(const struct trum_motor* motor, const struct 
   if (motor->fit_prepressure_min >= motor->fit_prepressure_max) return trum_motor_fit_prepressure_min;
   if (motor->tooth_count * motor->slot_width >= motor->perimeter) return trum_motor_slot_width;
   if (2 * drive->on_periods < drive->periods || drive->on_periods > drive->periods) return trum_drive_on_periods;
+  if ((drive->load == TRUM_LOAD_WEIGHT) != (drive->load_radius > 0)) return trum_drive_load_radius;
   if (!(drive->phase_lead * drive->phase_lead > 0)) return trum_drive_phase_lead;
   return trum_unlike_levels(motor, drive);
 }
@@ -274,7 +275,7 @@ static inline enum trum_status trum_solve_point(const struct trum_motor* motor, 
 #define TRUM_UNKNOWN(name, unit) point->name = (trum_real)NAN;
   TRUM_FIGURES(TRUM_UNKNOWN)
 #undef TRUM_UNKNOWN
-  point->converged = point->full_contact = point->outside_fit = 0;
+  point->converged = point->full_contact = point->outside_fit = point->taut = 0;
   point->field = trum_wrong_field(motor, drive);
   if (point->field >= 0) return TRUM_BAD_INPUT;
   memset(v, 0, sizeof v);
@@ -302,6 +303,9 @@ static inline enum trum_status trum_solve_point(const struct trum_motor* motor, 
   point->q_ratio = v[trum_at_q_ratio], point->q_square_ratio = v[trum_at_q_square_ratio];
   point->q_average = v[trum_at_q_average], point->q_volatility = v[trum_at_q_volatility];
 
+  v[trum_at_f] = -1; /* all friction lowers the weight */
+  trum_call_string_tension(v);
+  point->taut = drive->load == TRUM_LOAD_TORQUE || v[trum_at_tension] >= 0;
   v[trum_at_W] = W;
   trum_orbit_of(drive, v, in);
   if (drive->tangential == TRUM_TANGENTIAL_BRUSH) {

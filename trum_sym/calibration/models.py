@@ -18,6 +18,7 @@ from trum_sym.inputs.units import parse_unit
 from trum_sym.model.kernels import call
 from trum_sym.model.levels import Levels
 from trum_sym.model.operating_point import evaluate
+from trum_sym.model.rotor import weight_inertia
 from trum_sym.model.sensitivities import DIFFERENTIATED, sensitivities
 from trum_sym.model.stator import solve_stator
 
@@ -165,8 +166,8 @@ class PointModel:
     def _rotor_slopes(self, values: Array) -> dict[str, Array]:
         """By friction, contact radius and inertia.
 
-        At the rim the pull is friction r_c^2 / J and the drag load r_c / J (eq. 38), so two of the three
-        follow from the orbit's slopes by friction and load.
+        At the rim the pull is friction r_c^2 / J and the drag load r_c / J (eq. 38), J with the load's inertia, so two
+        of the three follow from the orbit's slopes by friction and load.
         """
         motor = self._motor.with_values(dict(zip(self.names, (float(v) for v in values), strict=True)))
         known = sensitivities(
@@ -180,12 +181,16 @@ class PointModel:
             tolerance=_TOLERANCE,
         )
         figures = self._figures(motor, self._drive)
-        mu, radius, inertia = (float(getattr(motor, name).value) for name in _ROTOR_SCALES)
+        mu, radius, _ = (float(getattr(motor, name).value) for name in _ROTOR_SCALES)
+        symbols = {**motor.symbols(), **self._drive.symbols()}
+        inertia = np.broadcast_to(np.asarray(call("trum_total_inertia", symbols)["J_total"]), self._rows)
+        weight = np.broadcast_to(weight_inertia(symbols), self._rows)
         found: dict[str, list[Array]] = {name: [] for name in _ROTOR_SCALES}
         for figure in self._observed:
             by_friction = np.broadcast_to(known[figure]["friction_coefficient"], self._rows)
             pull = mu * by_friction
             drag = np.asarray(self._drive.load_torque) * np.broadcast_to(known[figure]["load_torque"], self._rows)
+            drag = drag - weight * np.broadcast_to(known[figure]["load_inertia"], self._rows)
             turned = figures[figure] if figure not in ("speed_volatility", "contact_fraction") else 0.0
             found["friction_coefficient"].append(by_friction)
             found["contact_radius"].append((2 * pull + drag - turned) / radius)

@@ -99,7 +99,7 @@ def optimize(
         **chosen_levels(options),
     )
     title = f"{one_line(machine.name)}: least {aim}" + (f" at {target_speed}" if target_speed else " at any speed")
-    say(found.to_json() if as_json else found.to_text(f"{title}, load {drive.load_torque:g} N m"))
+    say(found.to_json() if as_json else found.to_text(f"{title}, {drive.load_text()}"))
     if plot is not None:
         from trum_sym.plots.optimum import draw
 

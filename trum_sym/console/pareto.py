@@ -86,7 +86,7 @@ def pareto(
     title = f"{one_line(machine.name)}: {aim} against {against}" + (
         f" at {target_speed}" if target_speed else " at any speed"
     )
-    say(front.to_json() if as_json else front.to_text(f"{title}, load {drive.load_torque:g} N m"))
+    say(front.to_json() if as_json else front.to_text(f"{title}, {drive.load_text()}"))
     if plot is not None and front.points:
         from trum_sym.plots import answers
 

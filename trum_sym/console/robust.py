@@ -96,7 +96,7 @@ def robust(
     title = f"{one_line(machine.name)}: least worst {aim}" + (
         f" at {target_speed}" if target_speed else " at any speed"
     )
-    say(found.to_json() if as_json else found.to_text(f"{title}, load {drive.load_torque:g} N m"))
+    say(found.to_json() if as_json else found.to_text(f"{title}, {drive.load_text()}"))
     if plot is not None and found.cases:
         from trum_sym.plots import answers
 

@@ -103,9 +103,10 @@ def sweep(
             ranges[name.strip()] = given
     levels = Levels(**chosen_levels(options))
     names = None if outputs is None else tuple(name.strip() for name in outputs.split(","))
-    plan = make_plan(
-        chosen_motor(motor, fixed), Drive(start=options["start"]), levels, None, tolerance, names, chunk, ranges
-    )
+    words: dict[str, Any] = {name: options[name] for name in ("start", "load")}
+    if words["load"] == "weight" and "load_radius" in ranges:
+        words["load_radius"] = 1.0  # the range's values take its place
+    plan = make_plan(chosen_motor(motor, fixed), Drive(**words), levels, None, tolerance, names, chunk, ranges)
     if dry_run:
         say(_estimate(estimate("--out", plan, out, scheduler, chunk is not None), out))
         return

@@ -14,10 +14,12 @@ from trum_sym.values import Value
 if TYPE_CHECKING:
     from trum_sym.inputs.checks import ArrayLike
 
-__all__ = ["BOX_NAMES", "DRIVE_DOMAINS", "LEAD", "STARTS", "Drive", "Start"]
+__all__ = ["BOX_NAMES", "DRIVE_DOMAINS", "LEAD", "LOADS", "STARTS", "Drive", "Load", "Start"]
 
 Start = Literal["periodic", "steady", "rest"]
 STARTS: tuple[Start, ...] = get_args(Start)
+Load = Literal["torque", "weight"]
+LOADS: tuple[Load, ...] = get_args(Load)
 
 BOX_NAMES = ("prepressure", "frequency_difference")
 """What searches vary unless they are told otherwise; the motor file states the ranges."""
@@ -49,6 +51,13 @@ class Drive(Value):
         m drive pulses per cycle, n of them on each phase; m/2 <= n <= m.
     load_torque : float or array, N m
         Torque against positive rotation.
+    load_inertia : float or array, kg m^2
+        Moment of inertia of what turns with the rotor beside it: a torque plate, a coupling.
+    load : {"torque", "weight"}
+        What makes the load's torque: nothing that moves, or a weight on a string, which adds its own inertia
+        ``abs(load_torque) load_radius / g`` and can only pull.
+    load_radius : float or array, m
+        Radius at which the weight's string runs; for a weight only, and needed there.
     start : {"periodic", "steady", "rest"}
         State in which every cycle begins: the repeated cycle's own, both phases at full steady
         amplitude, or both at rest.
@@ -60,7 +69,8 @@ class Drive(Value):
     Raises
     ------
     ParameterError
-        For a value outside its domain, or shapes that do not broadcast.
+        For a value outside its domain, shapes that do not broadcast, a weight without a radius or a radius without a
+        weight.
     """
 
     prepressure: ArrayLike = _quantity(180.0, "N", Domain(low=0.0, high=1e6), "Prepressure F_c.", "N")
@@ -70,6 +80,13 @@ class Drive(Value):
     periods: ArrayLike = _quantity(20, "1", _PULSES, "Drive pulses per cycle, m.", "M")
     on_periods: ArrayLike = _quantity(14, "1", _PULSES, "Pulses per cycle on each phase, n.", "N")
     load_torque: ArrayLike = _quantity(0.3, "N*m", Domain(low=-1e9, high=1e9), "Load torque.", "NM")
+    load_inertia: ArrayLike = _quantity(
+        0.0, "kg*m^2", Domain(low=0.0, low_open=False, high=1e6), "Inertia that turns with the rotor.", "KGM2"
+    )
+    load_radius: ArrayLike = _quantity(
+        0.0, "m", Domain(low=0.0, low_open=False, high=10.0), "Radius of the weight's string, with --load weight.", "M"
+    )
+    load: Load = field(default=LOADS[0], metadata={"words": LOADS, "text": "What makes the load's torque."})
     start: Start = field(default=STARTS[0], metadata={"words": STARTS, "text": "State in which every cycle begins."})
     switching_phase: ArrayLike = _quantity(
         0.0, "rad", Domain(low=-1e6, high=1e6), "Drive phase of A at the switching.", "RAD"
@@ -91,6 +108,13 @@ class Drive(Value):
             raise ParameterError("phase_lead", np.asarray(lead)[np.abs(lead) != 1].flat[0].item(), "1 or -1")
         object.__setattr__(self, "phase_lead", lead)
         choice("start", self.start, STARTS)
+        choice("load", self.load, LOADS)
+        radius = np.ravel(self.load_radius)
+        if self.load == "weight" and not np.all(radius > 0):
+            raise ParameterError("load_radius", 0.0, "more than 0 m with load = weight: where the string runs")
+        if self.load == "torque" and np.any(radius > 0):
+            wrong_radius = float(radius[radius > 0][0])
+            raise ParameterError("load_radius", wrong_radius, "0 m with load = torque: a string bears a weight")
         broadcast_shape(self.numbers())
         periods, on_periods = np.broadcast_arrays(self.periods, self.on_periods)
         wrong = (2 * on_periods < periods) | (on_periods > periods)
@@ -100,13 +124,30 @@ class Drive(Value):
 
     def numbers(self) -> dict[str, ArrayLike]:
         """The numeric fields by name."""
-        return {field.name: getattr(self, field.name) for field in fields(self) if field.name != "start"}
+        return {field.name: getattr(self, field.name) for field in fields(self) if field.name not in _WORDS}
+
+    def words(self) -> dict[str, str]:
+        """The fields that are one of some words, by name."""
+        return {name: getattr(self, name) for name in _WORDS}
+
+    def load_text(self) -> str:
+        """The load in words, of single numbers: ``load 0.3 N m``, with what it adds to the rotor's inertia."""
+        text = f"load {float(self.load_torque):.12g} N m"
+        if self.load == "weight":
+            text += f" by a weight on a string at {1e3 * float(self.load_radius):.12g} mm"
+        return f"{text} with {float(self.load_inertia):.12g} kg m^2" if float(self.load_inertia) else text
 
     def symbols(self) -> dict[str, ArrayLike]:
         """Prepressure and load by the symbols of the equations, as the kernels name their arguments."""
-        return {"F_c": self.prepressure, "T_load": self.load_torque}
+        return {
+            "F_c": self.prepressure,
+            "T_load": self.load_torque,
+            "J_load": self.load_inertia,
+            "r_s": self.load_radius,
+        }
 
 
+_WORDS = ("start", "load")
 DRIVE_DOMAINS: Mapping[str, tuple[Domain, str]] = {
     quantity.name: (quantity.metadata["domain"], quantity.metadata["unit"])
     for quantity in fields(Drive)

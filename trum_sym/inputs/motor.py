@@ -113,7 +113,9 @@ class Motor(Value):
     """A travelling-wave rotary ultrasonic motor: every number with unit and source.
 
     The names are those of the motor file and of ``--set``.  The last eleven are optional: a measured value replaces the
-    modelled one, and the rotor's flange is needed where its compliance counts.
+    modelled one, and the rotor's flange is needed where its compliance counts.  ``bench`` has what the file says of the
+    bench that the published figures were measured on, by the names of :class:`trum_sym.Drive`; nothing is computed with
+    it unless a drive takes it.
     """
 
     name: str
@@ -172,6 +174,7 @@ class Motor(Value):
     flange_length: Parameter | None = _optional("m", "l_f", _SIZE)
     flange_young_modulus: Parameter | None = _optional("Pa", "E_f")
     flange_poisson_ratio: Parameter | None = _optional("1", "mu_f", _FLANGE_POISSON)
+    bench: Mapping[str, Parameter] = field(default_factory=FrozenDict)
     published: tuple[Published, ...] = ()
     box: Mapping[str, Allowed] = field(default_factory=dict)  # what searches vary of the drive
     text: str = field(default="", repr=False, compare=False)  # of the motor file, whatever was set since
@@ -193,6 +196,9 @@ class Motor(Value):
             value = number(name, parameter.value, wanted.domain, wanted.unit)
             if value is not parameter.value:
                 object.__setattr__(self, name, replace(parameter, value=value))
+        if not isinstance(self.bench, Mapping) or not all(isinstance(p, Parameter) for p in self.bench.values()):
+            raise ParameterError("bench", self.bench, "a mapping of names to Parameters, as load_motor reads it")
+        object.__setattr__(self, "bench", FrozenDict(self.bench))
         broadcast_shape({name: parameter.value for name, parameter in self.parameters()})
         _ordered(self, "tooth_height", "beam_thickness")
         _ordered(self, "fit_prepressure_min", "fit_prepressure_max")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Mapping
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -18,7 +19,7 @@ from trum_sym.inputs.motor import SPECS, Allowed, Motor, Parameter, Published, s
 from trum_sym.inputs.units import Unit, parse_unit, unit_for
 from trum_sym.quantities import QUANTITIES
 
-__all__ = ["SHIPPED", "load_motor", "motor_text"]
+__all__ = ["BENCH", "SHIPPED", "load_motor", "motor_text"]
 
 SHIPPED = ("dual60", "ring60", "trum60")
 """Motors that ship with the package, by name."""
@@ -38,6 +39,15 @@ _KEYS = (
     "standard_deviation",
 )
 
+
+BENCH: Mapping[str, Spec] = {
+    **{
+        name: Spec(DRIVE_DOMAINS[name][1], symbol, DRIVE_DOMAINS[name][0], required=False)
+        for name, symbol in (("load_inertia", "J_load"), ("load_radius", "r_s"))
+    },
+    "sampling_period": Spec("s", "T_s", Domain(low=0.0), required=False),
+}
+"""What a motor file may say of the bench that its published figures were measured on: of the load and the encoder."""
 
 _MAX_BYTES = 1_000_000  # a motor takes 10 000
 _NAMES = ", ".join(SHIPPED)
@@ -64,8 +74,7 @@ def _in_si(name: str, raw: object, unit: Unit, given: str) -> float:
         raise ParameterError(name, raw, allowed) from None
 
 
-def _read_parameter(name: str, entry: object) -> Parameter:
-    wanted = spec(name)
+def _read_parameter(name: str, entry: object, wanted: Spec) -> Parameter:
     if not isinstance(entry, dict):
         raise ParameterError(name, entry, "a table with value, unit and source")
     unknown = sorted(set(entry) - set(_KEYS))
@@ -152,6 +161,15 @@ def _read_distribution(
     return distribution
 
 
+def _read_bench(table: object) -> dict[str, Parameter]:
+    if not isinstance(table, dict):
+        raise ParameterError("motor file: bench", table, "a table [bench]")
+    for name in table:
+        if name not in BENCH:
+            raise ParameterError("bench", name, f"one of {', '.join(BENCH)}")
+    return {name: _read_parameter(name, entry, BENCH[name]) for name, entry in table.items()}
+
+
 def _read_published(entry: object) -> Published:
     keys = {"output", "value", "unit", "source", "drive"}
     if not isinstance(entry, dict) or set(entry) - {"sampling_period"} != keys or not isinstance(entry["drive"], dict):
@@ -234,16 +252,16 @@ def load_motor(source: str | PathLike[str] = "trum60") -> Motor:
     path_of("motor", source, f"{_NAMES} or the path of a TOML file")
     text = motor_text(source)
     data = _read_toml(source, text)
-    unknown = sorted(set(data) - {"name", "parameters", "published", "box"})
+    unknown = sorted(set(data) - {"name", "parameters", "bench", "box", "published"})
     if unknown:
-        raise ParameterError("motor file", unknown[0], "name, parameters, box and published at the top level")
+        raise ParameterError("motor file", unknown[0], "name, parameters, bench, box and published at the top level")
     if not isinstance(data.get("name"), str) or not data["name"].strip():
         raise ParameterError("motor file: name", data.get("name", "nothing"), "the motor's name as text")
     if not isinstance(data.get("parameters"), dict):
         raise ParameterError("motor file: parameters", data.get("parameters", "nothing"), "a table [parameters]")
     if not isinstance(data.get("published", []), list) or len(data.get("published", [])) > _MAX_PUBLISHED:
         raise ParameterError("published", data["published"], f"up to {_MAX_PUBLISHED} tables [[published]]")
-    parameters = {name: _read_parameter(name, entry) for name, entry in data["parameters"].items()}
+    parameters = {name: _read_parameter(name, entry, spec(name)) for name, entry in data["parameters"].items()}
     missing = [name for name, wanted in SPECS.items() if wanted.required and name not in parameters]
     if missing:
         raise ParameterError("motor file: parameters", f"no {', '.join(missing)}", "every required parameter")
@@ -251,4 +269,5 @@ def load_motor(source: str | PathLike[str] = "trum60") -> Motor:
     if not isinstance(data.get("box", {}), dict):
         raise ParameterError("box", data["box"], "a table [box]")
     box = {name: _read_allowed(name, entry) for name, entry in data.get("box", {}).items()}
-    return Motor(name=data["name"], published=published, box=box, text=text, **parameters)
+    bench = _read_bench(data.get("bench", {}))
+    return Motor(name=data["name"], bench=bench, published=published, box=box, text=text, **parameters)

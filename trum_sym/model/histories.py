@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Unpack
 import numpy as np
 
 from trum_sym.errors import MissingExtraError, ParameterError
-from trum_sym.inputs.checks import Array, ArrayLike
+from trum_sym.inputs.checks import Array
 from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
@@ -19,13 +19,14 @@ from trum_sym.model.cycle import response, scaled
 from trum_sym.model.kernels import call
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.model.operating_point import Case, OperatingPoint, settle
-from trum_sym.model.rotor import RUNAWAY, history, solve_orbit
+from trum_sym.model.rotor import RUNAWAY, history, solve_orbit, surface_and_contact
+from trum_sym.model.string import SLACK
 from trum_sym.text import one_line, plain
 
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["REGIONS", "VARIABLES", "simulate", "surface_and_contact"]
+__all__ = ["REGIONS", "VARIABLES", "simulate"]
 
 REGIONS = ("A off", "B off", "both on")
 """What ``region`` 0, 1, 2 mean: the paper's T_redu, T_addredu, T_add."""
@@ -166,21 +167,6 @@ def _cycle(
     return {name: np.array(column, np.float64) for name, column in columns.items()}, region.astype(np.int8)
 
 
-def surface_and_contact(values: Mapping[str, ArrayLike], found: Mapping[str, ArrayLike]) -> dict[str, ArrayLike]:
-    """Wave, surface speed and contact at instants of known displacement and velocity."""
-    now: dict[str, ArrayLike] = {**values, "g_A": 0.0, "g_B": 0.0}
-    for phase in "AB":  # the wave's kernel takes the phases as motions that turn: here by nothing
-        phasor = call("trum_phasor", {**values, "a": found[f"w_{phase}"], "b": found[f"v_{phase}"]})
-        now |= {f"f_{phase}_re": phasor["re"], f"f_{phase}_im": phasor["im"]}
-    now |= {"e_re": 1.0, "e_im": 0.0, "d_re": 0.0, "d_im": 0.0, "p_re": 1.0, "p_im": 0.0}
-    now |= call("trum_wave", now)
-    if values["hertz"]:
-        return {**now, **call("trum_contact_hertz", now)}
-    now |= call("trum_filling", now)
-    now["fullness_root"] = np.cbrt(now["fullness"])
-    return {**now, **call("trum_contact_winkler", now)}
-
-
 def _attributes(
     case: Case, point: OperatingPoint, settings: Mapping[str, float | None]
 ) -> dict[str, str | float | int]:
@@ -192,7 +178,7 @@ def _attributes(
         "source": f"trum-sym {version('trum-sym')}",
         "motor": plain(motor.name),
         **drive.numbers(),
-        "start": drive.start,
+        **drive.words(),
         "contact": levels.contact,
         "resonance_level": levels.resonance,
         "foundation": levels.foundation,
@@ -203,6 +189,7 @@ def _attributes(
         **figures,
         "converged": int(bool(point.converged)),
         "runaway": int(point.reason == RUNAWAY),
+        "slack": int(point.reason == SLACK),
     }
     for name, parameter in motor.parameters():
         attributes[f"motor_{name}"] = f"{float(parameter.value):.12g} {parameter.unit} ({plain(parameter.source)})"

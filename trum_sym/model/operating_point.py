@@ -24,6 +24,7 @@ from trum_sym.model.kernels import call
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.model.rotor import Orbit, encoder_deviation, history, orbit_values, reasons, solve_orbit
 from trum_sym.model.stator import Stator, solve_stator
+from trum_sym.model.string import SLACK, least_tension
 from trum_sym.output.result import Result
 from trum_sym.quantities import ERRORS, QUANTITIES
 from trum_sym.text import one_line
@@ -64,11 +65,12 @@ OF_ORBIT = frozenset(
         "stall_torque_error",
         "converged",
         "runaway",
+        "slack",
         "reason",
     )
 )
-"""The figures that take the rotor's orbit; ``runaway`` is where no speed balances the load, ``reason`` why an orbit is
-not converged, in words."""
+"""The figures that take the rotor's orbit; ``runaway`` is where no speed balances the load, ``slack`` where the string
+that bears a weight would have to push, ``reason`` why an orbit is not converged or cannot be, in words."""
 
 _TOLERANCE, _FINEST = 1e-6, 1e-9  # where none is given: at first, and the finest that a single point goes to
 _DIGITS = 5e-5  # of the mean speed: four digits of it are right
@@ -116,7 +118,7 @@ class OperatingPoint(Result, Value):
     converged : bool
         Whether all these bounds meet the tolerance.
     reason : str
-        Why not, in words; empty if they do.
+        Why not, in words, or that a weight's string goes slack, where the figures do not hold; empty if all is well.
     inputs : Inputs
         Motor, drive, levels, encoder and tolerance that the figures hold for.
     """
@@ -404,8 +406,9 @@ def results(case: Case, wanted: Collection[str], progress: bool = False) -> dict
     ----------
     case : Case
         From :func:`prepare`.
-    wanted : names of :data:`RESULTS`, ``"runaway"`` or ``"reason"``
-        The last two say where no speed balances the load, and why an orbit is not converged.
+    wanted : names of :data:`RESULTS`, ``"runaway"``, ``"slack"`` or ``"reason"``
+        The last three say where no speed balances the load, where a weight's string goes slack, and why an orbit is
+        not converged or cannot be.
     progress : bool
         As for :func:`evaluate`.
     """
@@ -425,17 +428,19 @@ def results(case: Case, wanted: Collection[str], progress: bool = False) -> dict
     if not OF_CYCLE.isdisjoint(wanted):
         found |= cycle_sums(case.values)
     if not OF_ORBIT.isdisjoint(wanted):
-        found |= _of_orbit(
-            case, timing["T"], not {"speed_volatility", "speed_volatility_error"}.isdisjoint(wanted), progress
-        )
+        found |= _of_orbit(case, timing["T"], wanted, progress)
     return {name: _shaped(found[name], case.shape) for name in wanted}
 
 
-def _of_orbit(case: Case, cycle_time: ArrayLike, volatility: bool, progress: bool) -> dict[str, ArrayLike]:
+def _of_orbit(case: Case, cycle_time: ArrayLike, wanted: Collection[str], progress: bool) -> dict[str, ArrayLike]:
     orbit = solve_orbit(case.arguments, case.symbols, progress)
-    found = {name: getattr(orbit, name) for name in OF_ORBIT - {"speed_volatility", "speed_volatility_error", "reason"}}
-    found["reason"] = reasons(orbit.raw)
-    if volatility:
+    further = {"speed_volatility", "speed_volatility_error", "slack", "reason"}
+    found = {name: getattr(orbit, name) for name in OF_ORBIT - further}
+    found["slack"], found["reason"] = np.zeros(orbit.converged.shape, bool), reasons(orbit.raw)
+    if case.drive.load == "weight" and not {"slack", "reason"}.isdisjoint(wanted):
+        found["slack"] = least_tension(case.arguments, case.symbols, orbit) < 0
+        found["reason"] = np.where(found["slack"] & (found["reason"] == ""), SLACK, found["reason"])
+    if not {"speed_volatility", "speed_volatility_error"}.isdisjoint(wanted):
         deviation, deviation_error = np.sqrt(orbit.variance), orbit.deviation_error
         if case.sampling_period is not None:
             readings = _encoder(case.arguments, orbit, cycle_time, case.sampling_period)

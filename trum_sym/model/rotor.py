@@ -22,6 +22,8 @@ __all__ = [
     "orbit_values",
     "reasons",
     "solve_orbit",
+    "surface_and_contact",
+    "weight_inertia",
 ]
 
 _FLAG = {name: 1 << bit for bit, name in enumerate(ORBIT_FLAGS)}
@@ -136,6 +138,19 @@ def orbit_values(
     return {**modal, **geometry, **shared, **of_contact, "tolerance": tolerance, "held": 1.0}
 
 
+def weight_inertia(stator: Mapping[str, ArrayLike]) -> Array:
+    """What a weight on a string adds to the moment of inertia, kg m^2; 0 without a string.
+
+    Parameters
+    ----------
+    stator : mapping
+        Symbols of motor and drive.
+    """
+    total = np.asarray(call("trum_total_inertia", stator)["J_total"])
+    found: Array = total - np.asarray(call("trum_total_inertia", {**stator, "r_s": 0.0})["J_total"])
+    return found
+
+
 def solve_orbit(values: Mapping[str, ArrayLike], stator: Mapping[str, ArrayLike], progress: bool = False) -> Orbit:
     """The periodic orbit of every point.
 
@@ -248,3 +263,18 @@ def encoder_readings(distance: Array, cycle_time: float, period: float, starts: 
     end_path = np.interp(ends % 1.0, grid, path) + np.floor(ends) * path[-1]
     readings: Array = (end_path - np.interp(starts, grid, path) + cycles * path[-1]) / period
     return readings
+
+
+def surface_and_contact(values: Mapping[str, ArrayLike], found: Mapping[str, ArrayLike]) -> dict[str, ArrayLike]:
+    """Wave, surface speed and contact at instants of known displacement and velocity."""
+    now: dict[str, ArrayLike] = {**values, "g_A": 0.0, "g_B": 0.0}
+    for phase in "AB":  # the wave's kernel takes the phases as free motions that turn: here by nothing
+        phasor = call("trum_phasor", {**values, "a": found[f"w_{phase}"], "b": found[f"v_{phase}"]})
+        now |= {f"f_{phase}_re": phasor["re"], f"f_{phase}_im": phasor["im"]}
+    now |= {"e_re": 1.0, "e_im": 0.0, "d_re": 1.0, "d_im": 0.0, "p_re": 1.0, "p_im": 0.0}
+    now |= call("trum_wave", now)
+    if values["hertz"]:
+        return {**now, **call("trum_contact_hertz", now)}
+    now |= call("trum_filling", now)
+    now["fullness_root"] = np.cbrt(now["fullness"])
+    return {**now, **call("trum_contact_winkler", now)}

@@ -19,7 +19,7 @@ from trum_sym.model.inputs import Inputs, units_of
 from trum_sym.model.kernels import SLOPE_FIGURES, SLOPE_PARAMETERS, call, expect, signature
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.model.operating_point import Case, prepare
-from trum_sym.model.rotor import Orbit, as_orbit
+from trum_sym.model.rotor import Orbit, as_orbit, weight_inertia
 from trum_sym.model.stator import solve_stator
 from trum_sym.output.result import Result
 from trum_sym.values import Value
@@ -34,6 +34,7 @@ PARAMETERS = (
     "prepressure",
     "frequency_difference",
     "load_torque",
+    "load_inertia",
     "friction_coefficient",
     "amplitude",
     "resonance_frequency",
@@ -194,8 +195,8 @@ def sensitivities(
         in Hz): what ``evaluate``'s figure changes by, per change of the parameter.  Amplitude and resonance follow
         prepressure and frequency difference as they do in ``evaluate``; under ``amplitude`` and
         ``resonance_frequency`` stands what each does alone.  ``speed_volatility`` is the continuous one.  NaN where
-        no speed balances the load.  Where an extreme changes hands the slope is that of the extreme which is seen,
-        one of the two sides'.
+        no speed balances the load.  A weight's inertia follows ``load_torque``.  Where an extreme changes hands the
+        slope is that of the extreme which is seen, one of the two sides'.
 
     Raises
     ------
@@ -229,11 +230,17 @@ def orbit_with_slopes(case: Case) -> tuple[Orbit, dict[str, dict[str, Array]]]:
         smallest=1,  # steps with slopes are long: a core each
     )
     slopes = raw["slopes"]
-    force, friction, radius, inertia = (np.asarray(case.symbols[name]) for name in ("F_c", "mu", "r_c", "J"))
+    force, friction, radius, load = (np.asarray(case.symbols[name]) for name in ("F_c", "mu", "r_c", "T_load"))
+    inertia = np.asarray(call("trum_total_inertia", case.symbols)["J_total"])
+    # push and drag are in inverse proportion to the inertia, as push is in proportion to the friction
+    by_inertia = -(slopes[..., _BY["friction"]] + slopes[..., _BY["drag"]] * _column(case.arguments["drag"]))
+    by_inertia = by_inertia / _column(inertia)
+    per_torque = np.divide(weight_inertia(case.symbols), load, out=np.zeros(np.shape(inertia)), where=load != 0)
     alone = {
         "prepressure": slopes[..., _BY["prepressure"]] / _column(force),
         "frequency_difference": slopes[..., _BY["difference"]] * _TURN,
-        "load_torque": slopes[..., _BY["drag"]] * _column(radius / inertia),
+        "load_torque": slopes[..., _BY["drag"]] * _column(radius / inertia) + by_inertia * _column(per_torque),
+        "load_inertia": by_inertia,
         "friction_coefficient": slopes[..., _BY["friction"]] / _column(friction),
         "amplitude": slopes[..., _BY["amplitude"]] / _column(case.stator.W),
         "resonance_frequency": slopes[..., _BY["resonance"]] * _TURN,

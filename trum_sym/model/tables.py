@@ -102,7 +102,7 @@ def drive_in_words(drive: Drive) -> str:
     """The numbers of a drive, with all of their digits."""
     return (
         f"{full(drive.prepressure)} N, {'+' * (drive.frequency_difference >= 0)}{full(drive.frequency_difference)} Hz, "
-        f"{full(drive.on_periods)} of {full(drive.periods)} periods on, load {full(drive.load_torque)} N m"
+        f"{full(drive.on_periods)} of {full(drive.periods)} periods on, {drive.load_text()}"
     )
 
 

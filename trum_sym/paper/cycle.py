@@ -13,15 +13,13 @@ from trum_sym.inputs.drive import Drive, Start
 from trum_sym.inputs.motor import Motor
 from trum_sym.inputs.motor_file import load_motor
 from trum_sym.model.cycle import response
-from trum_sym.model.histories import surface_and_contact
 from trum_sym.model.kernels import call
 from trum_sym.model.levels import Levels
 from trum_sym.model.operating_point import Case, prepare
-from trum_sym.model.rotor import Orbit, history, solve_orbit
+from trum_sym.model.rotor import Orbit, history, solve_orbit, surface_and_contact, weight_inertia
 
-__all__ = ["READINGS", "Cycle", "Reading", "pulling", "solve", "weight_inertia"]
+__all__ = ["READINGS", "Cycle", "Reading", "pulling", "solve"]
 
-_GRAVITY = 9.80665  # m/s^2
 _GATES = {"A": np.array([0.0, 1.0, 1.0]), "B": np.array([1.0, 0.0, 1.0])}
 _STATES = ("redu", "addredu", "add")
 
@@ -46,17 +44,13 @@ READINGS = (Reading("periodic", 1), Reading("steady", -1), Reading("rest", -1))
 """Each start with the lead that makes Q_aver positive at Table 3; the other lead mirrors every figure."""
 
 
-def weight_inertia(torque: float, radius: float) -> float:
-    """What a weight adds to the rotor's moment of inertia, kg m^2, that pulls ``torque`` (N m) by a string.
-
-    The string runs at ``radius`` (m), the weight's mass is torque/(g radius); the plate that bears it comes on top.
-    """
-    return torque * radius / _GRAVITY
-
-
 def pulling(motor: Motor, torque: float = 0.3) -> Motor:
-    """The motor as it was measured (Sect. 8.1): a weight pulls by a string, at the least radius, that of the stator."""
-    weight = weight_inertia(torque, float(np.asarray(motor.radius.value)))
+    """The motor with a load's inertia in the range of what it was measured with (Sect. 8.1).
+
+    That of a weight which pulls by a string at the least radius, the stator's, were the string taut and stiff; a torque
+    plate may have as much.
+    """
+    weight = weight_inertia({"J": 0.0, "J_load": 0.0, "T_load": torque, "r_s": motor.radius.value})
     return motor.with_values({"rotor_inertia": np.asarray(motor.rotor_inertia.value) + weight})
 
 

@@ -282,17 +282,19 @@ class Context:
                 switching_phase=np.array(phases).reshape(outer[:1] + outer[2:]),
                 load_torque=load_torque,
             )
-            parts.append(self._figures(motor, setting))
+            parts.append(self.figures(motor, setting))
         return {name: np.stack([part[name] for part in parts]) for name in parts[0]}
 
     @staticmethod
-    def _figures(motor: Motor, drive: Drive) -> dict[str, Array]:
-        case = prepare(motor, drive, Levels("winkler", "quartic", "harmonic", "measured"), 1e-4, warn=False)
+    def figures(motor: Motor, drive: Drive, tolerance: float = 1e-4, encoder: bool = True) -> dict[str, Array]:
+        """Determinants and the rotor's figures at the default levels; what an encoder reads is NaN unless wanted."""
+        case = prepare(motor, drive, Levels("winkler", "quartic", "harmonic", "measured"), tolerance, warn=False)
         arguments = {**case.arguments, "held": 0.0}
         orbit = solve_orbit(arguments, case.symbols)
         time = np.broadcast_to(np.asarray(call("trum_drive", case.values)["T"]), case.shape)
         arrays = {name: np.asarray(value) for name, value in arguments.items()}
-        read = encoder_deviations(arrays, orbit.raw, time) / np.asarray(case.symbols["r_c"])
+        read = encoder_deviations(arrays, orbit.raw, time) if encoder else np.full(case.shape, np.nan)
+        read = read / np.asarray(case.symbols["r_c"])
         size = np.abs(orbit.mean_speed)
         found = {
             **cycle_sums(case.values),

@@ -22,6 +22,7 @@ from trum_sym.errors import ParameterError, ValidityWarning
 from trum_sym.inputs.checks import Array
 from trum_sym.inputs.drive import STARTS, Drive, Start
 from trum_sym.inputs.motor import Motor
+from trum_sym.inputs.motor_file import load_motor
 from trum_sym.inputs.units import ARCSEC
 from trum_sym.model.batch import call_in_blocks
 from trum_sym.model.cycle import PANELS_PER_PERIOD, modal_values, scaled
@@ -29,7 +30,6 @@ from trum_sym.model.kernels import call
 from trum_sym.model.levels import AMPLITUDES, CONTACTS, FOUNDATIONS, RESONANCES, Levels
 from trum_sym.model.rotor import encoder_deviation, history, orbit_values, solve_orbit
 from trum_sym.model.stator import solve_stator
-from trum_sym.paper.cycle import weight_inertia
 from trum_sym.paper.published import ENCODER, TABLE_5
 
 __all__ = [
@@ -73,9 +73,10 @@ TABLE_4 = ("q_average", "q_volatility", "mean_speed", "speed_volatility")
 
 _DIFFERENCES = np.arange(2800.0, 3301.0, 100.0)
 _FORCES = np.arange(160.0, 211.0, 10.0)
-LOAD_INERTIA = np.array([0.0, weight_inertia(0.3, 0.030), 4e-3])
-"""What the load adds to the rotor's moment of inertia, kg m^2: nothing; a weight that pulls Table 3's 0.3 N m by a
-string (Sect. 8.1) at the stator's radius of 30 mm; and 4e-3, the same at 131 mm, or nearer with the torque plate."""
+LOAD_INERTIA = np.array([0.0, *(load_motor("trum60").bench["load_inertia"].range or ())])
+"""What the load adds to the rotor's moment of inertia, kg m^2: nothing, and the ends of what the motor file states for
+the torque plate of Sect. 8.1.  The weight's own is not felt within a cycle (entry load-inertia of the ledger): its
+string would have to be a thousand times as stiff as a wire.  If it were, 9.2e-4 would come on top at 30 mm."""
 RIG = slice(1, None)
 """The values of ``LOAD_INERTIA`` between which the measured motor's lies."""
 _SAMPLES = 64  # of a drive period, of the path that the encoder differences
@@ -268,7 +269,7 @@ def _of_start(
     figures: dict[str, Array] = {k: np.asarray(v) for k, v in call("trum_measures", {**sums, **timing}).items()}
     size = amplitude**2 * np.asarray(symbols["D"]) * np.asarray(symbols["k_c"])  # Q is bilinear in the phases
     figures |= {name: sums[name] * size for name in ("q_plus", "q_minus")}
-    loaded = {**symbols, "T_load": drive.load_torque}
+    loaded = {**symbols, **drive.symbols()}
     return figures | _rotor(scaled(values, amplitude), loaded, np.asarray(timing["T"]), progress)
 
 
@@ -276,7 +277,7 @@ def _rotor(values: dict[str, Any], symbols: Mapping[str, Any], cycle_time: Array
     """Speed and volatility by (load's inertia, ...) where they are wanted, NaN elsewhere."""
     inner = np.broadcast_shapes(*(np.shape(value) for value in values.values()))
     shape = (LOAD_INERTIA.size, *inner)
-    inertia = {**symbols, "J": symbols["J"] + LOAD_INERTIA.reshape(-1, *(1,) * len(inner))}
+    inertia = {**symbols, "J_load": LOAD_INERTIA.reshape(-1, *(1,) * len(inner))}
     by_law = {law: orbit_values(values, inertia, law, _TOLERANCE) for law in CONTACTS}
     hertz = np.array([level[0] == "hertz" for level in COMBINATIONS])[:, None]
     mixed = {name: np.where(hertz, by_law["hertz"][name], by_law["winkler"][name]) for name in ("W_full", "hertz")}

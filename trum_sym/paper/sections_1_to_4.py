@@ -10,11 +10,10 @@ from trum_sym.inputs.checks import Array
 from trum_sym.inputs.drive import STARTS, Drive, Start
 from trum_sym.inputs.motor import Motor
 from trum_sym.model.cycle import modal_values, response
-from trum_sym.model.histories import surface_and_contact
 from trum_sym.model.kernels import call
 from trum_sym.model.levels import Levels
 from trum_sym.model.operating_point import prepare
-from trum_sym.model.rotor import history, solve_orbit
+from trum_sym.model.rotor import history, solve_orbit, surface_and_contact
 from trum_sym.model.stator import solve_stator
 from trum_sym.paper.findings import LOADS, ByInertia, Check, Context, Finding, by_load, falls, of_rotor
 from trum_sym.paper.readings import (
@@ -420,11 +419,11 @@ def _rotor_alone(c: Context) -> Finding:
     )
     holds, at = np.all(np.abs(change) < _NEAR, axis=(0, 1)), change[:, 0, :, :, 0, DEFAULT]
     J = float(np.asarray(c.motor.rotor_inertia.value))
+    light, heavy = LOAD_INERTIA[RIG]
     words = (
-        f"the weight that pulls 0.3 N m at 30 mm adds T r/g = {LOAD_INERTIA[1]:.1e} kg m^2, {LOAD_INERTIA[1] / J:.0f} "
-        f"times Table 1's J, and the torque plate its own; with it the mean speed changes by "
-        f"{_cells(100 * at[0], '+.1f')} %, the encoder's volatility by {_cells(100 * at[1], '+.1f')} %; alone is said "
-        f"up to {100 * _NEAR:.0f} %"
+        f"a torque plate adds {light:.1e} to {heavy:.1e} kg m^2, {light / J:.0f} to {heavy / J:.0f} times Table 1's J; "
+        f"with the lightest the mean speed changes by {_cells(100 * at[0], '+.1f')} %, the encoder's volatility by "
+        f"{_cells(100 * at[1], '+.1f')} %; alone is said up to {100 * _NEAR:.0f} %"
     )
     within = np.asarray(np.all(np.abs(corners) < _NEAR, axis=(0, 1)))
     return Finding(np.asarray(holds)[..., ROTOR_LEVELS], words, ROTOR_LEVELS, within)

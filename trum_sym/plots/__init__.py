@@ -20,6 +20,7 @@ from trum_sym.plots.motion import (
     tangential_velocity,
     vertical_displacement,
 )
+from trum_sym.plots.region import load_region
 from trum_sym.plots.speed import measured_speed, torque_speed
 from trum_sym.plots.style import blank, save, svg
 from trum_sym.plots.transfer import contact_zone, transfer_models
@@ -37,6 +38,7 @@ __all__ = [
     "ellipse",
     "forward_and_backward",
     "instantaneous_speed",
+    "load_region",
     "maps",
     "measured_speed",
     "multivariable",

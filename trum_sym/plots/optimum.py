@@ -69,9 +69,7 @@ def draw(optimum: Optimum, target: Path, name: str = "plot") -> None:
     _optima(axes, optimum, problem)
     drive = problem.drive
     pulses = f"{drive.on_periods:g} of {drive.periods:g} periods on"
-    title = (
-        f"{one_line(problem.motor.name)}, load {drive.load_torque:g} N m, {pulses}\n{optimum.status}: {optimum.message}"
-    )
+    title = f"{one_line(problem.motor.name)}, {drive.load_text()}, {pulses}\n{optimum.status}: {optimum.message}"
     axes.set_title(title, fontsize=9, wrap=True, parse_math=False)
     figure.legend(loc="outside lower center", ncols=2, fontsize=8, frameon=False)
     content = BytesIO()

@@ -76,7 +76,7 @@ def draw(name: str, study: Study, target: Path) -> None:
     figure.suptitle(
         f"{one_line(study.motor.name)}, "
         f"{drive.prepressure:g} N, {drive.frequency_difference:+g} Hz, {drive.on_periods:g} of "
-        f"{drive.periods:g} periods on, load {drive.load_torque:g} N m; {study.samples} samples, seed {study.seed}",
+        f"{drive.periods:g} periods on, {drive.load_text()}; {study.samples} samples, seed {study.seed}",
         parse_math=False,
     )
     content = BytesIO()

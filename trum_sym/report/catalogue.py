@@ -64,8 +64,8 @@ _LEADS = (
     "determinants and the speed without load."
 )
 _WEIGHT = (
-    "The motor as it was measured: with the inertia of a weight on a string at the stator's radius, and the volatility "
-    "that the encoder of 2 ms reads."
+    "The motor as it was measured, with a load's inertia of 9.2e-4 kg m² (of a torque plate; or of the weight, had its "
+    "string at the stator's radius not given), and the volatility that the encoder of 2 ms reads."
 )
 _REGIONS = (
     ("A off", "the region T_reduT: A decays freely, B is driven; m = 100, n = 55"),
@@ -286,6 +286,17 @@ PICTURES: tuple[Picture, ...] = (
         "it back. Dotted: Table 3's load.",
         "Mean speed against load torque for three starts, falling curves, with the stall torque on the axis.",
         plots.torque_speed,
+    ),
+    Picture(
+        "load-region",
+        _MORE,
+        "What inertia and friction give Table 4",
+        "From rest with phase lead -1. Left: the friction coefficient at which v_s is 633 arcsec/s; it has to be right "
+        "to about 1.5 in 10 000 for 5 % of that. Right: what the encoder of 2 ms reads there. Friction and contact "
+        "radius count as their product, and the inertia is where the curve meets Table 4.",
+        "Friction coefficient against inertia for three contact radii; the encoder's volatility against inertia, "
+        "one falling curve for all three.",
+        plots.load_region,
     ),
     Picture(
         "contact-zone",

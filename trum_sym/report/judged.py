@@ -70,7 +70,7 @@ def judge(motor: Motor, progress: bool = False) -> Judged | None:
     caption = (
         "Sorted by the farther of both determinants from Table 4's, which need neither friction nor contact radius. "
         "An open claim is one that holds in some readings and not in others. σ_s is what the encoder of 2 ms reads; "
-        f"with load: with its inertia of {LOAD_INERTIA[1]:.1e} kg m², a weight on a string at 30 mm."
+        f"with load: with {LOAD_INERTIA[-1]:.1e} kg m², the heaviest torque plate that the motor file states."
     )
     nearest = records[0]
     return Judged(
@@ -122,9 +122,8 @@ def _cells(judged: list[Claim]) -> Table:
         "Claims on the rotor, by what is read of its speed and by the load's inertia",
         "+ holds in all switching phases, levels and corners of what is assumed, o in some, − in none. First letter: "
         "the speed itself of a rotor without a load; second: what the encoder of 2 ms reads of it, for what was "
-        f"measured; third and fourth: that with a load's inertia of {loads} kg m². The measured motor pulls a weight "
-        "by a string (Sect. 8.1), so what is said of it is judged by the last two, of the simulation by the "
-        "second.",
+        f"measured; third and fourth: that with a load's inertia of {loads} kg m². The measured motor turns a torque "
+        "plate (Sect. 8.1), so what is said of it is judged by the last two, of the simulation by the second.",
         ("place", "claim", *names, "by the speed", "by the encoder", "judged"),
         rows,
     )
@@ -158,7 +157,7 @@ def _row(name: str, record: dict[str, Any]) -> tuple[str, ...]:
         return f"{value:.5g}".replace("-", "−")
 
     speed, volatility = (
-        [plain(value / unit) for value in record[name][:2]]
+        [plain(record[name][i] / unit) for i in (0, -1)]
         for name, unit in (("mean_speed", ARCSEC), ("speed_volatility", 0.01))
     )
     known = len(record["holds"]) + len(record["fails"])

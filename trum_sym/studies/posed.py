@@ -39,7 +39,7 @@ def posed(
         raise ParameterError(
             "periods", f"{len(pulses)} pairs of periods and on_periods", "one value of each in a study"
         )
-    drive = Drive(**{**drive.numbers(), "start": drive.start, "periods": pulses[0][0], "on_periods": pulses[0][1]})  # type: ignore[arg-type]
+    drive = Drive(**{**drive.numbers(), **drive.words(), "periods": pulses[0][0], "on_periods": pulses[0][1]})  # type: ignore[arg-type]
     aim, limits = aim_of(objective, target, constraints)
     problem = Problem(motor, drive, levels, box, aim, limits)
     warn_outside_fit(problem)

@@ -35,6 +35,7 @@ from trum_sym.values import Value
 __all__ = ["RobustCase", "RobustPoint", "robust"]
 
 _MOST_SPREADS, _MOST_SAMPLES = 6, 200
+_OF_LOAD = ("load_torque", "load_inertia")  # what may be off beside the motor
 _INSIDE = 64  # random cases inside the spreads by which corners are checked
 _SEED = 1
 _T = TypeVar("_T")
@@ -173,9 +174,9 @@ def robust(
         As for :func:`trum_sym.optimize`; pulse counts have one value each.  With a target, volatility is the speed's
         standard deviation over the target's magnitude in every case.
     spreads : mapping
-        By name of the motor file, or ``load_torque``: a share of the value, ``0.1`` or ``"10 %"``, two ends,
-        ``(0.2, 0.3)`` or ``"0.2:0.3"``, or None for the range that the motor file states.  The cases are the nominal
-        one and all corners; at most six.
+        By name of the motor file, ``load_torque`` or ``load_inertia``: a share of the value, ``0.1`` or ``"10 %"``, two
+        ends, ``(0.2, 0.3)`` or ``"0.2:0.3"``, or None for the range that the motor file states.  The cases are the
+        nominal one and all corners; at most six.
     samples : sequence of mappings
         Instead: the cases themselves, each by the same names, ``[{"friction_coefficient": 0.22}, ...]``.
     progress : bool
@@ -242,10 +243,10 @@ def _ranges(problem: Problem, spreads: Mapping[str, Spread] | None, samples: obj
 
 
 def _nominal(problem: Problem, name: str) -> float:
-    if name == "load_torque":
-        return float(problem.drive.load_torque)
+    if name in _OF_LOAD:
+        return float(getattr(problem.drive, name))
     if name in DRIVE_DOMAINS:
-        raise ParameterError("spreads", name, "names of the motor file, or load_torque")
+        raise ParameterError("spreads", name, f"names of the motor file, {' or '.join(_OF_LOAD)}")
     if spec(name).domain.integer:
         raise ParameterError("spreads", name, "parameters that vary continuously")
     parameter = getattr(problem.motor, name)
@@ -284,7 +285,7 @@ def _cases(
 
 def _model(problem: Problem, case: Mapping[str, float]) -> Model:
     values: dict[str, Any] = dict(case)
-    drive = replace(problem.drive, load_torque=values.pop("load_torque", problem.drive.load_torque))
+    drive = replace(problem.drive, **{name: values.pop(name) for name in _OF_LOAD if name in values})
     with unquestioned():
         motor = problem.motor.with_values(values)
     return Model(motor, drive, problem.levels, problem.box, problem.names)

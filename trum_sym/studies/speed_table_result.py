@@ -140,7 +140,7 @@ class SpeedTable(Result, Value):
         held = "" if len(self.variables) == 2 else f"{self.held()}, "
         phase = "" if "switching_phase" in self.variables else f", switching phase {drive.switching_phase:g} rad"
         lines = [
-            f"speed table of {one_line(self.motor)}: {held}load {drive.load_torque:g} N m, {drive.on_periods:g} of "
+            f"speed table of {one_line(self.motor)}: {held}{drive.load_text()}, {drive.on_periods:g} of "
             f"{drive.periods:g} periods on, start {drive.start}, phase lead {drive.phase_lead:+g}" + phase,
             f"linear interpolation between entries meets the speed within {100 * self.error:g} % "
             f"(of {self.floor / ARCSEC:.6g} arcsec/s where it is slower); largest error seen "

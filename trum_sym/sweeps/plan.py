@@ -108,7 +108,7 @@ class Plan:
             **identity(),
             "motor": plain(motor.name),
             **{name: value for name, value in numbers.items() if name not in swept},
-            "start": settings.start,
+            **settings.words,
             "contact": levels.contact,
             "resonance_level": levels.resonance,
             "foundation": levels.foundation,
@@ -157,7 +157,7 @@ def make_plan(
     for name, value in given.items() if period is None else [*given.items(), ("sampling_period", period)]:
         if np.ndim(value) and name not in swept:
             raise ParameterError(name, f"an array of shape {np.shape(value)}", f"one number, or {name}=... as a range")
-    settings = Settings(machine, numbers, drive.start, levels, period, tolerance, _outputs(outputs, swept))
+    settings = Settings(machine, numbers, drive.words(), levels, period, tolerance, _outputs(outputs, swept))
     for axis in grid.axes:
         if axis.name in (*settings.outputs, "status"):
             raise ParameterError(f"dimension {axis.name}", axis.name, "a name that is not that of a figure")

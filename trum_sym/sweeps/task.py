@@ -18,7 +18,7 @@ import trum_sym
 from trum_sym import _kernels
 from trum_sym.errors import ConvergenceError, ParameterError
 from trum_sym.inputs.checks import Array, ArrayLike
-from trum_sym.inputs.drive import Drive, Start
+from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import SPECS, Motor
 from trum_sym.inputs.plausible import unquestioned
 from trum_sym.model.batch import StoppedError, one_thread
@@ -27,9 +27,9 @@ from trum_sym.model.operating_point import OF_ORBIT, Case, prepare, results
 
 __all__ = ["STATUS", "Found", "Settings", "Task", "compute", "identity", "sort_out"]
 
-STATUS = ("done", "no_steady_speed", "not_converged", "refused")
-"""What ``status`` 0 to 3 mean: the last is a combination that :func:`trum_sym.evaluate` refuses."""
-_DONE, _RUNAWAY, _UNCONVERGED, _REFUSED = range(4)
+STATUS = ("done", "no_steady_speed", "not_converged", "refused", "slack_string")
+"""What ``status`` 0 to 4 mean: refused is a combination that :func:`trum_sym.evaluate` refuses."""
+_DONE, _RUNAWAY, _UNCONVERGED, _REFUSED, _SLACK = range(5)
 
 
 @cache
@@ -59,7 +59,7 @@ class Settings:
 
     motor: Motor
     numbers: Mapping[str, ArrayLike]  # of the drive, where they are not swept
-    start: Start
+    words: Mapping[str, str]  # of the drive: start, kind of load
     levels: Levels
     sampling_period: ArrayLike | None
     tolerance: float
@@ -77,7 +77,7 @@ class Settings:
         of_drive = {name: values.get(name, value) for name, value in self.numbers.items()}
         with unquestioned():
             motor = self.motor.with_values(of_motor) if of_motor else self.motor
-        drive = Drive(**of_drive, start=self.start)
+        drive = Drive(**of_drive, **self.words)  # type: ignore[arg-type]
         period = values.get("sampling_period", self.sampling_period)
         return prepare(motor, drive, self.levels, self.tolerance, period, warn=False)
 
@@ -139,10 +139,11 @@ def compute(task: Task, stopped: Callable[[], bool] = lambda: False) -> Found:
 def _evaluate(settings: Settings, case: Case, shape: tuple[int, ...]) -> dict[str, npt.NDArray[Any]]:
     """The outputs and the status of points that can be evaluated."""
     orbit = not OF_ORBIT.isdisjoint(settings.outputs)
-    flags = ("converged", "runaway") if orbit else ()
+    flags = ("converged", "runaway", "slack") if orbit else ()
     found = results(case, {*settings.outputs, *flags})
     status = np.full(shape, _DONE, np.uint8)
     if orbit:
+        status[np.broadcast_to(found["slack"], shape)] = _SLACK
         status[~np.broadcast_to(found["converged"], shape)] = _UNCONVERGED
         status[np.broadcast_to(found["runaway"], shape)] = _RUNAWAY
     return {**{name: np.broadcast_to(found[name], shape) for name in settings.outputs}, "status": status}

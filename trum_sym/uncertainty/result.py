@@ -134,7 +134,7 @@ class Drawn(Value):
             "seed": self.seed,
             "distributions": "; ".join(f"{name}: {d.describe()}" for name, d in self.distributions.items()),
             **{f"drive_{name}": value for name, value in self.drive.numbers().items()},
-            "start": self.drive.start,
+            **self.drive.words(),
             **{f"motor_{name}": p.value for name, p in self.motor.parameters()},
             **{name: "" if level is None else level for name, level in self.levels.items()},
         }

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any, Unpack
 
@@ -15,7 +15,7 @@ from trum_sym.inputs.choices import words
 from trum_sym.inputs.distributions import Distribution, checked
 from trum_sym.inputs.domain import Spec
 from trum_sym.inputs.drive import DRIVE_DOMAINS, Drive
-from trum_sym.inputs.motor import FLANGE, SPECS, Motor, spec
+from trum_sym.inputs.motor import FLANGE, SPECS, Motor, Parameter, spec
 from trum_sym.inputs.motor_file import load_motor
 from trum_sym.inputs.plausible import unquestioned
 from trum_sym.inputs.points import check_point, check_single, numbers_of, period_of
@@ -66,11 +66,15 @@ def _spec_of(name: str) -> Spec:
     return spec(name)
 
 
+def _spreads(parameters: Iterable[tuple[str, Parameter]]) -> dict[str, Distribution]:
+    """Distributions of the parameters that have one."""
+    return {name: found for name, p in parameters if (found := p.spread()) is not None}
+
+
 def _uncertain(motor: Motor, levels: Levels) -> dict[str, Distribution]:
     """What the motor file gives a range or a distribution, but for a flange that the levels leave out."""
     counts = levels.compliance == "flange" and motor.contact_stiffness is None
-    own = {name: p.spread() for name, p in motor.parameters() if counts or name not in FLANGE}
-    return {name: found for name, found in own.items() if found is not None}
+    return _spreads((name, p) for name, p in motor.parameters() if counts or name not in FLANGE)
 
 
 def _chosen(
@@ -78,6 +82,7 @@ def _chosen(
 ) -> dict[str, Distribution]:
     """The uncertain parameters, as given."""
     uncertain, values = _uncertain(motor, levels), numbers_of(motor, drive)
+    of_bench = _spreads(motor.bench.items())
     if spreads is None:
         spreads = [MOTOR_FILE]
     if isinstance(spreads, str) or not isinstance(spreads, Mapping | Sequence):
@@ -94,7 +99,8 @@ def _chosen(
             raise ParameterError("spreads", name, "names of uncertain parameters")
         wanted = _spec_of(name)
         value = float(values.get(name, np.nan))  # an optional one that the motor lacks has no share
-        chosen[name] = read_spread(name, wish, value, wanted.unit, wanted.domain, uncertain.get(name))
+        known = uncertain.get(name, of_bench.get(name))
+        chosen[name] = read_spread(name, wish, value, wanted.unit, wanted.domain, known)
     if not chosen:
         raise ParameterError("spreads", "none", "at least one; the motor file gives no range or distribution")
     return chosen

@@ -48,8 +48,7 @@ def as_text(study: Drawn) -> str:
     lines = [
         f"{one_line(study.motor.name)} at "
         f"{full(drive.prepressure)} N, {'+' * (drive.frequency_difference >= 0)}{full(drive.frequency_difference)} Hz, "
-        f"{full(drive.on_periods)} of {full(drive.periods)} periods on, load {full(drive.load_torque)} N m, "
-        f"start {drive.start}",
+        f"{full(drive.on_periods)} of {full(drive.periods)} periods on, {drive.load_text()}, start {drive.start}",
         f"{count} uncertain parameter{'s' * (count != 1)}, {study.samples} samples, "
         f"{study.samples * (count + 2)} points, seed {study.seed}; intervals at {100 * CONFIDENCE:g} %",
         "",
