@@ -258,7 +258,7 @@ def test_console_refuses_bad_input_as_json_too(console_refuses):
     ("arguments", "naming"),
     [
         (("evaluate", "--prepressure", "180 Hz"), (b"--prepressure: got 180 Hz, need a number in N",)),
-        (("evaluate", "--motor", b"\xff.toml"), (b"--motor: got", b"need trum60 or the path of a TOML file")),
+        (("evaluate", "--motor", b"\xff.toml"), (b"--motor: got", b"trum60 or the path of a TOML file")),
         (("evaluate", "--on-periods", "9"), (b"--on-periods: got 9", b"periods/2")),
     ],
     ids=["wrong-unit", "undecodable-name", "too-few-on-periods"],

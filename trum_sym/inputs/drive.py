@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 from trum_sym.errors import ParameterError
 from trum_sym.inputs.choices import choice
 from trum_sym.inputs.domain import Domain
+from trum_sym.inputs.shown import full
 from trum_sym.values import Value
 
 if TYPE_CHECKING:
@@ -132,10 +133,10 @@ class Drive(Value):
 
     def load_text(self) -> str:
         """The load in words, of single numbers: ``load 0.3 N m``, with what it adds to the rotor's inertia."""
-        text = f"load {float(self.load_torque):.12g} N m"
+        text = f"load {full(self.load_torque)} N m"
         if self.load == "weight":
-            text += f" by a weight on a string at {1e3 * float(self.load_radius):.12g} mm"
-        return f"{text} with {float(self.load_inertia):.12g} kg m^2" if float(self.load_inertia) else text
+            text += f" by a weight on a string at {full(1e3 * float(self.load_radius))} mm"
+        return f"{text} with {full(self.load_inertia)} kg m^2" if float(self.load_inertia) else text
 
     def symbols(self) -> dict[str, ArrayLike]:
         """Prepressure and load by the symbols of the equations, as the kernels name their arguments."""
