@@ -93,14 +93,8 @@ def sweep(
     check_out("--out", out)
     if out is not None and out.suffix != ".zarr" and out.exists() and not force and not dry_run:
         raise ParameterError("--out", str(out), "a new file, or --force to replace it: this one exists")
-    ranges = {name: text for name in _RANGED if (text := options[name]) is not None}
     fixed = tuple(text for text in overrides if not _is_range(text))
-    for text in overrides:
-        if text not in fixed:
-            name, _, given = text.partition("=")
-            if name.strip() in (*ranges, *(other.partition("=")[0].strip() for other in fixed)):
-                raise ParameterError("--set", text, "each name once")
-            ranges[name.strip()] = given
+    ranges = _ranges(options, overrides, fixed)
     levels = Levels(**chosen_levels(options))
     names = None if outputs is None else tuple(name.strip() for name in outputs.split(","))
     words: dict[str, Any] = {name: options[name] for name in ("start", "load")}
@@ -112,6 +106,20 @@ def sweep(
         return
     summary = run("--out", plan, out, scheduler, chunk is not None, sys.stderr)[1]
     say(f"{out}: {_summary(plan, summary)}")
+
+
+def _ranges(options: dict[str, Any], overrides: tuple[str, ...], fixed: tuple[str, ...]) -> dict[str, str]:
+    """What takes several values, by name: of the drive's options and of ``--set``."""
+    from trum_sym.errors import ParameterError
+
+    ranges = {name: text for name in _RANGED if (text := options[name]) is not None}
+    for text in overrides:
+        if text not in fixed:
+            name, _, given = text.partition("=")
+            if name.strip() in (*ranges, *(other.partition("=")[0].strip() for other in fixed)):
+                raise ParameterError("--set", text, "each name once")
+            ranges[name.strip()] = given
+    return ranges
 
 
 def _is_range(override: str) -> bool:

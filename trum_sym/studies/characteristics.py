@@ -16,11 +16,10 @@ from trum_sym.inputs.measured_points import CURVES, FORMS, MeasuredPoint
 from trum_sym.inputs.motor import Motor
 from trum_sym.inputs.points import check_point, check_single, numbers_of, one_number
 from trum_sym.model.cycle import response, scaled
-from trum_sym.model.histories import surface_and_contact
 from trum_sym.model.kernels import call
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.model.operating_point import evaluate, prepare
-from trum_sym.model.rotor import history, solve_orbit
+from trum_sym.model.rotor import history, solve_orbit, surface_and_contact
 from trum_sym.text import one_line, plain
 
 if TYPE_CHECKING:
