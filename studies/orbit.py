@@ -8,7 +8,7 @@ from __future__ import annotations
 import sys
 import time
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -81,9 +81,8 @@ def evaluate(points: list[Sample], tolerance: float) -> list[ts.OperatingPoint]:
             batch = ts.evaluate(machine, ts.Drive(**drive, start=start), tolerance=tolerance)
         for place, i in enumerate(chosen):
             shape = np.shape(batch.mean_speed)
-            answers[i] = type(batch)(
-                **{name: value[place] if np.shape(value) == shape else value for name, value in batch.figures.items()}
-            )
+            single = {name: value[place] for name, value in batch.figures.items() if np.shape(value) == shape}
+            answers[i] = replace(batch, **single)
     return answers
 
 

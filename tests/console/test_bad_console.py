@@ -160,9 +160,7 @@ def test_console_refuses_a_bad_set(console_refuses, override, naming):
     console_refuses("evaluate", "--set", override, naming=naming)
 
 
-@pytest.mark.parametrize(
-    "override", ["crests=1e300", "radius=1e-300", "piezo_density=1e300", "beam_young_modulus=1e300"]
-)
+@pytest.mark.parametrize("override", ["crests=1e300", "piezo_density=1e300", "beam_young_modulus=1e300"])
 def test_console_blames_the_motor_where_its_values_give_no_resonance(console_refuses, override):
     line = console_refuses("evaluate", "--set", override, naming=("resonance_frequency",))
     assert "frequency_difference" not in line

@@ -78,7 +78,7 @@ def test_every_example_of_a_help_runs(folder, capsys, line):
     if "my.toml" in line and " new " not in line:
         answer(capsys, "motor", "new", "my.toml")
     code, out = answer(capsys, *shlex.split(line)[1:])
-    assert code == 0, out
+    assert code == (1 if "check my.toml" in line else 0), out  # a template is not ready
 
 
 # --- Errors ---------------------------------------------------------------------------------------

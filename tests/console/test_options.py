@@ -22,6 +22,7 @@ BASE = {
     ("evaluate",): (),
     ("simulate",): (),
     ("sensitivities",): (),
+    ("characteristics",): ("--points", "3"),
     ("sweep",): ("--prepressure", "170:180:2", "--out", "base.csv"),
     ("spread",): ("--samples", "64", "--spread", "friction_coefficient"),
     ("calibrate",): ("examples/data/torque_speed_synthetic.csv", "--fit", "friction_coefficient"),
@@ -41,7 +42,12 @@ BASE = {
 }
 NO_ANSWER = {("report",): "tests/report makes one; it takes a minute"}
 SLOW = {("optimize",), ("pareto",), ("robust",), ("speed-table",), ("spread",)}  # a search or a study an option
-SLOW |= {("simulate",), ("sweep",), ("sensitivities",)}  # whose options are made as those of evaluate are
+SLOW |= {
+    ("simulate",),
+    ("sweep",),
+    ("sensitivities",),
+    ("characteristics",),
+}  # whose options are made as those of evaluate are
 
 # Another value of every option, by its name; of a command where that differs
 OTHER = {
@@ -97,6 +103,8 @@ FILES = {
     ("spread", "--plot"): "new.png",
     ("calibrate", "--out"): "new.toml",
     ("evaluate", "--out"): "new.csv",
+    ("characteristics", "--out"): "new.csv",
+    ("characteristics", "--measured"): str(ROOT / "trum_sym" / "data" / "dual60.measured.toml"),
     ("speed-table", "--out"): "new.csv",
 }
 NO_FIGURE = {

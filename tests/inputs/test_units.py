@@ -249,9 +249,9 @@ def test_a_column_of_a_sweep_refuses_an_angle_for_cycles(tmp_path):
 
 
 def test_a_motor_file_refuses_an_angle_for_cycles(motor_file):
-    entry = 'resonance_frequency = { value = 245e3, unit = "rad/s", source = "measured" }\n[[published]]'
+    entry = '[parameters]\nresonance_frequency = { value = 245e3, unit = "rad/s", source = "measured" }'
     with refusal("resonance_frequency.unit: got rad/s", "2*pi"):
-        ts.load_motor(motor_file(MOTOR_TEXT.replace("[[published]]", entry, 1)))
+        ts.load_motor(motor_file(MOTOR_TEXT.replace("[parameters]", entry, 1)))
     with refusal("published.unit: got Hz", "2*pi"):
         ts.load_motor(motor_file(MOTOR_TEXT.replace('unit = "arcsec/s"', 'unit = "Hz"')))
 

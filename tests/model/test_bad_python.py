@@ -103,10 +103,12 @@ def test_evaluation_refuses_a_wrong_word(name, word):
         ts.evaluate(MOTOR, **{name: word})
 
 
-@pytest.mark.parametrize("period", [0, -1e-3, math.nan, math.inf, "10 Hz", 1j, True, [], [1e-3, 0.0]], ids=repr)
+@pytest.mark.parametrize("period", [0, -1e-3, math.nan, math.inf, 1j, True, [], [1e-3, 0.0]], ids=repr)
 def test_evaluation_refuses_a_wrong_sampling_period(period):
     with refusal("sampling_period: got", "> 0 in s"):
         ts.evaluate(MOTOR, sampling_period=period)
+    with refusal("sampling_period: got 10 Hz", "a number in s"):
+        ts.evaluate(MOTOR, sampling_period="10 Hz")
 
 
 FAR_OFF = [

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
-import orbit_reference
 import pytest
-from scipy.optimize import brentq
+from lazily import lazily
 
 import trum_sym as ts
-from studies.flange import pressed, speed_at
 from trum_sym.model.kernels import call
+
+orbit_reference = lazily("orbit_reference")
+optimize = lazily("scipy.optimize")
+flange = lazily("studies.flange")
 
 FLANGE = ("flange_thickness", "flange_length", "flange_young_modulus", "flange_poisson_ratio")
 DRIVE = ts.Drive(frequency_difference=500.0, on_periods=20, load_torque=0.4)
@@ -83,8 +85,9 @@ def test_the_layer_alone_knows_no_flange(trum60):
 
     without = replace(trum60, **dict.fromkeys(FLANGE))
     drive = ts.Drive(load_torque=0.05)
-    assert ts.evaluate(without, drive) == ts.evaluate(trum60, drive)
-    assert ts.evaluate(without, drive) == ts.evaluate(trum60, drive, compliance="layer", tangential="rigid")
+    figures = ts.evaluate(without, drive).figures
+    assert figures == ts.evaluate(trum60, drive).figures
+    assert figures == ts.evaluate(trum60, drive, compliance="layer", tangential="rigid").figures
 
 
 def test_a_measured_contact_stiffness_stands_for_the_series_at_either_level(trum60):
@@ -103,7 +106,7 @@ def test_the_resonance_rises_by_the_reaction_of_the_whole_contact(trum60):
     point = ts.evaluate(trum60, DRIVE, compliance="flange")
     stiffness, k = float(parts(trum60)["k_con"]), 300.0
     filled = 180.0 * k / (2 * 9 * stiffness * point.amplitude)
-    theta = brentq(lambda x: np.sin(x) - x * np.cos(x) - filled, 1e-3, np.pi)
+    theta = optimize.brentq(lambda x: np.sin(x) - x * np.cos(x) - filled, 1e-3, np.pi)
     u = 2 * np.pi * (np.arange(20_000) + 0.5) / 20_000 - np.pi
     reaction = stiffness * np.maximum(0, np.cos(u) - np.cos(theta)) * point.amplitude
     k_f = 2 * np.mean(reaction * np.cos(u)) / point.amplitude
@@ -137,8 +140,8 @@ def test_all_harmonics_of_the_pressure_agree_with_the_level_where_the_plate_is_o
     motor = trum60.with_values({"amplitude": height})
     speeds = {}
     for single in (True, False):
-        u, pressure = pressed(motor, height, 180.0, single=single)
-        speeds[single] = [speed_at(u, pressure, share) for share in (0.2, 0.49, 0.56)]
+        u, pressure = flange.pressed(motor, height, 180.0, single=single)
+        speeds[single] = [flange.speed_at(u, pressure, share) for share in (0.2, 0.49, 0.56)]
     stall = ts.evaluate(motor, DRIVE, compliance="flange").stall_torque
     drive = ts.Drive(frequency_difference=500.0, on_periods=20, load_torque=np.array([0.2, 0.49, 0.56]) * stall)
     point = ts.evaluate(motor, drive, compliance="flange")

@@ -77,12 +77,15 @@ def table():
     """A speed table, whose motor's name is given when it is written."""
     from dataclasses import replace
 
+    from trum_sym.model.inputs import Inputs
+    from trum_sym.model.levels import Levels
     from trum_sym.studies.speed_table_result import Segment, SpeedTable
 
     rows = {"speed": np.array([1.0, 2.0]), "deviation": np.array([0.1, 0.1]), "drive_frequency": np.array([4e4, 4e4])}
     segment = Segment(**rows, drive={"prepressure": np.array([180.0, 181.0])})
+    inputs = Inputs(ts.load_motor(), ts.Drive(), Levels())
     made = SpeedTable(
-        motor="", drive=ts.Drive(), variables=("prepressure",), segments=(segment,), gaps=(), error=0.01,
+        motor="", drive=ts.Drive(), inputs=inputs, variables=("prepressure",), segments=(segment,), gaps=(), error=0.01,
         largest_error=0.001, floor=1e-6, reachable=(0.0, 3.0), evaluations=1,
     )  # fmt: skip
     return lambda name: replace(made, motor=name)

@@ -6,13 +6,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import scipy.stats
-from scipy.optimize import brentq
+from lazily import lazily
 
 import trum_sym as ts
 from trum_sym.inputs.units import ARCSEC
 from trum_sym.paper.published import ENCODER, TABLE_5
 from trum_sym.paper.region import COMPARED, region
+
+scipy = lazily("scipy")
 
 J = 4.5e-6
 RADIUS = np.array([0.025, 0.0265, 0.030])
@@ -37,7 +38,7 @@ def test_the_friction_is_where_evaluate_has_table_4_s_speed(trum60, found, place
     def excess(friction):
         return at(trum60, INERTIA[i], RADIUS[k], friction).mean_speed / (633 * ARCSEC) - 1
 
-    root = brentq(excess, 0.2, 0.3, xtol=1e-10)
+    root = scipy.optimize.brentq(excess, 0.2, 0.3, xtol=1e-10)
     assert found.friction[place] == pytest.approx(root, rel=1e-6)
     steeper = excess(root * (1 + 1e-5)) / 1e-5
     assert found.width[place] == pytest.approx(0.05 / steeper, rel=0.1)

@@ -34,15 +34,15 @@ def test_a_worst_case_takes_the_loads_inertia(trum60):
     assert case.drive == replace(PLATE, load_inertia=8e-4)
     assert case.motor.friction_coefficient.value == 0.22
     with pytest.raises(ts.ParameterError, match="load_torque or load_inertia"):
-        ts.robust(trum60, PLATE, tolerances={"periods": "10 %"})
+        ts.robust(trum60, PLATE, spreads={"periods": "10 %"})
 
 
 def test_a_tolerance_study_takes_the_bench_s_range(trum60):
     pytest.importorskip("xarray")
     low, high = trum60.bench["load_inertia"].range
     short = replace(PLATE, periods=4, on_periods=3)
-    study = ts.tolerance(trum60, short, parameters=["load_inertia"], samples=64)
-    drawn = study.dataset()["load_inertia"].values
+    study = ts.spread(trum60, short, spreads=["load_inertia"], samples=64)
+    drawn = study.to_xarray()["load_inertia"].values
     assert low <= drawn.min() < 0.3 * high
     assert 0.7 * high < drawn.max() <= high
 
@@ -68,7 +68,7 @@ def test_the_console_says_that_a_string_goes_slack(capsys):
     assert main(hung[:-2]) == 2
     error = capsys.readouterr().err
     assert error.count("\n") == 1
-    assert "load_radius" in error
+    assert "--load-radius" in error
 
 
 def test_a_sweep_counts_slack_strings(trum60):

@@ -119,7 +119,8 @@ def test_only_what_the_outputs_need_is_computed(trum60, monkeypatch, outputs, ke
 @pytest.mark.parametrize("name", PARAMETERS)
 def test_every_number_can_be_swept(trum60, name):
     optional = {"resonance_frequency": 39e3, "amplitude": 5e-6, "neutral_axis": 2.8e-3, "wavenumber": 300.0}
-    start = {**ts.Drive().numbers(), "sampling_period": 2e-3, "layer_stiffness": 3e10, **optional}
+    stiff = dict.fromkeys(("layer_stiffness", "contact_stiffness", "tangential_stiffness"), 3e10)
+    start = {**ts.Drive().numbers(), "sampling_period": 2e-3, **stiff, **optional}
     drive = ts.Drive(load="weight", load_radius=0.03) if name == "load_radius" else ts.Drive()
     value = start[name] if name in start else getattr(trum60, name).value
     value = 0.03 if name == "load_radius" else value
@@ -477,7 +478,7 @@ BAD_RANGES = [
     ({"prepressure": [150, 150]}, ("prepressure: got 150 more than once",)),
     ({"prepressure": np.ones((2, 2))}, ("prepressure: got an array of shape (2, 2)",)),
     ({"periods": [4, 4.5]}, ("periods: got 4.5", "an integer")),
-    ({"phase_lead": [1, 0]}, ("--phase-lead", "1, -1 or both")),
+    ({"phase_lead": [1, 0]}, ("phase_lead", "1, -1 or both")),
     (
         {"prepressure": [150, 160], "load_torque": lambda: xr.DataArray([1, 2], dims="prepressure")},
         ("dimension prepressure",),
@@ -526,7 +527,7 @@ BAD_OPTIONS = [
     (["--set", "radius", "--prepressure", "150,160"], ("--set: got radius", "NAME=VALUE")),
     (["--prepressure", "150,160", "--outputs", "q_average,"], ("outputs: got empty text",)),
     (["--prepressure", "150,160", "--chunk", "many"], ("chunk: got many",)),
-    (["--prepressure", "150,160", "--phase-lead", "2"], ("phase_lead", "1, -1 or both")),
+    (["--prepressure", "150,160", "--phase-lead", "2"], ("--phase-lead", "1, -1 or both")),
     (["--prepressure", "150,160", "--scheduler", "nonsense://"], ("scheduler: got nonsense://", "a Dask scheduler")),
     (["--prepressure", "150,160", "--motor", "trum61"], ("motor: got trum61",)),
 ]

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 from trum_sym.inputs.distributions import KINDS
 from trum_sym.inputs.drive import BOX_NAMES, DRIVE_DOMAINS
 from trum_sym.inputs.motor import SPECS, TO_DO, Motor
-from trum_sym.inputs.motor_file import load_motor
+from trum_sym.inputs.motor_file import BENCH, load_motor
 from trum_sym.inputs.units import parse_unit
 from trum_sym.quantities import QUANTITIES
 
@@ -78,6 +78,14 @@ _SECTIONS: dict[str, dict[str, Entry]] = {
         "neutral_axis": Entry("mm", "from the tooth surface"),
         "wavenumber": Entry("1/m", "crests / radius if not given"),
         "layer_stiffness": Entry("N/m^2", "force per length of the circumference and depth"),
+        "contact_stiffness": Entry("N/m^2", "the same of layer, teeth and flange in series; --compliance flange"),
+        "tangential_stiffness": Entry("N/m^2", "of the layer in shear; used by --tangential brush"),
+    },
+    "Flange that carries the layer; all four are needed by --compliance flange, else none": {
+        "flange_thickness": Entry("mm", "of the flange, as a plate"),
+        "flange_length": Entry("mm", "how far it reaches out, from where it is held to the contact"),
+        "flange_young_modulus": Entry("GPa", "of the flange"),
+        "flange_poisson_ratio": Entry("1", "of the flange"),
     },
 }
 ENTRIES = {name: entry for section in _SECTIONS.values() for name, entry in section.items()}
@@ -143,7 +151,7 @@ def template(name: str, like: Motor | None = None) -> str:
             source = f"{TO_DO}: value of {like.name}" if spec.required else "measured"
             about = f'unit = "{entry.unit}", symbol = "{spec.symbol}", source = "{source}"'
             line = f"{parameter} = {{ value = {text}, {about} }}"
-            lines.append(line if parameter in known else f"# {line}")
+            lines.append(line if spec.required else f"# {line}")
     lines += [
         "",
         "# --- Figures that were measured or published, to be shown beside the computed ones --------------",
@@ -188,6 +196,16 @@ def schema() -> dict[str, Any]:
     drive = {
         name: {"type": "number", "description": domain.describe(unit)} for name, (domain, unit) in DRIVE_DOMAINS.items()
     }
+    bench = {
+        name: {
+            "type": "object",
+            "description": spec.domain.describe(spec.unit),
+            "properties": {**kinds, "symbol": {"const": spec.symbol}},
+            "required": ["value", "unit", "source"],
+            "additionalProperties": False,
+        }
+        for name, spec in BENCH.items()
+    }
     published = {
         "type": "object",
         "properties": {
@@ -214,6 +232,7 @@ def schema() -> dict[str, Any]:
                 "additionalProperties": False,
             },
             "box": {"type": "object", "properties": dict.fromkeys(BOX_NAMES, allowed), "additionalProperties": False},
+            "bench": {"type": "object", "properties": bench, "additionalProperties": False},
             "published": {"type": "array", "items": published},
         },
         "required": ["name", "parameters"],
@@ -251,6 +270,9 @@ def page() -> str:
         "| `[parameters]` | the parameters below |",
         "| `[box]` | ranges that searches vary: " + " and ".join(f"`{name}`" for name in BOX_NAMES) + ", each "
         "`{ range = [LOW, HIGH], unit = ..., source = ... }`; a motor without them is asked for ranges |",
+        "| `[bench]` | the bench that the published figures were measured on: "
+        + ", ".join(f"`{name}`" for name in BENCH)
+        + ", each as a parameter |",
         "| `[[published]]` | figures to be shown beside the computed ones: `output`, `value`, `unit`, `source`, "
         "`drive`, and `sampling_period` where an encoder's |",
     ]

@@ -50,7 +50,7 @@ static int trum_solve_balance(trum_lanes* lanes, int i, trum_search* search) {
   error = R_v * (sin(a) * error + 2e-15);
   out->mean = out->low = out->high = out->start = sense * R_v * cos(a), out->variance = 0.0;
   out->mean_error = out->low_error = out->high_error = error, out->deviation_error = 0.0;
-  out->level = trum_step_share * in->tolerance, out->error = error / fabs(out->mean);
+  out->level = trum_fine_level(in->tolerance), out->error = error / fabs(out->mean);
   out->flags += trum_autonomous;
   if (error <= in->tolerance * fabs(out->mean)) out->flags += trum_converged;
   else out->flags += trum_failed_step;

@@ -23,6 +23,7 @@ static const double trum_slope_newton_factor = 1e-5;    /* on Newton's tolerance
 
 /* Shares of the tolerance */
 static const double trum_step_share = 0.3;           /* the error of a step, of the tolerance over the drive periods */
+static const double trum_coarsest = 1e-3;          /* of the tolerances that steps are chosen by: longer ones miss brief events */
 static const double trum_quadrature_share = 0.2;     /* factor on the estimate of a step's quadrature error */
 static const double trum_root_share = 0.4;           /* location of an event with a square root, */
 static const double trum_kink_share = 100.0;         /* and with a kink */

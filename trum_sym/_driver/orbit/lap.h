@@ -2,6 +2,11 @@
 #ifndef TRUM_ORBIT_LAP_H
 #define TRUM_ORBIT_LAP_H
 
+/* The error that a fine lap's steps may have, over the speed's scale. */
+static double trum_fine_level(double tolerance) {
+  return trum_step_share * (tolerance < trum_coarsest ? tolerance : trum_coarsest);
+}
+
 /* A drive cycle: its regions' start phasors and lengths in drive periods, and the phasors' derivatives by resonance and
  * frequency difference. */
 typedef struct {
@@ -161,7 +166,7 @@ static void trum_start_lap(trum_lanes* lanes, int i, trum_search* search) {
   set_lane_mask(&lanes->status.at_lap_start, i, 1), set_lane_mask(&lanes->status.failed, i, 0);
   set_lane_mask(&lanes->status.active, i, 1);
   set_lane_mask(&lanes->status.rough, i,
-                search->stage == STAGE_ROUGH && search->level > trum_step_share * in->tolerance * 1.0001);
+                search->stage == STAGE_ROUGH && search->level > trum_fine_level(in->tolerance) * 1.0001);
   set_lane_mask(&lanes->status.contact_only, i, held && search->held_laps == 2);
   search->region = -1;
   trum_enter_next_region(lanes, i, search);

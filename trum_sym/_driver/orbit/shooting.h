@@ -76,7 +76,7 @@ static trum_lap_summary trum_summarise_lap(const trum_lanes* lanes, int i, trum_
   s.newton = s.gain / s.decay;
   s.saturated_gain = (in->push - fabs(in->drag)) * lane_value(&lanes->equation.cycle_time, i);
   s.certain = fabs(s.exact_gain) > s.uncertainty;
-  s.accurate = search->level <= trum_step_share * in->tolerance * 1.0001, s.last = ++search->laps >= trum_max_laps;
+  s.accurate = search->level <= trum_fine_level(in->tolerance) * 1.0001, s.last = ++search->laps >= trum_max_laps;
   return s;
 }
 
@@ -178,7 +178,7 @@ static int trum_finish_held_lap(trum_lanes* lanes, int i, trum_search* search) {
 /* Repeats a lap that could not be followed with shorter steps, a few times at most: steps that are too long alternate
  * between the sides of a line contact that is as fast as the rotor. */
 static int trum_repeat_failed_lap(trum_lanes* lanes, int i, trum_search* search) {
-  const double fine_level = trum_step_share * search->in->tolerance;
+  const double fine_level = trum_fine_level(search->in->tolerance);
   if (++search->refinements > 3) {
     search->out->flags += lane_value(&lanes->step.steps_left, i) < 0.0 ? trum_too_many_steps : trum_failed_step;
     return 0;
@@ -219,7 +219,7 @@ static int trum_finish_lap_with_slopes(trum_lanes* lanes, int i, trum_search* se
                                        double change) {
   trum_update_slope_scales(lanes, i, search, s->decay);
   if (search->stage == STAGE_ROUGH) {
-    search->stage = STAGE_FINE, search->level = trum_step_share * search->in->tolerance;
+    search->stage = STAGE_FINE, search->level = trum_fine_level(search->in->tolerance);
     search->scales.speed = s->top * trum_larger(s->decay, 1e-3);
     return 1;
   }
@@ -239,7 +239,7 @@ static int trum_finish_rough_lap(trum_lanes* lanes, int i, trum_search* search, 
   }
   if ((fabs(change) <= nearly && s->change < 0.7) || !s->certain ||
       search->bracket.high - search->bracket.low <= nearly) {
-    search->stage = STAGE_FINE, search->level = trum_step_share * search->in->tolerance;
+    search->stage = STAGE_FINE, search->level = trum_fine_level(search->in->tolerance);
   } else if (search->laps == 1) {
     search->level = trum_rough_level(search->in->tolerance);
   }

@@ -89,7 +89,7 @@ static int trum_load_task(trum_lanes* lanes, int i, trum_search* search, const t
   search->stage = STAGE_HELD, search->start_speed = 0.0;
   search->bracket.low = search->bracket.sure_low = -HUGE_VAL;
   search->bracket.high = search->bracket.sure_high = HUGE_VAL;
-  search->scales.speed = 0.0, search->level = trum_step_share * in->tolerance;
+  search->scales.speed = 0.0, search->level = trum_fine_level(in->tolerance);
   search->held_laps = 0, trum_reset_slope_scales(search);
   if (lanes->slopes) trum_load_region_slopes(search);
   if (!held) return trum_start_search(lanes, i, search, known);
