@@ -160,7 +160,7 @@ def console_calls(name: str) -> st.SearchStrategy[Any]:
     """Up to three options of a command, with texts for their values."""
     options = [p for p in COMMANDS[name].params if isinstance(p, click.Option) and "--scheduler" not in p.opts]
     arguments = [p for p in COMMANDS[name].params if isinstance(p, click.Argument)]
-    option = st.sampled_from(options).flatmap(
+    option = (st.sampled_from(options) if options else st.nothing()).flatmap(
         lambda p: (
             st.just([p.opts[0]])
             if p.is_flag

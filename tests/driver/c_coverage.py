@@ -51,9 +51,10 @@ NEVER = {
         "if (error <= in->tolerance * fabs(out->mean))": "rounding alone has met every tolerance that was tried",
         "out->low = out->low < out->mean": "rounding of nearly equal speeds, which may fall to either side",
         "out->variance = variance > 0.0": "rounding of a variance of nearly 0, which may fall to either side",
+        "if (in[k].held > 0.5 && !known": "no lap of a held rotor that was tried has missed its bounds to the end",
         "const int known = out[k].held_error": "no lap of a held rotor that was tried has missed its bounds to the end",
-        "if (!(b->high > start))": LAPS,
-        "if (!(b->low < start))": LAPS,
+        "if (!(b->high > start": LAPS,
+        "if (!(b->low < start": LAPS,
         "if (s->known && next > b->sure_low": LAPS,
         "if (!lanes->slopes && !met": LAPS,
         "if (excess > 1.0 &&": LAPS,
@@ -130,7 +131,11 @@ def edges() -> list[str]:
         "contact_stiffness=2e9 load_torque=0.05",
         *(f"compliance=flange flange_{x}=0" for x in ("thickness", "length", "young_modulus", "poisson_ratio")),
         "compliance=flange flange_young_modulus=1e-300",
+        "compliance=flange flange_young_modulus=1e-320",
         "compliance=flange contact=hertz",
+        "load=weight",
+        "load_radius=0.03",
+        *(f"load=weight load_radius=0.03 load_inertia={x} start=rest phase_lead=-1" for x in (0, 4e-3)),
         "compliance=flange contact_stiffness=2e9 load_torque=0.05",
         "on_periods=20 tangential=brush load_torque=-2",
         "flange_thickness=4.5e-3",
@@ -160,7 +165,7 @@ def edges() -> list[str]:
         "damping_ratio=0 frequency_difference=-3000 start=rest",
         "prepressure=1e5 resonance_frequency=40000",  # eq. 8 below zero
         "resonance_frequency=40000 amplitude=5e-6 foundation=none beam_young_modulus=1e308 piezo_young_modulus=1e308",
-        "resonance_frequency=40000 amplitude=5e-6 foundation=none radius=1e-308",
+        "resonance_frequency=40000 amplitude=5e-6 foundation=none radius=1e-308 flange_length=1e-310",
         "amplitude=forced foundation=smeared frequency_difference=5.053 prepressure=205.2 damping_ratio=0.000116 "
         "voltage=1420 periods=4 on_periods=3",  # never settles
         "nothing=1",

@@ -32,9 +32,9 @@ static int trum_solve_balance(trum_lanes* lanes, int i, trum_search* search) {
   trum_orbit_out* out = search->out;
   double a, R_v, theta, sense, pressure, error;
   trum_surface at;
-  const double none = 1e-15 * in->W, slow = none * in->omega_n;
+  const double motion = fabs(in->a_A) + fabs(in->a_B) + (fabs(in->b_A) + fabs(in->b_B)) / in->omega_n; /* free */
   if (in->m > in->n) return 0;
-  if (!(fabs(in->a_A) <= none && fabs(in->a_B) <= none && fabs(in->b_A) <= slow && fabs(in->b_B) <= slow)) return 0;
+  if (!(motion <= 4e-15 * in->W)) return 0;
   trum_start_lap(lanes, i, search);
   trum_evaluate_surface(lanes, lanes->step.tau, &at);
   R_v = lane_value(&at.R_v, i), theta = lane_value(&at.theta, i);
