@@ -160,7 +160,7 @@ def console_calls(name: str) -> st.SearchStrategy[Any]:
     """Up to three options of a command, with texts for their values."""
     options = [p for p in COMMANDS[name].params if isinstance(p, click.Option) and "--scheduler" not in p.opts]
     arguments = [p for p in COMMANDS[name].params if isinstance(p, click.Argument)]
-    option = (st.sampled_from(options) if options else st.nothing()).flatmap(
+    option = st.sampled_from(options or [None]).flatmap(
         lambda p: (
             st.just([p.opts[0]])
             if p.is_flag
@@ -169,7 +169,7 @@ def console_calls(name: str) -> st.SearchStrategy[Any]:
             )
         )
     )
-    found = st.lists(option, max_size=3).map(lambda parts: [word for part in parts for word in part])
+    found = st.lists(option, max_size=3 if options else 0).map(lambda parts: [word for part in parts for word in part])
     rest = st.tuples(*(texts for _ in arguments)).map(list)
     return called(
         f"trum-sym {name}",
