@@ -143,7 +143,13 @@ def called(name: str, function: Callable[..., Any], *arguments: st.SearchStrateg
     return st.tuples(st.just(name), st.just(function), st.tuples(*arguments))
 
 
-COMMANDS = dict(console._cli.commands)
+COMMANDS = {name: command for name, command in console._cli.commands.items() if not isinstance(command, click.Group)}
+COMMANDS |= {
+    f"{group} {name}": command
+    for group, commands in console._cli.commands.items()
+    if isinstance(commands, click.Group)
+    for name, command in commands.commands.items()
+}
 BOX = ["--frequency-difference", "3000", "--prepressure", "179:181", "--load-torque", "0.05"]
 SMALL = {
     "spread": ["--load-torque", "0.05", "--spread", "friction_coefficient", "--samples", "64", "--tolerance", "1e-2"],
@@ -173,7 +179,9 @@ def console_calls(name: str) -> st.SearchStrategy[Any]:
     rest = st.tuples(*(texts for _ in arguments)).map(list)
     return called(
         f"trum-sym {name}",
-        lambda given_options, given_rest: run_console([name, *SMALL.get(name, []), *given_options, *given_rest]),
+        lambda given_options, given_rest: run_console(
+            [*name.split(), *SMALL.get(name, []), *given_options, *given_rest]
+        ),
         found,
         rest,
     )
