@@ -64,13 +64,16 @@ static real trum_error_ratio(trum_lanes* lanes, const trum_trial_step* trial, ma
   finite = less_than(ratio, REAL(1e30));
   ratio = where(finite & mask_not(trial->not_converged), minimum(ratio, REAL(1e6)), REAL(1e6));
   lanes->status.failed = lanes->status.failed | (lanes->status.active & mask_not(finite) & minimal);
-  /* near a standing wave the surface's phase turns fast: the nodes must resolve it, unless the whole wave touches */
+  /* near a standing wave the surface's phase turns fast: the nodes must resolve it, unless the whole wave touches a layer,
+   * whose pressure is nearly even then; under the Hertz width it keeps its crest */
   for (j = 1; j < NODES; ++j) {
     const real along = cosine * trial->at[j].cos_phi + sine * trial->at[j].sin_phi;
     phase_unresolved =
         phase_unresolved |
         (less_than(along, REAL(trum_min_phase_cosine)) &
-         less_than(REAL(0), maximum(trial->events[j][EVENT_FULL_CONTACT], trial->events[j - 1][EVENT_FULL_CONTACT])));
+         (lanes->hertz ? mask_all(1)
+                       : less_than(REAL(0), maximum(trial->events[j][EVENT_FULL_CONTACT],
+                                                    trial->events[j - 1][EVENT_FULL_CONTACT]))));
     cosine = trial->at[j].cos_phi, sine = trial->at[j].sin_phi;
   }
   phase_unresolved =
