@@ -66,7 +66,7 @@ int main(int count, char** arguments) {
   status = trum_evaluate(&motor, &drive, &point);
   if (point.field >= 0) fprintf(stderr, "trum: %s is outside its domain\n", trum_field_name(point.field));
   else if (status != TRUM_OK) fprintf(stderr, "trum: %s\n", trum_status_text((int)status));
-  if (status != TRUM_OK && status != TRUM_RUNAWAY && status != TRUM_NOT_CONVERGED) return 2;
+  if (status != TRUM_OK && status != TRUM_RUNAWAY && status != TRUM_NOT_CONVERGED && status != TRUM_NO_BRUSH) return 2;
 
   printf("{\n  \"motor\": \"%s\",\n", TRUM60_NAME);
 #define PRINT_WORD(name, count, words) if (strcmp(#name, "start") == 0 || strcmp(#name, "contact") == 0) \

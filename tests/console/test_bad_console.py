@@ -166,6 +166,10 @@ def test_console_blames_the_motor_where_its_values_give_no_resonance(console_ref
     assert "frequency_difference" not in line
 
 
+def test_console_blames_the_part_that_a_radius_of_nothing_does_not_fit(console_refuses):
+    console_refuses("evaluate", "--set", "radius=1e-300", naming=("flange_length: got 0.003", "radius (1e-300 m)"))
+
+
 @pytest.mark.parametrize("first", ["radius=30 mm", "radius=\n30 mm"], ids=["plain", "with-newline"])
 def test_console_refuses_the_same_name_twice(console_refuses, first):
     naming = ("--set", "got radius=31 mm", "each name once", "30 mm before")

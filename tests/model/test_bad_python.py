@@ -107,6 +107,9 @@ def test_evaluation_refuses_a_wrong_word(name, word):
 def test_evaluation_refuses_a_wrong_sampling_period(period):
     with refusal("sampling_period: got", "> 0 in s"):
         ts.evaluate(MOTOR, sampling_period=period)
+
+
+def test_evaluation_refuses_a_sampling_period_in_hertz():
     with refusal("sampling_period: got 10 Hz", "a number in s"):
         ts.evaluate(MOTOR, sampling_period="10 Hz")
 

@@ -55,6 +55,7 @@ enum trum_status {
   TRUM_NOT_SETTLED,   /* forced amplitude and resonance do not settle */
   TRUM_RUNAWAY,       /* no speed balances the load: speeds are NaN, the rest is right */
   TRUM_NOT_CONVERGED, /* speeds are the best found, and miss the tolerance */
+  TRUM_NO_BRUSH,      /* the whole wave touches a brush: speeds and stall torque are NaN, the rest is right */
   TRUM_STATUSES
 };
 

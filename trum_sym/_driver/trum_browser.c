@@ -153,9 +153,10 @@ BROWSER_EXPORT(solve) int browser_solve(int count) {
   figures[browser_figure_converged] = point.converged, figures[browser_figure_full_contact] = point.full_contact;
   figures[browser_figure_outside_fit] = point.outside_fit;
   figures[browser_figure_region_1] = figures[browser_figure_region_2] = NAN;
-  if (status != TRUM_OK && status != TRUM_RUNAWAY && status != TRUM_NOT_CONVERGED) return status;
+  if (status != TRUM_OK && status != TRUM_RUNAWAY && status != TRUM_NOT_CONVERGED && status != TRUM_NO_BRUSH)
+    return status;
   browser_vibrate(&in, count);
-  if (status == TRUM_RUNAWAY) return status;
+  if (status == TRUM_RUNAWAY || status == TRUM_NO_BRUSH) return status;
   trum_ride(&drive, &point, &in, &out, speed + 1, distance, count);
   for (i = 1; i <= count; ++i) speed[i] /= (double)motor.contact_radius;
   speed[0] = speed[count]; /* the orbit repeats itself */

@@ -41,7 +41,8 @@ const char* trum_status_text(int status) {
       "without damping this drive has no steady or no repeated state",
       "forced amplitude and resonance do not settle",
       "no speed balances the load: it exceeds what friction can transmit",
-      "the bounds of the errors miss the tolerance"};
+      "the bounds of the errors miss the tolerance",
+      "the whole wave touches: no bristle of the layer leaves the contact"};
   return status < 0 || status >= TRUM_STATUSES ? 0 : texts[status];
 }
 

@@ -149,8 +149,9 @@ static inline void trum_brush_orbit(const struct trum_motor* motor, const struct
   out->contact = (double)v[trum_at_theta] / 3.14159265358979323846;
   out->held = side * (double)trum_brush_friction(v[trum_at_theta], v[trum_at_grip], 0);
   out->error = (double)error, out->contact_error = out->held_error = (double)trum_brush_rounding(v[trum_at_grip]);
-  if (!(wanted > -1 && wanted < 1)) {
-    out->flags = trum_runaway, out->variance = out->deviation_error = NAN;
+  if (!(out->mean - out->mean == 0)) {
+    out->variance = out->deviation_error = (double)NAN;
+    if (out->contact < 1) out->flags = trum_runaway; /* else no bristle leaves the contact */
   } else if ((double)error <= (double)drive->tolerance) {
     out->flags = trum_converged;
   }
@@ -215,10 +216,6 @@ static inline enum trum_status trum_solve_point(const struct trum_motor* motor, 
   trum_orbit_of(drive, v, in);
   if (drive->tangential == TRUM_TANGENTIAL_BRUSH) {
     trum_brush_orbit(motor, drive, v, out);
-    if (!(out->held <= 1)) {
-      point->field = trum_drive_tangential;
-      return TRUM_BAD_INPUT;
-    }
   } else {
     trum_orbits(in, out, 0, 0, 1);
   }
@@ -241,6 +238,7 @@ static inline enum trum_status trum_solve_point(const struct trum_motor* motor, 
       least <= 0 ? HUGE_VAL
                  : (out->deviation_error + sqrt(out->variance) / fabs(out->mean) * out->mean_error) / least);
   point->converged = (flags & trum_converged) > 0, point->full_contact = (flags & trum_full_contact) > 0;
+  if (drive->tangential == TRUM_TANGENTIAL_BRUSH && !(out->contact < 1)) return TRUM_NO_BRUSH;
   return flags & trum_runaway ? TRUM_RUNAWAY : point->converged ? TRUM_OK : TRUM_NOT_CONVERGED;
 }
 

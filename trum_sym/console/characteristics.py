@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 
 __all__ = ["characteristics"]
 
-_RPM = 9.549296585513721  # of 1 rad/s
+_RPM = 30 / math.pi  # of 1 rad/s
 
 
 @click.command(
