@@ -15,10 +15,12 @@ from typing import Any
 
 import numpy as np
 
+from derivations import bench
 from derivations.ledger.course import Lap, share
 from derivations.ledger.history import values
 from derivations.ledger.operating import DRIVE, operating_point, stator
 from derivations.ledger.witness import Drive
+from derivations.nomenclature import CONSTANTS, sym
 
 __all__ = ["ASSUMPTIONS", "Assumption", "assumptions_of", "page"]
 
@@ -26,7 +28,6 @@ _READINGS: dict[str, dict[str, Any]] = {
     "Table 3, default": {},
     "near Table 4": {"start": "rest", "phase_lead": -1},
 }
-_GRAVITY = 9.81
 _PLATE = 0.03  # m, the least radius of a torque plate outside of the rotor
 _K_31 = 0.3  # longitudinal coupling of hard ceramics for power, about
 
@@ -62,8 +63,9 @@ def _own_hertz() -> float:
 
 
 def _rig_inertia() -> float:
-    """What a weight on a string adds: m r^2 for m g r = 0.3 N m, kg m^2."""
-    return 0.3 * _PLATE / _GRAVITY
+    """What a weight on a string adds, kg m^2: m r^2 for m g r = 0.3 N m."""
+    J, J_load, T_load, r_s = sym("J J_load T_load r_s")
+    return float((bench.inertia() - J - J_load).subs({T_load: 0.3, r_s: _PLATE, **CONSTANTS}))
 
 
 def _inertia() -> tuple[Alternative, ...]:

@@ -22,6 +22,7 @@ from trum_sym.paper import cycle
 sp = lazily("sympy")
 phases = lazily("derivations.phases")
 rotor = lazily("derivations.rotor")
+brush = lazily("derivations.brush")
 nomenclature = lazily("derivations.nomenclature")
 
 DRIVER = Path(ts.__file__).parent / "_driver"
@@ -208,3 +209,16 @@ def test_extremes_are_zeros_of_the_rate_by_its_derivative_and_the_speed_is_its_i
     at = sp.Symbol("at")
     assert sp.expand(rate.diff(at) - slope) == 0
     assert sp.expand(sp.integrate(rate, (at, 0, at)) - value) == 0
+
+
+def test_no_bristle_sticks_from_the_speed_on_that_the_brush_takes_for_it():
+    """There the span in which one would slide on is nothing, and all of the circle at its negative."""
+    (square,) = found(r"trum_brush_fastest\(trum_real grip\) \{ return \(trum_real\)sqrt\(([^;]*)\);")
+    grip, ratio = nomenclature.sym("grip ratio")
+    fastest = sp.sqrt(c_expression(square).subs(sp.Symbol("grip"), grip))
+    for value in (sp.Rational(1, 7), 3, 1000):
+        for sign, span in ((1, 0), (-1, sp.pi)):
+            at = {grip: value, ratio: sign * fastest.subs(grip, value)}
+            assert sp.simplify(brush.turns()["span"].subs(at)) == span
+        slower = {grip: value, ratio: fastest.subs(grip, value) - sp.Rational(1, 1000)}
+        assert 0 < float(brush.turns()["span"].subs(slower)) < float(sp.pi)

@@ -84,9 +84,12 @@ static inline trum_real trum_brush_friction(trum_real theta, trum_real grip, tru
   return sum / all;
 }
 
+/* The least speed over the surface's greatest from which on no bristle sticks. */
+static inline trum_real trum_brush_fastest(trum_real grip) { return (trum_real)sqrt(1 + 1 / (grip * grip)); }
+
 /* Speed of the rotor over the surface's greatest at which a brush carries a friction fraction between -1 and 1. */
 static inline trum_real trum_brush_speed(trum_real theta, trum_real grip, trum_real fraction) {
-  const trum_real most = (trum_real)sqrt(1 + 1 / (grip * grip));
+  const trum_real most = trum_brush_fastest(grip);
   trum_real low = -most, high = most;
   if (!(fraction > -1 && fraction < 1) || !(trum_brush_friction(theta, grip, 0) <= 1)) return (trum_real)NAN;
   for (;;) {
@@ -105,7 +108,7 @@ static inline trum_real trum_brush_rounding(trum_real grip) {
 
 /* And to that speed: how far it moves where the fraction does by as much. */
 static inline trum_real trum_brush_speed_error(trum_real theta, trum_real grip, trum_real fraction, trum_real speed) {
-  const trum_real by = trum_brush_rounding(grip), most = (trum_real)sqrt(1 + 1 / (grip * grip));
+  const trum_real by = trum_brush_rounding(grip), most = trum_brush_fastest(grip);
   const trum_real slower = fraction + by < 1 ? trum_brush_speed(theta, grip, fraction + by) : -most;
   const trum_real faster = fraction - by > -1 ? trum_brush_speed(theta, grip, fraction - by) : most;
   return (speed - slower > faster - speed ? speed - slower : faster - speed) + by / 100;

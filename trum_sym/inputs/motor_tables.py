@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from trum_sym.inputs.drive import BOX_NAMES
@@ -13,14 +14,19 @@ from trum_sym.text import one_line
 __all__ = ["as_dict", "as_table", "checked", "differences"]
 
 
+def _entries(parameters: Mapping[str, Parameter]) -> dict[str, Any]:
+    return {
+        name: {"value": p.value, "unit": p.unit, "symbol": p.symbol, "source": p.source, "range": p.range}
+        for name, p in parameters.items()
+    }
+
+
 def as_dict(motor: Motor) -> dict[str, Any]:
     """Every value in SI with unit, symbol, source and range."""
     return {
         "motor": motor.name,
-        "parameters": {
-            name: {"value": p.value, "unit": p.unit, "symbol": p.symbol, "source": p.source, "range": p.range}
-            for name, p in motor.parameters()
-        },
+        "parameters": _entries(dict(motor.parameters())),
+        "bench": _entries(motor.bench),
         "box": {
             name: {"range": [allowed.low, allowed.high], "source": allowed.source}
             for name, allowed in motor.box.items()
