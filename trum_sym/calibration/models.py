@@ -88,7 +88,7 @@ class PointModel:
         self.measured = np.concatenate([data.columns[name] for name in self._observed])
         known = [data.columns.get(name + UNCERTAINTY) for name in self._observed]
         self.uncertainty = None if known[0] is None else np.concatenate([u for u in known if u is not None])
-        missing = ~np.isfinite(self.predict(self.start))
+        missing = ~np.isfinite(self._at(self.start[:, np.newaxis])[0])
         if missing.any():
             row = int(np.argmax(missing)) % self._rows + 1
             raise ConvergenceError(

@@ -19,7 +19,7 @@ import numpy.typing as npt
 import xarray as xr
 import zarr
 from zarr.codecs import Crc32cCodec, ZstdCodec
-from zarr.storage import LocalStore, MemoryStore
+from zarr.storage import LocalStore
 
 from trum_sym.errors import ParameterError
 from trum_sym.sweeps.plan import Plan
@@ -50,24 +50,29 @@ class Store:
 
     plan: Plan
     root: Path | None
-    arrays: Mapping[str, zarr.Array[Any]]
+    arrays: Mapping[str, zarr.Array[Any]] | Mapping[str, npt.NDArray[Any]]
     missing: npt.NDArray[np.bool_]
     damaged: int
-    source: LocalStore | MemoryStore
 
     def write(self, index: tuple[int, ...], figures: Mapping[str, npt.NDArray[Any]]) -> None:
         """Write a chunk; it counts as done when all its files are there, and each appears at once and whole."""
         for name, values in figures.items():
-            self.arrays[name].blocks[index] = values
+            array = self.arrays[name]
+            if isinstance(array, np.ndarray):
+                array[tuple(slice(k * n, (k + 1) * n) for k, n in zip(index, self.plan.chunk, strict=True))] = values
+            else:
+                array.blocks[index] = values
         self.missing[index] = False
 
     def dataset(self) -> xr.Dataset:
         """The data set; read from the store as it is used, or all of it if it is in memory."""
-        found: xr.Dataset = xr.open_zarr(self.source, chunks=None)
+        if self.root is None:
+            return _dataset(self.plan, self.arrays)
+        found: xr.Dataset = xr.open_zarr(self.root, chunks=None)
         for variable in found.variables.values():  # or the set could only be written as this store is
             preferred = variable.encoding.get("preferred_chunks")
             variable.encoding = {} if preferred is None else {"preferred_chunks": preferred}
-        return found if self.root else found.load()
+        return found
 
 
 @contextmanager
@@ -92,8 +97,7 @@ def open_store(name: str, root: Path | None, plan: Plan, chunk_given: bool) -> I
         process is writing.
     """
     if root is None:
-        memory = MemoryStore()
-        yield _opened(memory, None, _create(memory, plan), plan)
+        yield _in_memory(plan)
         return
     handle = None
     try:
@@ -101,7 +105,7 @@ def open_store(name: str, root: Path | None, plan: Plan, chunk_given: bool) -> I
             _make(root, plan)
         group = _check(name, root, plan, chunk_given)
         handle = _lock(name, root)
-        store = _opened(LocalStore(root), root, group, plan.with_chunk(next(iter(_outputs(group, plan))).chunks))
+        store = _opened(root, group, plan.with_chunk(next(iter(_outputs(group, plan))).chunks))
     except OSError as error:
         if handle is not None:
             os.close(handle)
@@ -110,6 +114,30 @@ def open_store(name: str, root: Path | None, plan: Plan, chunk_given: bool) -> I
         yield store
     finally:
         os.close(handle)
+
+
+def _kind(name: str) -> tuple[type[np.generic], Any]:
+    """Type of a figure, and what stands where it is missing."""
+    return {"status": (np.uint8, _ABSENT), "converged": (np.bool_, False)}.get(name, (np.float64, np.nan))
+
+
+def _in_memory(plan: Plan) -> Store:
+    """Plain arrays: Zarr's would be written by a thread of its own, which may end as memory does."""
+    arrays = {}
+    for name in (*plan.settings.outputs, "status"):
+        kind, absent = _kind(name)
+        arrays[name] = np.full(plan.grid.shape, absent, kind)
+    return Store(plan, None, arrays, np.ones(plan.chunks, np.bool_), 0)
+
+
+def _dataset(plan: Plan, arrays: Mapping[str, Any]) -> xr.Dataset:
+    """What a store of these arrays would be read as."""
+    along = {name: ((axis.name,), values) for axis in plan.grid.axes for name, values in axis.values.items()}
+    dimensions = tuple(axis.name for axis in plan.grid.axes)
+    every = {**along, **{name: (dimensions, values) for name, values in arrays.items()}}
+    variables = {name: (dims, values, plan.about(name)) for name, (dims, values) in every.items()}
+    found: xr.Dataset = xr.decode_cf(xr.Dataset(variables, attrs=json.loads(json.dumps(plan.attributes()))))
+    return found.drop_encoding()
 
 
 def _make(root: Path, plan: Plan) -> None:
@@ -124,10 +152,10 @@ def _make(root: Path, plan: Plan) -> None:
         raise
 
 
-def _create(store: LocalStore | MemoryStore, plan: Plan) -> zarr.Group:
+def _create(store: LocalStore, plan: Plan) -> zarr.Group:
     group = zarr.create_group(store, zarr_format=3, attributes=plan.attributes())
     dimensions = [axis.name for axis in plan.grid.axes]
-    codecs = [ZstdCodec(level=1), Crc32cCodec()] if isinstance(store, LocalStore) else []
+    codecs = [ZstdCodec(level=1), Crc32cCodec()]
     for axis in plan.grid.axes:
         for name, values in axis.values.items():
             group.create_array(
@@ -140,7 +168,7 @@ def _create(store: LocalStore | MemoryStore, plan: Plan) -> zarr.Group:
                 attributes=plan.about(name),
             )
     for name in (*plan.settings.outputs, "status"):
-        kind, absent = {"status": (np.uint8, _ABSENT), "converged": (np.bool_, False)}.get(name, (np.float64, np.nan))
+        kind, absent = _kind(name)
         group.create_array(
             name,
             shape=plan.grid.shape,
@@ -164,19 +192,18 @@ def _outputs(group: zarr.Group, plan: Plan) -> Iterator[zarr.Array[Any]]:
         yield array.with_config({"write_empty_chunks": True})  # so that a chunk of NaN is not an absent one
 
 
-def _opened(source: LocalStore | MemoryStore, root: Path | None, group: zarr.Group, plan: Plan) -> Store:
+def _opened(root: Path, group: zarr.Group, plan: Plan) -> Store:
     arrays = dict(zip((*plan.settings.outputs, "status"), _outputs(group, plan), strict=True))
     missing = np.ones(plan.chunks, np.bool_)
     damaged = 0
-    if root:
-        for rest in root.rglob("*.partial"):  # of a write that was cut off
-            rest.unlink()
-        for index in np.ndindex(plan.chunks):
-            files = [root.joinpath(name, "c", *map(str, index)) for name in arrays]
-            if all(file.exists() for file in files):
-                missing[index] = not all(_intact(file) for file in files)
-                damaged += bool(missing[index])
-    return Store(plan, root, arrays, missing, damaged, source)
+    for rest in root.rglob("*.partial"):  # of a write that was cut off
+        rest.unlink()
+    for index in np.ndindex(plan.chunks):
+        files = [root.joinpath(name, "c", *map(str, index)) for name in arrays]
+        if all(file.exists() for file in files):
+            missing[index] = not all(_intact(file) for file in files)
+            damaged += bool(missing[index])
+    return Store(plan, root, arrays, missing, damaged)
 
 
 def _intact(file: Path) -> bool:
