@@ -17,7 +17,12 @@ from trum_sym.studies.characteristics import predicted
 
 orbit_reference = lazily("orbit_reference")
 
-pytest.importorskip("xarray")
+
+@pytest.fixture(scope="module", autouse=True)
+def xarray_is_there():
+    pytest.importorskip("xarray")
+
+
 DRIVE = ts.Drive(frequency_difference=500.0)
 LEVELS = {"amplitude": "forced", "compliance": "flange"}
 
