@@ -33,6 +33,7 @@ __all__ = [
     "pressed",
     "rotation",
     "stall_torque",
+    "turns",
     "wave",
     "wave_in_time",
     "widening",
@@ -69,11 +70,34 @@ def phasor() -> tuple[sp.Expr, sp.Expr]:
     return a, -(b + xi * omega_n * a) / omega_d
 
 
-def rotation() -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
-    """exp(lambda tau) of the free motion, and by how much exp(i omega_q tau) of the drive exceeds it.
+def turns() -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
+    """exp(lambda tau) of the free motion and exp(i omega_q tau) of the drive, real and imaginary parts."""
+    omega_d = omega_n * sp.sqrt(1 - xi**2)
+    decay, angle = sp.exp(-xi * omega_n * tau), (omega_n + Delta_omega) * tau
+    return decay * sp.cos(omega_d * tau), decay * sp.sin(omega_d * tau), sp.cos(angle), sp.sin(angle)
 
-    Real and imaginary parts of both.  The difference is taken without cancellation, from half the sum and half the
-    difference of the two angles: after a start from rest it is all that there is of the wave.
+
+def _flat(expr: sp.Expr) -> sp.Expr:
+    """The same with exp for expm1, and angles in omega_n, Delta_omega and the root of 1 - xi^2 only."""
+    root = sp.Symbol("root", positive=True)
+    expr = expr.replace(sp.Function("expm1"), lambda x: sp.exp(x) - 1)
+    expr = expr.subs(sp.sqrt(1 - xi**2), root).subs(xi**2, 1 - root**2)
+    return expr.replace(
+        lambda part: isinstance(part, sp.sin | sp.cos), lambda part: part.func(sp.expand(sp.cancel(part.args[0])))
+    )
+
+
+@cache
+def rotation() -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
+    """The free motion's turn, and by how much the drive's exceeds it; real and imaginary parts of both.
+
+    The difference is taken without cancellation, from half the sum and half the difference of the two angles: after a
+    start from rest it is all that there is of the wave.
+
+    Raises
+    ------
+    ArithmeticError
+        If these are not :func:`turns`.
     """
     omega_d, omega_q = omega_n * sp.sqrt(1 - xi**2), omega_n + Delta_omega
     mean = (omega_q + omega_d) / 2 * tau
@@ -81,12 +105,17 @@ def rotation() -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
     lost = -sp.Function("expm1")(-xi * omega_n * tau)
     cosine = sp.cos(mean) * sp.cos(half) + sp.sin(mean) * sp.sin(half)
     sine = sp.sin(mean) * sp.cos(half) - sp.cos(mean) * sp.sin(half)
-    return (
+    found = (
         (1 - lost) * cosine,
         (1 - lost) * sine,
         lost * cosine - 2 * sp.sin(mean) * sp.sin(half),
         lost * sine + 2 * sp.cos(mean) * sp.sin(half),
     )
+    e_re, e_im, d_re, d_im = turns()
+    for part, plain in zip(found, (e_re, e_im, d_re - e_re, d_im - e_im), strict=True):
+        if sp.simplify(sp.expand(_flat(part - plain).rewrite(sp.exp))) != 0:
+            raise ArithmeticError("the turns from half angles are not those of the free motion and the drive")
+    return found
 
 
 def motion_phasor(phase: str, gate: sp.Expr) -> tuple[sp.Expr, sp.Expr]:

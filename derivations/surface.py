@@ -12,23 +12,13 @@ import sympy as sp
 from derivations import transfer
 from derivations.nomenclature import sym
 from derivations.phases import PHASES, response
-from derivations.rotor import less, phasor, rotation
+from derivations.rotor import less, phasor, turns
 
 __all__ = ["displacements", "interface", "point", "vector"]
 
-a, b, W, psi, s, D, k_c, x, x_max, xi = sym("a b W psi s D k_c x x_max xi")
+a, b, W, psi, s, D, k_c, x, x_max = sym("a b W psi s D k_c x x_max")
 R_v, cos_phi, sin_phi, v = sym("R_v cos_phi sin_phi v")
 engagement, share, theta, F_c, n_j, mu = sym("engagement share theta F_c n_j mu")
-
-
-def _flat(expr: sp.Expr) -> sp.Expr:
-    """The same with exp for expm1, and angles in omega_n, Delta_omega and the root of 1 - xi^2 only."""
-    root = sp.Symbol("root", positive=True)
-    expr = expr.replace(sp.Function("expm1"), lambda x: sp.exp(x) - 1)
-    expr = expr.subs(sp.sqrt(1 - xi**2), root).subs(xi**2, 1 - root**2)
-    return expr.replace(
-        lambda part: isinstance(part, sp.sin | sp.cos), lambda part: part.func(sp.expand(sp.cancel(part.args[0])))
-    )
 
 
 def vector(phase: str) -> tuple[sp.Expr, sp.Expr]:
@@ -43,14 +33,13 @@ def vector(phase: str) -> tuple[sp.Expr, sp.Expr]:
     """
     a_p, b_p, gate = sym(f"a_{phase} b_{phase} g_{phase}")
     z_re, z_im = (part.subs({a: a_p, b: b_p}) for part in phasor())
-    e_re, e_im, more_re, more_im = rotation()
-    d_re, d_im = e_re + more_re, e_im + more_im
+    e_re, e_im, d_re, d_im = turns()
     on_re = W * (d_re * sp.cos(psi) - d_im * sp.sin(psi))
     on_im = W * (d_re * sp.sin(psi) + d_im * sp.cos(psi))
     if phase == "B":
         on_re, on_im = -s * on_im, s * on_re
     real = z_re * e_re - z_im * e_im + gate * on_re
-    if sp.simplify(sp.expand(_flat(real - response(phase)[0]).rewrite(sp.exp))) != 0:
+    if sp.simplify(sp.expand_trig(real - response(phase)[0])) != 0:
         raise ArithmeticError("the vector's real part is not the phase's displacement")
     return real, z_re * e_im + z_im * e_re + gate * on_im
 

@@ -32,9 +32,8 @@ def wrong(words):
             if name not in command.commands:
                 return name
             command = command.commands[name]
-        elif re.fullmatch(r"--[a-z][a-z-]*", name) and name != "--help":
-            if not any(name in option.opts for option in command.params):
-                return name
+        elif re.fullmatch(r"--(?!help)[a-z][a-z-]*", name) and not any(name in p.opts for p in command.params):
+            return name
     return None
 
 
