@@ -48,6 +48,7 @@ SLOW |= {
     ("sensitivities",),
     ("characteristics",),
 }  # whose options are made as those of evaluate are
+SLOW_AS_EVALUATE = {("calibrate",)}  # a fit an option: only those that evaluate does not have are always tried
 
 # Another value of every option, by its name; of a command where that differs
 OTHER = {
@@ -115,6 +116,7 @@ INPUTS = ("motor_values", "drive", "levels", "assumed", "sampling_period", "tole
 
 
 def flips():
+    of_evaluate = {option.opts[0] for option in LEAVES["evaluate",].params}
     for words, command in LEAVES.items():
         if words in NO_ANSWER:
             continue
@@ -122,9 +124,9 @@ def flips():
             if isinstance(option, click.Option) and (" ".join(words), option.opts[0]) not in NO_FIGURE:
                 if option.opts[0] == "--force":
                     continue  # whether files are replaced: below
-                yield pytest.param(
-                    words, option, id=f"{' '.join(words)} {option.opts[0]}", marks=[pytest.mark.slow] * (words in SLOW)
-                )
+                slow = words in SLOW or (words in SLOW_AS_EVALUATE and option.opts[0] in of_evaluate)
+                name = f"{' '.join(words)} {option.opts[0]}"
+                yield pytest.param(words, option, id=name, marks=[pytest.mark.slow] * slow)
 
 
 def other(words, option):

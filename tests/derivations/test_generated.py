@@ -82,7 +82,7 @@ def tree(tmp_path):
     return tmp_path
 
 
-@pytest.mark.parametrize("seed", ["1", "4242"])
+@pytest.mark.parametrize("seed", ["1", pytest.param("4242", marks=pytest.mark.slow)])
 def test_generation_does_not_depend_on_the_process_or_its_hash_seed(tree, seed):
     shutil.rmtree(tree / "generated")
     done = generate(tree, seed=seed)
@@ -92,6 +92,7 @@ def test_generation_does_not_depend_on_the_process_or_its_hash_seed(tree, seed):
     assert written == {path.name: path.read_bytes() for path in ours}
 
 
+@pytest.mark.slow  # .ci/run runs that very command
 def test_check_is_silent_and_0_when_nothing_is_stale(tree):
     done = generate(tree, "--check")
     assert (done.returncode, done.stderr) == (0, "")

@@ -308,7 +308,7 @@ def test_an_unproved_equation_is_1(capsys, monkeypatch):
     assert found["confirmed"] is False
 
 
-@pytest.mark.parametrize("name", ["5", "15", "A3", "A8"])
+@pytest.mark.parametrize("name", ["5", *(pytest.param(name, marks=pytest.mark.slow) for name in ("15", "A3", "A8"))])
 def test_records_do_not_depend_on_the_hash_seed(name):
     texts = set()
     for seed in ("1", "4242"):

@@ -14,6 +14,7 @@ from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.measurements import UNCERTAINTY, Measurements
 from trum_sym.inputs.motor import SPECS, Motor, spec
+from trum_sym.inputs.plausible import usual_range
 from trum_sym.inputs.units import parse_unit
 from trum_sym.model.kernels import call
 from trum_sym.model.levels import Levels
@@ -61,6 +62,18 @@ def _inside(domain: Domain) -> tuple[float, float]:
     return low, high
 
 
+def _searched(name: str, start: float) -> tuple[float, float]:
+    """The interval of a search: the quantity's domain, to ten times beyond what it is of real motors or at the start.
+
+    Data that no motor of this model fits would otherwise drive a value on for ever, at ever longer times a point.
+    """
+    low, high = _inside(spec(name).domain)
+    usual = usual_range(name)
+    if usual is None:
+        return low, high
+    return max(low, min(usual[0], start) / 10), min(high, 10 * max(usual[1], start))
+
+
 class PointModel:
     """Figures of operating points, row by row."""
 
@@ -80,7 +93,7 @@ class PointModel:
         self._orbits = not set(self._observed) <= set(_OF_STATOR)
         self.names, self.units = names, tuple(SPECS[name].unit for name in names)
         self.before = self.start = np.array([_start_of(name, motor, self._drive, levels) for name in names])
-        ends = [_inside(spec(name).domain) for name in names]
+        ends = [_searched(name, start) for name, start in zip(names, self.start, strict=True)]
         self.bounds = np.array([low for low, _ in ends]), np.array([high for _, high in ends])
         self.exact = tuple(self._is_exact(name) for name in names)
         # differences of orbits see the orbits' tolerance, the slopes their own

@@ -20,7 +20,7 @@ from trum_sym.errors import ImplausibleWarning
 if TYPE_CHECKING:
     from trum_sym.inputs.checks import ArrayLike
 
-__all__ = ["doubts", "outside_range", "unquestioned", "warn_implausible", "warn_outside_range"]
+__all__ = ["doubts", "outside_range", "unquestioned", "usual_range", "warn_implausible", "warn_outside_range"]
 
 _quiet: ContextVar[bool] = ContextVar("_quiet", default=False)
 
@@ -72,6 +72,17 @@ _OURS = ("trum_sym", "dataclasses")
 _TURN = 2 * math.pi
 _SAME = 0.01  # by how much two values of one size may differ
 _ALIKE = 2.0  # by what factor two that follow from each other in an isotropic body only
+
+
+def usual_range(name: str) -> tuple[float, float] | None:
+    """From the least to the most that a quantity of real motors is, in SI; None where nothing is known.
+
+    Examples
+    --------
+    >>> usual_range("friction_coefficient")
+    (0.0, 1.5)
+    """
+    return (_USUAL[name].low, _USUAL[name].high) if name in _USUAL else None
 
 
 @contextmanager
