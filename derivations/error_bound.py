@@ -15,7 +15,7 @@ import sympy as sp
 
 from derivations import collocation
 
-__all__ = ["THEOREMS", "Theorem", "comparison", "deviation", "kronrod", "monotone_weight", "prove", "start_speed"]
+__all__ = ["THEOREMS", "Theorem", "comparison", "deviation", "kronrod", "monotone_weight", "prove", "saturation", "start_speed"]
 
 x, t, tau, T = sp.symbols("x t tau T", positive=True)
 
@@ -44,6 +44,22 @@ def comparison() -> sp.Expr:
     exponent = sp.Symbol("A", nonnegative=True)
     _zero(sp.exp(-exponent).diff(exponent) + sp.exp(-exponent), "what is kept of an error falls as A grows")
     return error
+
+
+def saturation() -> sp.Expr:
+    """Friction takes from an error towards its nearer saturation no more than the integral of push (1 - |f|).
+
+    With |f| <= 1 the speed of the exact solution v has f(v) <= 1, so the part a e = push (f(v) - f(u)) of e' is at most
+    push (1 - f(u)), however steep f is at u; likewise push (f(u) - f(v)) <= push (1 + f(u)).  The smaller is
+    push (1 - |f(u)|).  So no more of an error than this may be counted as drawn together.
+    """
+    push, f, short = sp.Symbol("push", positive=True), sp.Symbol("f", real=True), sp.Symbol("short", nonnegative=True)
+    _zero(push * (1 - f) - push * ((1 - short) - f) - push * short, "f(v) = 1 - short is at most 1")
+    _zero(push * (1 + f) - push * (f - (short - 1)) - push * short, "f(v) = short - 1 is at least -1")
+    positive, negative = sp.Symbol("f_p", nonnegative=True), -sp.Symbol("f_n", nonnegative=True)
+    _zero(sp.Min(1 - positive, 1 + positive) - (1 - sp.Abs(positive)), "the smaller, f >= 0")
+    _zero(sp.Min(1 - negative, 1 + negative) - (1 - sp.Abs(negative)), "the smaller, f <= 0")
+    return push * (1 - sp.Abs(f))
 
 
 def monotone_weight() -> sp.Expr:
@@ -123,6 +139,7 @@ class Theorem:
 
 THEOREMS = (
     Theorem("comparison", "friction does not rise with the rotor's speed", comparison),
+    Theorem("saturation", "friction is at most mu times the pressure", saturation),
     Theorem("monotone weight", "comparison", monotone_weight),
     Theorem("kronrod", "nothing", kronrod),
     Theorem("start speed", "comparison", start_speed),

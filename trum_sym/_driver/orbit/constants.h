@@ -19,6 +19,7 @@ static const double trum_step_growth = 1.5;         /* the most by which a lengt
 static const double trum_min_step_for_slopes = 1e-6;    /* shorter ones' slopes have errors that are mostly rounding */
 static const double trum_slope_start_tolerance = 1e-10; /* distance from an event at a step's start, drive periods */
 static const double trum_slope_end_tolerance = 1e-15;   /* and at its end */
+static const double trum_least_slope = 1e-6;            /* of f and theta by a relative change, that is resolved */
 static const double trum_slope_newton_factor = 1e-5;    /* on Newton's tolerance */
 
 /* Shares of the tolerance */
@@ -35,7 +36,7 @@ static const double trum_tiny = sizeof(trum_real) < sizeof(double) ? 1e-37 : 1e-
 static const double trum_unit = sizeof(trum_real) < sizeof(double) ? 6e-8 : 1.2e-16;
 
 /* Factor of safety on all bounds */
-static const double trum_bound_safety = 2.0;
+static const double trum_bound_safety = 4.0;
 
 /* Errors that are known to the first order in the defects are known but for this share */
 static const double trum_first_order_share = 0.25;

@@ -4,7 +4,8 @@
  * u' = F(u, t) + r.  Its distance e from the exact solution obeys e' = -a e + r with a >= 0, as friction draws speeds
  * together: an error at the step's start is kept by exp(-integral of a), and the defect adds the integral of r times
  * what is kept of it until the step's end.  Lobatto's rule makes most of that integral cancel, so it is taken with sign,
- * by Kronrod's three nodes between Lobatto's four. */
+ * by Kronrod's three nodes between Lobatto's four.  A stiff rotor close to saturation keeps more than its slope of friction
+ * says: past saturation nothing draws speeds together. */
 #ifndef TRUM_ORBIT_DEFECT_H
 #define TRUM_ORBIT_DEFECT_H
 
@@ -12,7 +13,7 @@
 typedef struct {
   real friction, friction_remainder, angle, angle_remainder; /* in the integrals of f and of theta */
   real x, remainder;    /* in x at its end, if it began exactly */
-  real x_integral;      /* in the integral of x */
+  real x_integral, x_integral_remainder; /* in the integral of x, if it began exactly */
   real inside;          /* bound of the interpolant's error between the ends */
   real xx;              /* the integral of x^2, exact for the interpolant */
   real kept, mean_kept; /* share of an error at the start that is kept at the end, and on average */
@@ -38,10 +39,10 @@ static real trum_quadrature_remainder(const real* r, real* size) {
   return all * rough * square_root(rough);
 }
 
-/* The defects of f and theta at the check nodes, over a step's parameter; what is kept of each until the step's end, and
- * the time that it lasts.  The friction's decay exponents K at the nodes add up to `stiff`. */
+/* The defects of f and theta at the check nodes, over a step's parameter; the exponent by which friction draws speeds
+ * together from there to the step's end, and the time that is left.  The exponents K at the nodes add up to `stiff`. */
 static void trum_evaluate_defect(const trum_lanes* lanes, const trum_trial_step* trial, const real* K, real stiff,
-                                 real* r, real* angle, real* kept, real* lasts, real* xx) {
+                                 real* r, real* angle, real* exponent, real* left, real* xx) {
   static const double c[] = TRUM_CHECK_POINTS, b[] = TRUM_CHECK_WEIGHTS;
   static const double V[][NODES] = TRUM_CHECK_VALUES, U[][NODES] = TRUM_CHECK_INTEGRALS;
   const trum_equation* equation = &lanes->equation;
@@ -62,8 +63,7 @@ static void trum_evaluate_defect(const trum_lanes* lanes, const trum_trial_step*
     trum_evaluate_surface(lanes, step->tau + step->h * z, &at);
     trum_evaluate_friction(&at, equation->v0 + x, &f, &f_v, &larger, &smaller);
     r[i] = value - T * f, angle[i] = theta - T * at.theta;
-    ahead = maximum(REAL(0), ahead), kept[i] = trum_decay(ahead);
-    lasts[i] = step->h * (REAL(1) - z) * trum_mean_decay(ahead);
+    exponent[i] = maximum(REAL(0), ahead), left[i] = step->h * (REAL(1) - z);
     *xx = *xx + REAL(b[i]) * T * (x * x);
   }
 }
@@ -94,35 +94,50 @@ static void trum_step_defect(const trum_lanes* lanes, const trum_trial_step* tri
   static const double b[] = TRUM_CHECK_WEIGHTS, full[] = TRUM_CHECK_FULL_WEIGHTS;
   static const double A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS;
   const real push = lanes->equation.push, h = lanes->step.h;
-  real K[NODES], r[3], angle[3], kept[3], lasts[3], stiff = REAL(0), size, rounding, first, damped;
+  real K[NODES], r[3], angle[3], exponent[3], left[3], stiff = REAL(0), to_saturation = REAL(0), all, least;
+  real size, rounding, first, damped, weakest = REAL(1e300), largest = REAL(0), lasting;
   int i, j;
   for (j = 0; j < NODES; ++j) K[j] = trial->T[j] * trial->f_v[j];
   trum_extrapolate_ends(lanes->step.curvature, K);
   d->xx = REAL(0);
   for (j = 0; j < NODES; ++j) {
+    const real weight = REAL(A[LAST_NODE][j]);
     K[j] = absolute(push * minimum(K[j], REAL(0)));
-    stiff = stiff + REAL(A[LAST_NODE][j]) * K[j];
+    stiff = stiff + weight * K[j], weakest = minimum(weakest, K[j]);
+    to_saturation = to_saturation + weight * (trial->T[j] * maximum(REAL(0), REAL(1) - absolute(trial->f[j])));
     d->xx = d->xx + REAL(full[j]) * trial->T[j] * (trial->x[j] * trial->x[j]);
   }
-  trum_evaluate_defect(lanes, trial, K, stiff, r, angle, kept, lasts, &d->xx);
+  trum_evaluate_defect(lanes, trial, K, stiff, r, angle, exponent, left, &d->xx);
   d->kept = trum_decay(stiff), d->mean_kept = trum_mean_decay(stiff);
   d->stiffness = stiff * reciprocal(h + REAL(trum_tiny));
   first = REAL(full[0]) * trial->T[0] * (trial->f[0] - lanes->start.f); /* of a damped step, at its first node */
-  d->friction = first, d->x = first * d->kept, d->x_integral = REAL(0);
-  damped = absolute(first) * d->kept;
+  all = push * absolute(first) + absolute(lanes->lap.error) + lanes->lap.remainder;
+  for (i = 0; i < 3; ++i) all = all + push * absolute(REAL(b[i]) * r[i]);
+  /* however steep friction is, it takes from an error no more than what is left to saturation; half of that is counted */
+  least = where(less_than(REAL(trum_stiff), stiff),
+                REAL(1) - REAL(0.5) * push * to_saturation * reciprocal(all + REAL(trum_tiny)), REAL(0));
+  d->kept = maximum(d->kept, least), d->mean_kept = maximum(d->mean_kept, least);
+  d->friction = first, d->x = first * d->kept, d->x_integral = push * (first * h * d->mean_kept);
+  damped = absolute(first) * d->kept, lasting = absolute(first) * h * d->mean_kept;
   for (i = 0; i < 3; ++i) {
-    const real share = REAL(b[i]) * r[i];
-    d->friction = d->friction + share, d->x = d->x + share * kept[i];
-    d->x_integral = d->x_integral + push * (share * lasts[i]), damped = damped + absolute(share) * kept[i];
+    const real share = REAL(b[i]) * r[i], kept = maximum(least, trum_decay(exponent[i]));
+    const real lasts = left[i] * maximum(least, trum_mean_decay(exponent[i]));
+    d->friction = d->friction + share, d->x = d->x + share * kept;
+    d->x_integral = d->x_integral + push * (share * lasts);
+    damped = damped + absolute(share) * kept, lasting = lasting + absolute(share) * lasts;
+    largest = maximum(largest, absolute(r[i]));
   }
   d->x = push * d->x;
   rounding = trum_rounding(lanes, trial);
   d->friction_remainder = trum_quadrature_remainder(r, &size);
   d->friction_remainder = where(trial->damped, damped, d->friction_remainder) + rounding + root_error;
-  d->inside = REAL(0.5) * push * size;
+  /* between the ends of a damped step the error is where friction balances the defect */
+  d->inside = push * where(trial->damped, minimum(REAL(0.5) * size, largest * reciprocal(REAL(1) + weakest)),
+                           REAL(0.5) * size);
   /* the decay of errors is known to the first order only */
   d->remainder = push * d->friction_remainder + trial->unsolved +
                  push * size * stiff * stiff * reciprocal(REAL(20) + stiff * stiff * (REAL(4) + stiff));
+  d->x_integral_remainder = where(trial->damped, push * lasting, h * d->remainder);
   d->angle_remainder = trum_quadrature_remainder(angle, &size) + REAL(1e-15) * h;
   d->angle = REAL(b[0]) * angle[0] + REAL(b[1]) * angle[1] + REAL(b[2]) * angle[2];
 }
@@ -137,8 +152,8 @@ static void trum_add_defect(trum_lanes* lanes, const trum_defect* d, const real*
   lap->error_square =
       where(accepted, lap->error_square + half * (lap->error * lap->error + error * error), lap->error_square);
   lap->error_S = where(accepted, lap->error_S + half * (lap->error * S[0] + error * S[LAST_NODE]), lap->error_S);
-  lap->remainder_sum = where(accepted, lap->remainder_sum + h * (lap->remainder * d->mean_kept + d->remainder),
-                             lap->remainder_sum);
+  lap->remainder_sum = where(
+      accepted, lap->remainder_sum + h * (lap->remainder * d->mean_kept) + d->x_integral_remainder, lap->remainder_sum);
   /* within the step what is left of the start's decays, and the defect adds its own */
   within = lap->remainder * square_root(d->mean_kept) + d->remainder;
   lap->remainder_square = where(accepted, lap->remainder_square + h * (within * within), lap->remainder_square);

@@ -12,11 +12,11 @@ static void trum_mark_extremes(trum_lap* lap, mask lower, mask higher, real erro
 
 /* Takes an accepted step into the lap's extremes of x, with S and the sensitivities at them. */
 static void trum_update_extremes(const real* G, const real* x, const real* S, real (*d)[NODES], int slopes,
-                                 mask accepted, const trum_defect* defect, trum_lap* lap) {
+                                 mask accepted, mask damped, const trum_defect* defect, trum_lap* lap) {
   static const double P[NODES][NODES] = TRUM_COLLOCATION_POWERS;
   real p[NODES], top = maximum(x[0], x[1]), bottom = minimum(x[0], x[1]), steepest = absolute(G[0]);
   const real end_error = absolute(lap->error * defect->kept + defect->x);
-  const real end_remainder = lap->remainder * defect->kept + defect->remainder;
+  const real end_remainder = lap->remainder * defect->kept + defect->remainder + where(damped, defect->inside, REAL(0));
   const real error = maximum(absolute(lap->error), end_error);
   const real remainder = maximum(lap->remainder, end_remainder) + defect->inside;
   mask has_extremum = mask_all(0), relevant;

@@ -38,13 +38,17 @@ static void trum_store_slopes(const trum_lanes* lanes, int i, trum_search* searc
   }
 }
 
-/* Errors of the next lap's slopes are measured by what this one has summed up. */
+/* Errors of the next lap's slopes are measured by what this one has summed up; slopes that are nothing but rounding, as
+ * those of a plain wave's contact by the frequencies, are not to be resolved. */
 static void trum_update_slope_scales(const trum_lanes* lanes, int i, trum_search* search, double growth) {
   int k;
   search->scales.growth = growth;
   for (k = 0; k < PARAMETERS; ++k) {
-    search->scales.friction[k] = lane_value(&lanes->lap.sum_abs_friction[k], i) + 1e-250;
-    search->scales.angle[k] = lane_value(&lanes->lap.sum_abs_angle[k], i) + 1e-250;
+    const int by_frequency = k == TRUM_BY_RESONANCE || k == TRUM_BY_DIFFERENCE;
+    const double least =
+        trum_least_slope * lane_value(&lanes->equation.cycle_time, i) / (by_frequency ? search->in->omega_n : 1.0);
+    search->scales.friction[k] = trum_larger(lane_value(&lanes->lap.sum_abs_friction[k], i), least);
+    search->scales.angle[k] = trum_larger(lane_value(&lanes->lap.sum_abs_angle[k], i), least);
   }
 }
 

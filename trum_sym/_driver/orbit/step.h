@@ -112,7 +112,9 @@ static void trum_solve_collocation(const trum_lanes* lanes, trum_trial_step* tri
         where(trial->not_converged,
               where(less_than(change, last_change), change * (change * reciprocal(last_change)), change), trial->unsolved);
     last_change = where(trial->not_converged, change, last_change);
-    trial->not_converged = trial->not_converged & mask_not(at_most(change, lanes->tolerances.newton));
+    /* a first change says nothing of the next where friction is steep */
+    trial->not_converged = trial->not_converged & mask_not(at_most(change, lanes->tolerances.newton) &
+                                                           (tries > 0 ? mask_all(1) : mask_not(trial->damped)));
   }
   for (j = 1; j < NODES; ++j) T_f[j] = trial->T[j] * trial->f[j];
   trial->f[0] = where(trial->damped, trum_extrapolate_first(T_f) * reciprocal(where(trial->damped, trial->T[0], REAL(1))),
