@@ -31,12 +31,14 @@ static void trum_store_bounds(const trum_lanes* lanes, int i, trum_search* searc
   const double square = lane_value(&lap->error_square, i) / cycle_time - whole_error * whole_error +
                         start_error * (2.0 * lane_value(&lap->error_S, i) / cycle_time + start_error * SS);
   const double of_variance = 1e-15 * (lane_value(&lap->xx, i) / cycle_time + start.change * start.change * SS);
+  const double low = (1.0 + share) * lane_value(&lap->low_error, i) + lane_value(&lap->low_remainder, i);
+  const double high = (1.0 + share) * lane_value(&lap->high_error, i) + lane_value(&lap->high_remainder, i);
+  const double low_rival = lane_value(&lap->low, i) - lane_value(&lap->lowest, i); /* of other extremes of the lap */
+  const double high_rival = lane_value(&lap->highest, i) - lane_value(&lap->high, i);
   trum_orbit_out* out = search->out;
   out->mean_error = fabs(whole_error) + mean_remainder + S * start_remainder + rounding;
-  out->low_error = lane_value(&lap->S_low, i) * of_start + (1.0 + share) * lane_value(&lap->low_error, i) +
-                   lane_value(&lap->low_remainder, i) + of_extremes;
-  out->high_error = lane_value(&lap->S_high, i) * of_start + (1.0 + share) * lane_value(&lap->high_error, i) +
-                    lane_value(&lap->high_remainder, i) + of_extremes;
+  out->low_error = lane_value(&lap->S_low, i) * of_start + trum_larger(low, low_rival) + of_extremes;
+  out->high_error = lane_value(&lap->S_high, i) * of_start + trum_larger(high, high_rival) + of_extremes;
   /* by the triangle inequality the deviation is off by no more than the deviation of the error */
   out->deviation_error = sqrt(square > 0.0 ? square : 0.0) + share * (fabs(mean_error) + fabs(end_error)) +
                          sqrt(SS > S * S ? SS - S * S : 0.0) * start_remainder +

@@ -10,6 +10,12 @@ static void trum_mark_extremes(trum_lap* lap, mask lower, mask higher, real erro
   lap->high_remainder = where(higher, remainder, lap->high_remainder);
 }
 
+/* Widens the bounds of all extremes by a speed and what it may be off by. */
+static void trum_widen(trum_lap* lap, mask relevant, real value, real off) {
+  lap->lowest = where(relevant, minimum(lap->lowest, value - off), lap->lowest);
+  lap->highest = where(relevant, maximum(lap->highest, value + off), lap->highest);
+}
+
 /* Takes an accepted step into the lap's extremes of x, with S and the sensitivities at them. */
 static void trum_update_extremes(const real* G, const real* x, const real* S, real (*d)[NODES], int slopes,
                                  mask accepted, mask damped, const trum_defect* defect, trum_lap* lap) {
@@ -53,6 +59,7 @@ static void trum_update_extremes(const real* G, const real* x, const real* S, re
       lap->low = where(lower, value, lap->low), lap->S_low = where(lower, S_there, lap->S_low);
       lap->high = where(higher, value, lap->high), lap->S_high = where(higher, S_there, lap->S_high);
       trum_mark_extremes(lap, lower, higher, error, remainder);
+      trum_widen(lap, relevant, value, error + remainder);
       for (parameter = 0; slopes && parameter < PARAMETERS; ++parameter) {
         real slope_there = weight[0] * d[parameter][0];
         for (j = 1; j < NODES; ++j) slope_there = slope_there + weight[j] * d[parameter][j];
@@ -67,6 +74,7 @@ static void trum_update_extremes(const real* G, const real* x, const real* S, re
     lap->low = where(lower, x[LAST_NODE], lap->low), lap->S_low = where(lower, S[LAST_NODE], lap->S_low);
     lap->high = where(higher, x[LAST_NODE], lap->high), lap->S_high = where(higher, S[LAST_NODE], lap->S_high);
     trum_mark_extremes(lap, lower, higher, end_error, end_remainder);
+    trum_widen(lap, accepted, x[LAST_NODE], end_error + end_remainder);
     for (k = 0; slopes && k < PARAMETERS; ++k) {
       lap->d_low[k] = where(lower, d[k][LAST_NODE], lap->d_low[k]);
       lap->d_high[k] = where(higher, d[k][LAST_NODE], lap->d_high[k]);

@@ -116,6 +116,7 @@ static void trum_clear_lap_errors(trum_lap* lap, int i) {
   set_lane(&lap->remainder_square, i, 0.0), set_lane(&lap->inside, i, 0.0);
   set_lane(&lap->low_error, i, 0.0), set_lane(&lap->low_remainder, i, 0.0);
   set_lane(&lap->high_error, i, 0.0), set_lane(&lap->high_remainder, i, 0.0);
+  set_lane(&lap->lowest, i, 0.0), set_lane(&lap->highest, i, 0.0);
   set_lane(&lap->friction_error, i, 0.0), set_lane(&lap->friction_remainder, i, 0.0);
   set_lane(&lap->angle_error, i, 0.0), set_lane(&lap->angle_remainder, i, 0.0);
 }

@@ -34,6 +34,7 @@ typedef struct {
    * integrals of f and theta.  Integrals of S^2 and of the interpolants' error inside the steps. */
   real error, remainder, error_sum, remainder_sum, error_square, error_S, remainder_square, SS, inside;
   real low_error, low_remainder, high_error, high_remainder;
+  real lowest, highest; /* bounds of x at all extremes, those that are not the lap's by a hair too */
   real friction_error, friction_remainder, angle_error, angle_remainder;
   real d_x[PARAMETERS], d_xx[PARAMETERS];           /* sensitivities of all of these: integrals of dx and x dx, */
   real d_low[PARAMETERS], d_high[PARAMETERS];       /* of the extremes, */
