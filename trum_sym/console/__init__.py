@@ -6,6 +6,7 @@ from typing import Any
 
 import click
 
+from trum_sym.console.c_library import c_library
 from trum_sym.console.calibrate import calibrate
 from trum_sym.console.characteristics import characteristics
 from trum_sym.console.equations import equations
@@ -68,6 +69,7 @@ for _command in (
     robust,
     speed_table,
     calibrate,
+    c_library,
     motor,
     equations,
     report,

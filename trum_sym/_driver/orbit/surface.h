@@ -13,7 +13,7 @@ static void trum_rotate_phasors(const trum_lanes* lanes, real tau, trum_phasors*
 /* Surface and contact at given phasors. */
 static void trum_evaluate_wave_and_contact(const trum_lanes* lanes, const trum_phasors* turn, trum_surface* at) {
   trum_lanes_wave(&lanes->constants, &lanes->region, turn, at);
-  if (lanes->hertz) {
+  if (with_hertz(lanes)) {
     trum_lanes_contact_hertz(&lanes->constants, at);
   } else {
     trum_filling_state filling;
