@@ -189,7 +189,7 @@ def called(call: Call, kernel: Kernel, structs: Sequence[Struct], prefix: str, n
         lines.append(f"  for (k = 0; k < {kernel.name}_n_res; ++k) res[k] = &results[k];")
     else:
         lines += _wrapped(f"{number}* res[{kernel.name}_n_res] = {{{', '.join(results)}}};")
-    return [*lines, f"  {function.format(kernel.name)}(arg, res, 0, 0, 0);", "}"]
+    return [*lines, f"  (void){function.format(kernel.name)}(arg, res, 0, 0, 0);", "}"]
 
 
 def _calls(

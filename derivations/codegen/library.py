@@ -80,7 +80,7 @@ def _values(kernels: tuple[Kernel, ...]) -> list[str]:
             f"static inline void trum_call_{kernel.name.removeprefix('trum_')}(trum_real* v) {{",
             f"  const trum_real* arg[{kernel.name}_n_arg] = {{{inputs}}};",
             f"  trum_real* res[{kernel.name}_n_res] = {{{outputs}}};",
-            f"  {kernel.name}(arg, res, 0, 0, 0);",
+            f"  (void){kernel.name}(arg, res, 0, 0, 0);",
             "}",
             "",
         ]

@@ -7,14 +7,14 @@ import re
 from importlib.metadata import version
 from pathlib import Path
 
-__all__ = ["ONE_HEADER", "ONE_SOURCE", "amalgamated", "derivations_hash", "example", "library"]
+__all__ = ["ONE_HEADER", "ONE_SOURCE", "amalgamated", "configured", "derivations_hash", "example", "library", "unit"]
 
 ONE_HEADER, ONE_SOURCE = "trum.h", "trum.c"
 
 _PACKAGE = Path(__file__).parents[1]
 _INSTALLED = _PACKAGE / "data" / "c"
 _TREE = _PACKAGE.parent
-_OF_PYTHON = {"trum_lanes.h", "trum_elementary.h", "trum_browser.c"}
+_OTHERS = {"trum_lanes.h", "trum_elementary.h", "trum_browser.c", "trum_fmi3.c"}
 _INCLUDE = re.compile(r'^#include "([^"]+)".*\n', re.M)
 _CALL = re.compile(r"^static inline void (trum_call_\w+)\(.*?^}\n\n", re.M | re.S)
 # What an exported copy is compiled for stands in the header that every other includes first
@@ -41,7 +41,7 @@ def library() -> dict[str, str]:
     generated, driver = _folders()
     paths = [*generated.glob("trum*.[ch]"), *driver.glob("trum*.h"), *driver.glob("orbit/*.h")]
     found = {path.relative_to(generated if path.parent == generated else driver).as_posix(): path for path in paths}
-    found = {name: path for name, path in sorted(found.items()) if name not in _OF_PYTHON}
+    found = {name: path for name, path in sorted(found.items()) if name not in _OTHERS}
     if _CONFIGURED not in found or "trum_wave.c" not in found:
         raise FileNotFoundError(f"no C sources in {generated} and {driver}")
     texts = {name: path.read_text("utf-8") for name, path in found.items()}
@@ -52,6 +52,11 @@ def example() -> str:
     """The example's source, on the numbers of ``trum60.h``."""
     place = _INSTALLED / "main.c" if _INSTALLED.is_dir() else _TREE / "examples" / "c" / "main.c"
     return place.read_text("utf-8")
+
+
+def unit() -> str:
+    """The source of the co-simulation unit around ``trum.c``."""
+    return (_folders()[1] / "trum_fmi3.c").read_text("utf-8")
 
 
 def derivations_hash() -> str:

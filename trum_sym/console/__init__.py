@@ -11,6 +11,7 @@ from trum_sym.console.calibrate import calibrate
 from trum_sym.console.characteristics import characteristics
 from trum_sym.console.equations import equations
 from trum_sym.console.evaluate import evaluate
+from trum_sym.console.fmu import fmu
 from trum_sym.console.motor import motor
 from trum_sym.console.optimize import optimize
 from trum_sym.console.pareto import pareto
@@ -70,6 +71,7 @@ for _command in (
     speed_table,
     calibrate,
     c_library,
+    fmu,
     motor,
     equations,
     report,
