@@ -6,67 +6,67 @@
 #define TRUM60_NAME "TRUM-60"
 
 static const struct trum_motor trum60 = {
-  (trum_real)0.03, /* radius, m: Table 1 */
-  (trum_real)72.0, /* tooth_count, 1: Table 1 */
-  (trum_real)0.1884, /* perimeter, m: Table 1 */
-  (trum_real)0.0008, /* slot_width, m: Table 1 */
-  (trum_real)0.008, /* beam_width, m: Table 1 */
-  (trum_real)0.0045, /* beam_thickness, m: Table 1 */
-  (trum_real)0.002, /* tooth_height, m: Table 1 */
-  (trum_real)8900.0, /* beam_density, kg/m^3: Table 1 */
-  (trum_real)155000000000.0, /* beam_young_modulus, Pa: Table 1 */
-  (trum_real)46800000000.0, /* beam_shear_modulus, Pa: Table 1 */
-  (trum_real)0.33, /* beam_poisson_ratio, 1: Table 1 */
-  (trum_real)0.008, /* piezo_width, m: assumed */
-  (trum_real)0.0005, /* piezo_thickness, m: Table 1 */
-  (trum_real)7500.0, /* piezo_density, kg/m^3: Table 1 */
-  (trum_real)76500000000.0, /* piezo_young_modulus, Pa: Table 1 */
-  (trum_real)22900000000.0, /* piezo_shear_modulus, Pa: Table 1 */
-  (trum_real)0.31, /* piezo_poisson_ratio, 1: Table 1 */
-  (trum_real)-9.7e-11, /* piezo_strain_constant, C/N: assumed */
-  (trum_real)1.15e-11, /* piezo_compliance, m^2/N: assumed */
-  (trum_real)200.0, /* voltage, V: Table 1 */
-  (trum_real)0.0012, /* layer_width, m: Table 1 */
-  (trum_real)0.0002, /* layer_thickness, m: Table 1 */
-  (trum_real)2100.0, /* layer_density, kg/m^3: Table 1 */
-  (trum_real)5000000000.0, /* layer_young_modulus, Pa: Table 1 */
-  (trum_real)0.3, /* layer_poisson_ratio, 1: Table 1 */
-  (trum_real)9.0, /* crests, 1: Sect. 4.1 */
-  (trum_real)0.9, /* shear_correction, 1: Table 1 */
-  (trum_real)0.006, /* damping_ratio, 1: Table 1 */
-  (trum_real)1.26e-05, /* free_amplitude, m: measured (Sect. 7.1) */
-  (trum_real)14.926, /* amplitude_factor, 1: measured (Sect. 7.1) */
-  (trum_real)0.678, /* amplitude_exponent, 1: measured (Sect. 7.1) */
-  (trum_real)100.0, /* fit_prepressure_min, N: Table 2 */
-  (trum_real)220.0, /* fit_prepressure_max, N: Table 2 */
-  (trum_real)0.25, /* friction_coefficient, 1: assumed */
-  (trum_real)0.0265, /* contact_radius, m: assumed */
-  (trum_real)0.03, /* curvature_radius, m: assumed */
-  (trum_real)4.5e-06, /* rotor_inertia, kg*m^2: Table 1 */
-  (trum_real)0.0, /* resonance_frequency, Hz: not measured */
-  (trum_real)0.0, /* amplitude, m: not measured */
-  (trum_real)0.0, /* neutral_axis, m: not measured */
-  (trum_real)0.0, /* wavenumber, 1/m: not measured */
-  (trum_real)0.0, /* layer_stiffness, N/m^2: not measured */
-  (trum_real)0.0, /* contact_stiffness, N/m^2: not measured */
-  (trum_real)0.0, /* tangential_stiffness, N/m^2: not measured */
-  (trum_real)0.001, /* flange_thickness, m: assumed */
-  (trum_real)0.003, /* flange_length, m: assumed */
-  (trum_real)70000000000.0, /* flange_young_modulus, Pa: assumed */
-  (trum_real)0.33, /* flange_poisson_ratio, 1: assumed */
+  TRUM_C(0.03), /* radius, m: Table 1 */
+  TRUM_C(72.0), /* tooth_count, 1: Table 1 */
+  TRUM_C(0.1884), /* perimeter, m: Table 1 */
+  TRUM_C(0.0008), /* slot_width, m: Table 1 */
+  TRUM_C(0.008), /* beam_width, m: Table 1 */
+  TRUM_C(0.0045), /* beam_thickness, m: Table 1 */
+  TRUM_C(0.002), /* tooth_height, m: Table 1 */
+  TRUM_C(8900.0), /* beam_density, kg/m^3: Table 1 */
+  TRUM_C(155000000000.0), /* beam_young_modulus, Pa: Table 1 */
+  TRUM_C(46800000000.0), /* beam_shear_modulus, Pa: Table 1 */
+  TRUM_C(0.33), /* beam_poisson_ratio, 1: Table 1 */
+  TRUM_C(0.008), /* piezo_width, m: assumed */
+  TRUM_C(0.0005), /* piezo_thickness, m: Table 1 */
+  TRUM_C(7500.0), /* piezo_density, kg/m^3: Table 1 */
+  TRUM_C(76500000000.0), /* piezo_young_modulus, Pa: Table 1 */
+  TRUM_C(22900000000.0), /* piezo_shear_modulus, Pa: Table 1 */
+  TRUM_C(0.31), /* piezo_poisson_ratio, 1: Table 1 */
+  TRUM_C(-9.7e-11), /* piezo_strain_constant, C/N: assumed */
+  TRUM_C(1.15e-11), /* piezo_compliance, m^2/N: assumed */
+  TRUM_C(200.0), /* voltage, V: Table 1 */
+  TRUM_C(0.0012), /* layer_width, m: Table 1 */
+  TRUM_C(0.0002), /* layer_thickness, m: Table 1 */
+  TRUM_C(2100.0), /* layer_density, kg/m^3: Table 1 */
+  TRUM_C(5000000000.0), /* layer_young_modulus, Pa: Table 1 */
+  TRUM_C(0.3), /* layer_poisson_ratio, 1: Table 1 */
+  TRUM_C(9.0), /* crests, 1: Sect. 4.1 */
+  TRUM_C(0.9), /* shear_correction, 1: Table 1 */
+  TRUM_C(0.006), /* damping_ratio, 1: Table 1 */
+  TRUM_C(1.26e-05), /* free_amplitude, m: measured (Sect. 7.1) */
+  TRUM_C(14.926), /* amplitude_factor, 1: measured (Sect. 7.1) */
+  TRUM_C(0.678), /* amplitude_exponent, 1: measured (Sect. 7.1) */
+  TRUM_C(100.0), /* fit_prepressure_min, N: Table 2 */
+  TRUM_C(220.0), /* fit_prepressure_max, N: Table 2 */
+  TRUM_C(0.25), /* friction_coefficient, 1: assumed */
+  TRUM_C(0.0265), /* contact_radius, m: assumed */
+  TRUM_C(0.03), /* curvature_radius, m: assumed */
+  TRUM_C(4.5e-06), /* rotor_inertia, kg*m^2: Table 1 */
+  TRUM_C(0.0), /* resonance_frequency, Hz: not measured */
+  TRUM_C(0.0), /* amplitude, m: not measured */
+  TRUM_C(0.0), /* neutral_axis, m: not measured */
+  TRUM_C(0.0), /* wavenumber, 1/m: not measured */
+  TRUM_C(0.0), /* layer_stiffness, N/m^2: not measured */
+  TRUM_C(0.0), /* contact_stiffness, N/m^2: not measured */
+  TRUM_C(0.0), /* tangential_stiffness, N/m^2: not measured */
+  TRUM_C(0.001), /* flange_thickness, m: assumed */
+  TRUM_C(0.003), /* flange_length, m: assumed */
+  TRUM_C(70000000000.0), /* flange_young_modulus, Pa: assumed */
+  TRUM_C(0.33), /* flange_poisson_ratio, 1: assumed */
 };
 
 /* the paper's Table 3 */
 static const struct trum_drive trum_table3 = {
-  (trum_real)180.0, /* prepressure */
-  (trum_real)3000.0, /* frequency_difference */
-  (trum_real)20.0, /* periods */
-  (trum_real)14.0, /* on_periods */
-  (trum_real)0.3, /* load_torque */
-  (trum_real)0.0, /* load_inertia */
-  (trum_real)0.0, /* load_radius */
-  (trum_real)0.0, /* switching_phase */
-  (trum_real)1.0, /* phase_lead */
+  TRUM_C(180.0), /* prepressure */
+  TRUM_C(3000.0), /* frequency_difference */
+  TRUM_C(20.0), /* periods */
+  TRUM_C(14.0), /* on_periods */
+  TRUM_C(0.3), /* load_torque */
+  TRUM_C(0.0), /* load_inertia */
+  TRUM_C(0.0), /* load_radius */
+  TRUM_C(0.0), /* switching_phase */
+  TRUM_C(1.0), /* phase_lead */
   TRUM_START_PERIODIC,
   TRUM_LOAD_TORQUE,
   TRUM_CONTACT_WINKLER,
@@ -75,7 +75,8 @@ static const struct trum_drive trum_table3 = {
   TRUM_AMPLITUDE_MEASURED,
   TRUM_COMPLIANCE_LAYER,
   TRUM_TANGENTIAL_RIGID,
-  (trum_real)(TRUM_FINEST_TOLERANCE > 1e-6 ? TRUM_FINEST_TOLERANCE : 1e-6), /* tolerance */
+  TRUM_EITHER(1e-6, TRUM_FINEST_TOLERANCE), /* tolerance */
+  0, /* max_steps: 2^31 - 1 */
 };
 
 #endif

@@ -24,235 +24,80 @@
  *
  * 35 operations: 16 mul, 5 sq, 3 div, 3 sub, 2 add, 2 twice, 1 fabs, 1 neg, 1 pow, 1 sqrt
  */
-/* How to prefix internal symbols */
-#ifdef CASADI_CODEGEN_PREFIX
-  #define CASADI_NAMESPACE_CONCAT(NS, ID) _CASADI_NAMESPACE_CONCAT(NS, ID)
-  #define _CASADI_NAMESPACE_CONCAT(NS, ID) NS ## ID
-  #define CASADI_PREFIX(ID) CASADI_NAMESPACE_CONCAT(CODEGEN_PREFIX, ID)
-#else
-  #define CASADI_PREFIX(ID) trum_amplitude_forced_ ## ID
-#endif
+#include <stddef.h>
 
-#include <math.h>
+#include "trum_kernels.h"
 
-#ifndef casadi_real
-#define casadi_real double
-#endif
-
-#ifndef casadi_int
-#define casadi_int long long int
-#endif
-
-/* Add prefix to internal symbols */
-#define casadi_f0 CASADI_PREFIX(f0)
-#define casadi_fabs CASADI_PREFIX(fabs)
-#define casadi_s0 CASADI_PREFIX(s0)
-#define casadi_sq CASADI_PREFIX(sq)
-
-/* Symbol visibility in DLLs */
-#ifndef CASADI_SYMBOL_EXPORT
-  #if defined(_WIN32) || defined(__WIN32__) || defined(__CYGWIN__)
-    #if defined(STATIC_LINKED)
-      #define CASADI_SYMBOL_EXPORT
-    #else
-      #define CASADI_SYMBOL_EXPORT __declspec(dllexport)
-    #endif
-  #elif defined(__GNUC__) && defined(GCC_HASCLASSVISIBILITY)
-    #define CASADI_SYMBOL_EXPORT __attribute__ ((visibility ("default")))
-  #else
-    #define CASADI_SYMBOL_EXPORT
-  #endif
-#endif
-
-casadi_real casadi_fabs(casadi_real x) {
-/* Pre-c99 compatibility */
-#if __STDC_VERSION__ < 199901L
-  return x>0 ? x : -x;
-#else
-  return fabs(x);
-#endif
-}
-
-casadi_real casadi_sq(casadi_real x) { return x*x;}
-
-/* Configuration this file was compiled with */
-CASADI_SYMBOL_EXPORT void trum_amplitude_forced_casadi_version(int* major, int* minor, int* patch) {
-  *major = 3;
-  *minor = 8;
-  *patch = 2;
-}
-CASADI_SYMBOL_EXPORT int trum_amplitude_forced_casadi_int_size(void) { return (int) sizeof(casadi_int); }
-CASADI_SYMBOL_EXPORT int trum_amplitude_forced_casadi_real_size(void) { return (int) sizeof(casadi_real); }
-
-static const casadi_int casadi_s0[3] = {1, 1, 1};
-
-/* trum_amplitude_forced:(A,C_f,D,F_c,I_z,U_s,b_p,beta,d_31,h_e,h_p,k_c,omega_n,omega_q,rho,s_11E,varsigma,xi)->(W) */
-static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
-  (void)iw, (void)w, (void)mem;
-  casadi_real a0, a1, a2, a3, a4, a5;
-  a0=(casadi_real)-2.;
-  a1=arg[1]? arg[1][0] : 0;
-  a0=(a0*a1);
-  a1=arg[5]? arg[5][0] : 0;
-  a0=(a0*a1);
-  a1=arg[6]? arg[6][0] : 0;
-  a0=(a0*a1);
-  a1=arg[7]? arg[7][0] : 0;
-  a0=(a0*a1);
-  a2=arg[11]? arg[11][0] : 0;
-  a0=(a0*a2);
-  a2=arg[8]? arg[8][0] : 0;
-  a2=casadi_fabs(a2);
-  a0=(a0*a2);
-  a2=arg[3]? arg[3][0] : 0;
-  a3=arg[16]? arg[16][0] : 0;
-  a3=(-a3);
-  a2=pow(a2,a3);
-  a0=(a0*a2);
-  a2=arg[2]? arg[2][0] : 0;
-  a2=((casadi_real)2.*a2);
-  a3=arg[9]? arg[9][0] : 0;
-  a3=((casadi_real)2.*a3);
-  a2=(a2-a3);
-  a3=arg[10]? arg[10][0] : 0;
-  a2=(a2-a3);
-  a0=(a0*a2);
-  a2=(casadi_real)3.1415926535897931e+00;
-  a3=arg[14]? arg[14][0] : 0;
-  a2=(a2*a3);
-  a3=arg[15]? arg[15][0] : 0;
-  a2=(a2*a3);
-  a3=arg[12]? arg[12][0] : 0;
-  a3=casadi_sq(a3);
-  a2=(a2*a3);
-  a4=arg[0]? arg[0][0] : 0;
-  a5=arg[4]? arg[4][0] : 0;
-  a1=casadi_sq(a1);
-  a5=(a5*a1);
-  a4=(a4+a5);
-  a2=(a2*a4);
-  a4=(casadi_real)4.;
-  a5=arg[13]? arg[13][0] : 0;
-  a5=casadi_sq(a5);
-  a4=(a4*a5);
-  a1=arg[17]? arg[17][0] : 0;
-  a1=casadi_sq(a1);
-  a4=(a4*a1);
-  a4=(a4/a3);
-  a1=(casadi_real)1.;
-  a5=(a5/a3);
-  a1=(a1-a5);
-  a1=casadi_sq(a1);
-  a4=(a4+a1);
-  a4=sqrt(a4);
-  a2=(a2*a4);
-  a0=(a0/a2);
-  if (res[0]!=0) res[0][0]=a0;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_amplitude_forced(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem){
-  return casadi_f0(arg, res, iw, w, mem);
-}
-
-CASADI_SYMBOL_EXPORT int trum_amplitude_forced_checkout(void) {
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT void trum_amplitude_forced_release(int mem) {
+int trum_amplitude_forced(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem)
+{
+  trum_real a0;
+  trum_real a1;
+  trum_real a2;
+  trum_real a3;
+  trum_real a4;
+  trum_real a5;
+  (void)iw;
+  (void)w;
   (void)mem;
-}
-
-CASADI_SYMBOL_EXPORT void trum_amplitude_forced_incref(void) {
-}
-
-CASADI_SYMBOL_EXPORT void trum_amplitude_forced_decref(void) {
-}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_amplitude_forced_n_in(void) { return 18;}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_amplitude_forced_n_out(void) { return 1;}
-
-CASADI_SYMBOL_EXPORT casadi_real trum_amplitude_forced_default_in(casadi_int i) {
-  switch (i) {
-    default: return 0;
+  a0 = TRUM_C(-2.0);
+  a1 = (arg[1] != NULL) ? arg[1][0] : TRUM_C(0.0);
+  a0 = a0 * a1;
+  a1 = (arg[5] != NULL) ? arg[5][0] : TRUM_C(0.0);
+  a0 = a0 * a1;
+  a1 = (arg[6] != NULL) ? arg[6][0] : TRUM_C(0.0);
+  a0 = a0 * a1;
+  a1 = (arg[7] != NULL) ? arg[7][0] : TRUM_C(0.0);
+  a0 = a0 * a1;
+  a2 = (arg[11] != NULL) ? arg[11][0] : TRUM_C(0.0);
+  a0 = a0 * a2;
+  a2 = (arg[8] != NULL) ? arg[8][0] : TRUM_C(0.0);
+  a2 = trum_fabs(a2);
+  a0 = a0 * a2;
+  a2 = (arg[3] != NULL) ? arg[3][0] : TRUM_C(0.0);
+  a3 = (arg[16] != NULL) ? arg[16][0] : TRUM_C(0.0);
+  a3 = -a3;
+  a2 = trum_pow(a2, a3);
+  a0 = a0 * a2;
+  a2 = (arg[2] != NULL) ? arg[2][0] : TRUM_C(0.0);
+  a2 = TRUM_C(2.0) * a2;
+  a3 = (arg[9] != NULL) ? arg[9][0] : TRUM_C(0.0);
+  a3 = TRUM_C(2.0) * a3;
+  a2 = a2 - a3;
+  a3 = (arg[10] != NULL) ? arg[10][0] : TRUM_C(0.0);
+  a2 = a2 - a3;
+  a0 = a0 * a2;
+  a2 = TRUM_C(3.141592653589793);
+  a3 = (arg[14] != NULL) ? arg[14][0] : TRUM_C(0.0);
+  a2 = a2 * a3;
+  a3 = (arg[15] != NULL) ? arg[15][0] : TRUM_C(0.0);
+  a2 = a2 * a3;
+  a3 = (arg[12] != NULL) ? arg[12][0] : TRUM_C(0.0);
+  a3 = a3 * a3;
+  a2 = a2 * a3;
+  a4 = (arg[0] != NULL) ? arg[0][0] : TRUM_C(0.0);
+  a5 = (arg[4] != NULL) ? arg[4][0] : TRUM_C(0.0);
+  a1 = a1 * a1;
+  a5 = a5 * a1;
+  a4 = a4 + a5;
+  a2 = a2 * a4;
+  a4 = TRUM_C(4.0);
+  a5 = (arg[13] != NULL) ? arg[13][0] : TRUM_C(0.0);
+  a5 = a5 * a5;
+  a4 = a4 * a5;
+  a1 = (arg[17] != NULL) ? arg[17][0] : TRUM_C(0.0);
+  a1 = a1 * a1;
+  a4 = a4 * a1;
+  a4 = a4 / a3;
+  a1 = TRUM_C(1.0);
+  a5 = a5 / a3;
+  a1 = a1 - a5;
+  a1 = a1 * a1;
+  a4 = a4 + a1;
+  a4 = trum_sqrt(a4);
+  a2 = a2 * a4;
+  a0 = a0 / a2;
+  if (res[0] != NULL) {
+    res[0][0] = a0;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_amplitude_forced_name_in(casadi_int i) {
-  switch (i) {
-    case 0: return "A";
-    case 1: return "C_f";
-    case 2: return "D";
-    case 3: return "F_c";
-    case 4: return "I_z";
-    case 5: return "U_s";
-    case 6: return "b_p";
-    case 7: return "beta";
-    case 8: return "d_31";
-    case 9: return "h_e";
-    case 10: return "h_p";
-    case 11: return "k_c";
-    case 12: return "omega_n";
-    case 13: return "omega_q";
-    case 14: return "rho";
-    case 15: return "s_11E";
-    case 16: return "varsigma";
-    case 17: return "xi";
-    default: return 0;
-  }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_amplitude_forced_name_out(casadi_int i) {
-  switch (i) {
-    case 0: return "W";
-    default: return 0;
-  }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_amplitude_forced_sparsity_in(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    case 4: return casadi_s0;
-    case 5: return casadi_s0;
-    case 6: return casadi_s0;
-    case 7: return casadi_s0;
-    case 8: return casadi_s0;
-    case 9: return casadi_s0;
-    case 10: return casadi_s0;
-    case 11: return casadi_s0;
-    case 12: return casadi_s0;
-    case 13: return casadi_s0;
-    case 14: return casadi_s0;
-    case 15: return casadi_s0;
-    case 16: return casadi_s0;
-    case 17: return casadi_s0;
-    default: return 0;
-  }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_amplitude_forced_sparsity_out(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    default: return 0;
-  }
-}
-
-CASADI_SYMBOL_EXPORT int trum_amplitude_forced_work(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 18;
-  if (sz_res) *sz_res = 1;
-  if (sz_iw) *sz_iw = 0;
-  if (sz_w) *sz_w = 0;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_amplitude_forced_work_bytes(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 18*sizeof(const casadi_real*);
-  if (sz_res) *sz_res = 1*sizeof(casadi_real*);
-  if (sz_iw) *sz_iw = 0*sizeof(casadi_int);
-  if (sz_w) *sz_w = 0*sizeof(casadi_real);
   return 0;
 }

@@ -14,160 +14,39 @@
  *
  * 7 operations: 6 mul, 1 div
  */
-/* How to prefix internal symbols */
-#ifdef CASADI_CODEGEN_PREFIX
-  #define CASADI_NAMESPACE_CONCAT(NS, ID) _CASADI_NAMESPACE_CONCAT(NS, ID)
-  #define _CASADI_NAMESPACE_CONCAT(NS, ID) NS ## ID
-  #define CASADI_PREFIX(ID) CASADI_NAMESPACE_CONCAT(CODEGEN_PREFIX, ID)
-#else
-  #define CASADI_PREFIX(ID) trum_brush_coefficient_ ## ID
-#endif
+#include <stddef.h>
 
-#include <math.h>
+#include "trum_kernels.h"
 
-#ifndef casadi_real
-#define casadi_real double
-#endif
-
-#ifndef casadi_int
-#define casadi_int long long int
-#endif
-
-/* Add prefix to internal symbols */
-#define casadi_f0 CASADI_PREFIX(f0)
-#define casadi_s0 CASADI_PREFIX(s0)
-
-/* Symbol visibility in DLLs */
-#ifndef CASADI_SYMBOL_EXPORT
-  #if defined(_WIN32) || defined(__WIN32__) || defined(__CYGWIN__)
-    #if defined(STATIC_LINKED)
-      #define CASADI_SYMBOL_EXPORT
-    #else
-      #define CASADI_SYMBOL_EXPORT __declspec(dllexport)
-    #endif
-  #elif defined(__GNUC__) && defined(GCC_HASCLASSVISIBILITY)
-    #define CASADI_SYMBOL_EXPORT __attribute__ ((visibility ("default")))
-  #else
-    #define CASADI_SYMBOL_EXPORT
-  #endif
-#endif
-
-/* Configuration this file was compiled with */
-CASADI_SYMBOL_EXPORT void trum_brush_coefficient_casadi_version(int* major, int* minor, int* patch) {
-  *major = 3;
-  *minor = 8;
-  *patch = 2;
-}
-CASADI_SYMBOL_EXPORT int trum_brush_coefficient_casadi_int_size(void) { return (int) sizeof(casadi_int); }
-CASADI_SYMBOL_EXPORT int trum_brush_coefficient_casadi_real_size(void) { return (int) sizeof(casadi_real); }
-
-static const casadi_int casadi_s0[3] = {1, 1, 1};
-
-/* trum_brush_coefficient:(D,W,k_N,k_T,k_c,mu,omega_q)->(grip,R_v) */
-static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
-  (void)iw, (void)w, (void)mem;
-  casadi_real a0, a1, a2, a3, a4;
-  a0=arg[0]? arg[0][0] : 0;
-  a1=arg[3]? arg[3][0] : 0;
-  a1=(a0*a1);
-  a2=arg[4]? arg[4][0] : 0;
-  a1=(a1*a2);
-  a3=arg[2]? arg[2][0] : 0;
-  a4=arg[5]? arg[5][0] : 0;
-  a3=(a3*a4);
-  a1=(a1/a3);
-  if (res[0]!=0) res[0][0]=a1;
-  a1=arg[1]? arg[1][0] : 0;
-  a0=(a0*a1);
-  a0=(a0*a2);
-  a2=arg[6]? arg[6][0] : 0;
-  a0=(a0*a2);
-  if (res[1]!=0) res[1][0]=a0;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_brush_coefficient(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem){
-  return casadi_f0(arg, res, iw, w, mem);
-}
-
-CASADI_SYMBOL_EXPORT int trum_brush_coefficient_checkout(void) {
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT void trum_brush_coefficient_release(int mem) {
+int trum_brush_coefficient(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem)
+{
+  trum_real a0;
+  trum_real a1;
+  trum_real a2;
+  trum_real a3;
+  trum_real a4;
+  (void)iw;
+  (void)w;
   (void)mem;
-}
-
-CASADI_SYMBOL_EXPORT void trum_brush_coefficient_incref(void) {
-}
-
-CASADI_SYMBOL_EXPORT void trum_brush_coefficient_decref(void) {
-}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_brush_coefficient_n_in(void) { return 7;}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_brush_coefficient_n_out(void) { return 2;}
-
-CASADI_SYMBOL_EXPORT casadi_real trum_brush_coefficient_default_in(casadi_int i) {
-  switch (i) {
-    default: return 0;
+  a0 = (arg[0] != NULL) ? arg[0][0] : TRUM_C(0.0);
+  a1 = (arg[3] != NULL) ? arg[3][0] : TRUM_C(0.0);
+  a1 = a0 * a1;
+  a2 = (arg[4] != NULL) ? arg[4][0] : TRUM_C(0.0);
+  a1 = a1 * a2;
+  a3 = (arg[2] != NULL) ? arg[2][0] : TRUM_C(0.0);
+  a4 = (arg[5] != NULL) ? arg[5][0] : TRUM_C(0.0);
+  a3 = a3 * a4;
+  a1 = a1 / a3;
+  if (res[0] != NULL) {
+    res[0][0] = a1;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_brush_coefficient_name_in(casadi_int i) {
-  switch (i) {
-    case 0: return "D";
-    case 1: return "W";
-    case 2: return "k_N";
-    case 3: return "k_T";
-    case 4: return "k_c";
-    case 5: return "mu";
-    case 6: return "omega_q";
-    default: return 0;
+  a1 = (arg[1] != NULL) ? arg[1][0] : TRUM_C(0.0);
+  a0 = a0 * a1;
+  a0 = a0 * a2;
+  a2 = (arg[6] != NULL) ? arg[6][0] : TRUM_C(0.0);
+  a0 = a0 * a2;
+  if (res[1] != NULL) {
+    res[1][0] = a0;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_brush_coefficient_name_out(casadi_int i) {
-  switch (i) {
-    case 0: return "grip";
-    case 1: return "R_v";
-    default: return 0;
-  }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_brush_coefficient_sparsity_in(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    case 4: return casadi_s0;
-    case 5: return casadi_s0;
-    case 6: return casadi_s0;
-    default: return 0;
-  }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_brush_coefficient_sparsity_out(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    default: return 0;
-  }
-}
-
-CASADI_SYMBOL_EXPORT int trum_brush_coefficient_work(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 7;
-  if (sz_res) *sz_res = 2;
-  if (sz_iw) *sz_iw = 0;
-  if (sz_w) *sz_w = 0;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_brush_coefficient_work_bytes(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 7*sizeof(const casadi_real*);
-  if (sz_res) *sz_res = 2*sizeof(casadi_real*);
-  if (sz_iw) *sz_iw = 0*sizeof(casadi_int);
-  if (sz_w) *sz_w = 0*sizeof(casadi_real);
   return 0;
 }

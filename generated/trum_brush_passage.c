@@ -15,190 +15,74 @@
  *
  * 30 operations: 9 mul, 7 sub, 3 add, 3 cos, 3 div, 3 sin, 1 sq, 1 twice
  */
-/* How to prefix internal symbols */
-#ifdef CASADI_CODEGEN_PREFIX
-  #define CASADI_NAMESPACE_CONCAT(NS, ID) _CASADI_NAMESPACE_CONCAT(NS, ID)
-  #define _CASADI_NAMESPACE_CONCAT(NS, ID) NS ## ID
-  #define CASADI_PREFIX(ID) CASADI_NAMESPACE_CONCAT(CODEGEN_PREFIX, ID)
-#else
-  #define CASADI_PREFIX(ID) trum_brush_passage_ ## ID
-#endif
+#include <stddef.h>
 
-#include <math.h>
+#include "trum_kernels.h"
 
-#ifndef casadi_real
-#define casadi_real double
-#endif
-
-#ifndef casadi_int
-#define casadi_int long long int
-#endif
-
-/* Add prefix to internal symbols */
-#define casadi_f0 CASADI_PREFIX(f0)
-#define casadi_s0 CASADI_PREFIX(s0)
-#define casadi_sq CASADI_PREFIX(sq)
-
-/* Symbol visibility in DLLs */
-#ifndef CASADI_SYMBOL_EXPORT
-  #if defined(_WIN32) || defined(__WIN32__) || defined(__CYGWIN__)
-    #if defined(STATIC_LINKED)
-      #define CASADI_SYMBOL_EXPORT
-    #else
-      #define CASADI_SYMBOL_EXPORT __declspec(dllexport)
-    #endif
-  #elif defined(__GNUC__) && defined(GCC_HASCLASSVISIBILITY)
-    #define CASADI_SYMBOL_EXPORT __attribute__ ((visibility ("default")))
-  #else
-    #define CASADI_SYMBOL_EXPORT
-  #endif
-#endif
-
-casadi_real casadi_sq(casadi_real x) { return x*x;}
-
-/* Configuration this file was compiled with */
-CASADI_SYMBOL_EXPORT void trum_brush_passage_casadi_version(int* major, int* minor, int* patch) {
-  *major = 3;
-  *minor = 8;
-  *patch = 2;
-}
-CASADI_SYMBOL_EXPORT int trum_brush_passage_casadi_int_size(void) { return (int) sizeof(casadi_int); }
-CASADI_SYMBOL_EXPORT int trum_brush_passage_casadi_real_size(void) { return (int) sizeof(casadi_real); }
-
-static const casadi_int casadi_s0[3] = {1, 1, 1};
-
-/* trum_brush_passage:(grip,ratio,t_0,theta,u,u_0)->(stress,limit,stuck,slid) */
-static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
-  (void)iw, (void)w, (void)mem;
-  casadi_real a00, a01, a02, a03, a04, a05, a06, a07, a08, a09, a10;
-  a00=arg[2]? arg[2][0] : 0;
-  a01=arg[0]? arg[0][0] : 0;
-  a02=arg[4]? arg[4][0] : 0;
-  a03=(casadi_real)2.;
-  a04=(a02/a03);
-  a05=arg[5]? arg[5][0] : 0;
-  a06=(a05/a03);
-  a07=(a04-a06);
-  a07=sin(a07);
-  a07=((casadi_real)2.*a07);
-  a04=(a04+a06);
-  a06=cos(a04);
-  a06=(a07*a06);
-  a08=arg[1]? arg[1][0] : 0;
-  a09=(a02-a05);
-  a10=(a08*a09);
-  a10=(a06-a10);
-  a10=(a01*a10);
-  a10=(a00+a10);
-  if (res[0]!=0) res[0][0]=a10;
-  a02=cos(a02);
-  a10=arg[3]? arg[3][0] : 0;
-  a10=cos(a10);
-  a02=(a02-a10);
-  if (res[1]!=0) res[1][0]=a02;
-  a00=(a00*a09);
-  a04=sin(a04);
-  a07=(a07*a04);
-  a05=sin(a05);
-  a05=(a05*a09);
-  a07=(a07-a05);
-  a05=casadi_sq(a09);
-  a08=(a08*a05);
-  a08=(a08/a03);
-  a07=(a07-a08);
-  a01=(a01*a07);
-  a00=(a00+a01);
-  if (res[2]!=0) res[2][0]=a00;
-  a10=(a10*a09);
-  a06=(a06-a10);
-  if (res[3]!=0) res[3][0]=a06;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_brush_passage(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem){
-  return casadi_f0(arg, res, iw, w, mem);
-}
-
-CASADI_SYMBOL_EXPORT int trum_brush_passage_checkout(void) {
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT void trum_brush_passage_release(int mem) {
+int trum_brush_passage(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem)
+{
+  trum_real a0;
+  trum_real a1;
+  trum_real a2;
+  trum_real a3;
+  trum_real a4;
+  trum_real a5;
+  trum_real a6;
+  trum_real a7;
+  trum_real a8;
+  trum_real a9;
+  trum_real a10;
+  (void)iw;
+  (void)w;
   (void)mem;
-}
-
-CASADI_SYMBOL_EXPORT void trum_brush_passage_incref(void) {
-}
-
-CASADI_SYMBOL_EXPORT void trum_brush_passage_decref(void) {
-}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_brush_passage_n_in(void) { return 6;}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_brush_passage_n_out(void) { return 4;}
-
-CASADI_SYMBOL_EXPORT casadi_real trum_brush_passage_default_in(casadi_int i) {
-  switch (i) {
-    default: return 0;
+  a0 = (arg[2] != NULL) ? arg[2][0] : TRUM_C(0.0);
+  a1 = (arg[0] != NULL) ? arg[0][0] : TRUM_C(0.0);
+  a2 = (arg[4] != NULL) ? arg[4][0] : TRUM_C(0.0);
+  a3 = TRUM_C(2.0);
+  a4 = a2 / a3;
+  a5 = (arg[5] != NULL) ? arg[5][0] : TRUM_C(0.0);
+  a6 = a5 / a3;
+  a7 = a4 - a6;
+  a7 = trum_sin(a7);
+  a7 = TRUM_C(2.0) * a7;
+  a4 = a4 + a6;
+  a6 = trum_cos(a4);
+  a6 = a7 * a6;
+  a8 = (arg[1] != NULL) ? arg[1][0] : TRUM_C(0.0);
+  a9 = a2 - a5;
+  a10 = a8 * a9;
+  a10 = a6 - a10;
+  a10 = a1 * a10;
+  a10 = a0 + a10;
+  if (res[0] != NULL) {
+    res[0][0] = a10;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_brush_passage_name_in(casadi_int i) {
-  switch (i) {
-    case 0: return "grip";
-    case 1: return "ratio";
-    case 2: return "t_0";
-    case 3: return "theta";
-    case 4: return "u";
-    case 5: return "u_0";
-    default: return 0;
+  a2 = trum_cos(a2);
+  a10 = (arg[3] != NULL) ? arg[3][0] : TRUM_C(0.0);
+  a10 = trum_cos(a10);
+  a2 = a2 - a10;
+  if (res[1] != NULL) {
+    res[1][0] = a2;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_brush_passage_name_out(casadi_int i) {
-  switch (i) {
-    case 0: return "stress";
-    case 1: return "limit";
-    case 2: return "stuck";
-    case 3: return "slid";
-    default: return 0;
+  a0 = a0 * a9;
+  a4 = trum_sin(a4);
+  a7 = a7 * a4;
+  a5 = trum_sin(a5);
+  a5 = a5 * a9;
+  a7 = a7 - a5;
+  a5 = a9 * a9;
+  a8 = a8 * a5;
+  a8 = a8 / a3;
+  a7 = a7 - a8;
+  a1 = a1 * a7;
+  a0 = a0 + a1;
+  if (res[2] != NULL) {
+    res[2][0] = a0;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_brush_passage_sparsity_in(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    case 4: return casadi_s0;
-    case 5: return casadi_s0;
-    default: return 0;
+  a10 = a10 * a9;
+  a6 = a6 - a10;
+  if (res[3] != NULL) {
+    res[3][0] = a6;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_brush_passage_sparsity_out(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    default: return 0;
-  }
-}
-
-CASADI_SYMBOL_EXPORT int trum_brush_passage_work(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 6;
-  if (sz_res) *sz_res = 4;
-  if (sz_iw) *sz_iw = 0;
-  if (sz_w) *sz_w = 0;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_brush_passage_work_bytes(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 6*sizeof(const casadi_real*);
-  if (sz_res) *sz_res = 4*sizeof(casadi_real*);
-  if (sz_iw) *sz_iw = 0*sizeof(casadi_int);
-  if (sz_w) *sz_w = 0*sizeof(casadi_real);
   return 0;
 }

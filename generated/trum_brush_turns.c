@@ -9,176 +9,41 @@
  *
  * 13 operations: 2 sq, 2 sqrt, 1 add, 1 atan, 1 atan2, 1 div, 1 fmax, 1 fmin, 1 inv, 1 mul, 1 sub
  */
-/* How to prefix internal symbols */
-#ifdef CASADI_CODEGEN_PREFIX
-  #define CASADI_NAMESPACE_CONCAT(NS, ID) _CASADI_NAMESPACE_CONCAT(NS, ID)
-  #define _CASADI_NAMESPACE_CONCAT(NS, ID) NS ## ID
-  #define CASADI_PREFIX(ID) CASADI_NAMESPACE_CONCAT(CODEGEN_PREFIX, ID)
-#else
-  #define CASADI_PREFIX(ID) trum_brush_turns_ ## ID
-#endif
+#include <stddef.h>
 
-#include <math.h>
+#include "trum_kernels.h"
 
-#ifndef casadi_real
-#define casadi_real double
-#endif
-
-#ifndef casadi_int
-#define casadi_int long long int
-#endif
-
-/* Add prefix to internal symbols */
-#define casadi_f0 CASADI_PREFIX(f0)
-#define casadi_fmax CASADI_PREFIX(fmax)
-#define casadi_fmin CASADI_PREFIX(fmin)
-#define casadi_s0 CASADI_PREFIX(s0)
-#define casadi_sq CASADI_PREFIX(sq)
-
-/* Symbol visibility in DLLs */
-#ifndef CASADI_SYMBOL_EXPORT
-  #if defined(_WIN32) || defined(__WIN32__) || defined(__CYGWIN__)
-    #if defined(STATIC_LINKED)
-      #define CASADI_SYMBOL_EXPORT
-    #else
-      #define CASADI_SYMBOL_EXPORT __declspec(dllexport)
-    #endif
-  #elif defined(__GNUC__) && defined(GCC_HASCLASSVISIBILITY)
-    #define CASADI_SYMBOL_EXPORT __attribute__ ((visibility ("default")))
-  #else
-    #define CASADI_SYMBOL_EXPORT
-  #endif
-#endif
-
-casadi_real casadi_sq(casadi_real x) { return x*x;}
-
-casadi_real casadi_fmin(casadi_real x, casadi_real y) {
-/* Pre-c99 compatibility */
-#if __STDC_VERSION__ < 199901L
-  return x<y ? x : y;
-#else
-  return fmin(x, y);
-#endif
-}
-
-casadi_real casadi_fmax(casadi_real x, casadi_real y) {
-/* Pre-c99 compatibility */
-#if __STDC_VERSION__ < 199901L
-  return x>y ? x : y;
-#else
-  return fmax(x, y);
-#endif
-}
-
-/* Configuration this file was compiled with */
-CASADI_SYMBOL_EXPORT void trum_brush_turns_casadi_version(int* major, int* minor, int* patch) {
-  *major = 3;
-  *minor = 8;
-  *patch = 2;
-}
-CASADI_SYMBOL_EXPORT int trum_brush_turns_casadi_int_size(void) { return (int) sizeof(casadi_int); }
-CASADI_SYMBOL_EXPORT int trum_brush_turns_casadi_real_size(void) { return (int) sizeof(casadi_real); }
-
-static const casadi_int casadi_s0[3] = {1, 1, 1};
-
-/* trum_brush_turns:(grip,ratio)->(delay,span) */
-static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
-  (void)iw, (void)w, (void)mem;
-  casadi_real a0, a1, a2, a3;
-  a0=arg[0]? arg[0][0] : 0;
-  a1=((casadi_real)1./a0);
-  a1=atan(a1);
-  if (res[0]!=0) res[0][0]=a1;
-  a1=(casadi_real)1.;
-  a2=(casadi_real)-1.;
-  a3=arg[1]? arg[1][0] : 0;
-  a3=(a0*a3);
-  a0=casadi_sq(a0);
-  a0=(a1+a0);
-  a0=sqrt(a0);
-  a3=(a3/a0);
-  a3=casadi_fmin(a1,a3);
-  a2=casadi_fmax(a2,a3);
-  a3=casadi_sq(a2);
-  a1=(a1-a3);
-  a1=sqrt(a1);
-  a1=atan2(a1,a2);
-  if (res[1]!=0) res[1][0]=a1;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_brush_turns(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem){
-  return casadi_f0(arg, res, iw, w, mem);
-}
-
-CASADI_SYMBOL_EXPORT int trum_brush_turns_checkout(void) {
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT void trum_brush_turns_release(int mem) {
+int trum_brush_turns(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem)
+{
+  trum_real a0;
+  trum_real a1;
+  trum_real a2;
+  trum_real a3;
+  (void)iw;
+  (void)w;
   (void)mem;
-}
-
-CASADI_SYMBOL_EXPORT void trum_brush_turns_incref(void) {
-}
-
-CASADI_SYMBOL_EXPORT void trum_brush_turns_decref(void) {
-}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_brush_turns_n_in(void) { return 2;}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_brush_turns_n_out(void) { return 2;}
-
-CASADI_SYMBOL_EXPORT casadi_real trum_brush_turns_default_in(casadi_int i) {
-  switch (i) {
-    default: return 0;
+  a0 = (arg[0] != NULL) ? arg[0][0] : TRUM_C(0.0);
+  a1 = TRUM_C(1.0) / a0;
+  a1 = trum_atan(a1);
+  if (res[0] != NULL) {
+    res[0][0] = a1;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_brush_turns_name_in(casadi_int i) {
-  switch (i) {
-    case 0: return "grip";
-    case 1: return "ratio";
-    default: return 0;
+  a1 = TRUM_C(1.0);
+  a2 = TRUM_C(-1.0);
+  a3 = (arg[1] != NULL) ? arg[1][0] : TRUM_C(0.0);
+  a3 = a0 * a3;
+  a0 = a0 * a0;
+  a0 = a1 + a0;
+  a0 = trum_sqrt(a0);
+  a3 = a3 / a0;
+  a3 = trum_fmin(a1, a3);
+  a2 = trum_fmax(a2, a3);
+  a3 = a2 * a2;
+  a1 = a1 - a3;
+  a1 = trum_sqrt(a1);
+  a1 = trum_atan2(a1, a2);
+  if (res[1] != NULL) {
+    res[1][0] = a1;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_brush_turns_name_out(casadi_int i) {
-  switch (i) {
-    case 0: return "delay";
-    case 1: return "span";
-    default: return 0;
-  }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_brush_turns_sparsity_in(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    default: return 0;
-  }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_brush_turns_sparsity_out(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    default: return 0;
-  }
-}
-
-CASADI_SYMBOL_EXPORT int trum_brush_turns_work(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 2;
-  if (sz_res) *sz_res = 2;
-  if (sz_iw) *sz_iw = 0;
-  if (sz_w) *sz_w = 0;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_brush_turns_work_bytes(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 2*sizeof(const casadi_real*);
-  if (sz_res) *sz_res = 2*sizeof(casadi_real*);
-  if (sz_iw) *sz_iw = 0*sizeof(casadi_int);
-  if (sz_w) *sz_w = 0*sizeof(casadi_real);
   return 0;
 }

@@ -20,222 +20,94 @@
  *
  * 45 operations: 17 mul, 7 sq, 6 add, 5 div, 4 sub, 2 inv, 2 twice, 1 cosh, 1 sinh
  */
-/* How to prefix internal symbols */
-#ifdef CASADI_CODEGEN_PREFIX
-  #define CASADI_NAMESPACE_CONCAT(NS, ID) _CASADI_NAMESPACE_CONCAT(NS, ID)
-  #define _CASADI_NAMESPACE_CONCAT(NS, ID) NS ## ID
-  #define CASADI_PREFIX(ID) CASADI_NAMESPACE_CONCAT(CODEGEN_PREFIX, ID)
-#else
-  #define CASADI_PREFIX(ID) trum_contact_stiffness_ ## ID
-#endif
+#include <stddef.h>
 
-#include <math.h>
+#include "trum_kernels.h"
 
-#ifndef casadi_real
-#define casadi_real double
-#endif
-
-#ifndef casadi_int
-#define casadi_int long long int
-#endif
-
-/* Add prefix to internal symbols */
-#define casadi_f0 CASADI_PREFIX(f0)
-#define casadi_s0 CASADI_PREFIX(s0)
-#define casadi_sq CASADI_PREFIX(sq)
-
-/* Symbol visibility in DLLs */
-#ifndef CASADI_SYMBOL_EXPORT
-  #if defined(_WIN32) || defined(__WIN32__) || defined(__CYGWIN__)
-    #if defined(STATIC_LINKED)
-      #define CASADI_SYMBOL_EXPORT
-    #else
-      #define CASADI_SYMBOL_EXPORT __declspec(dllexport)
-    #endif
-  #elif defined(__GNUC__) && defined(GCC_HASCLASSVISIBILITY)
-    #define CASADI_SYMBOL_EXPORT __attribute__ ((visibility ("default")))
-  #else
-    #define CASADI_SYMBOL_EXPORT
-  #endif
-#endif
-
-casadi_real casadi_sq(casadi_real x) { return x*x;}
-
-/* Configuration this file was compiled with */
-CASADI_SYMBOL_EXPORT void trum_contact_stiffness_casadi_version(int* major, int* minor, int* patch) {
-  *major = 3;
-  *minor = 8;
-  *patch = 2;
-}
-CASADI_SYMBOL_EXPORT int trum_contact_stiffness_casadi_int_size(void) { return (int) sizeof(casadi_int); }
-CASADI_SYMBOL_EXPORT int trum_contact_stiffness_casadi_real_size(void) { return (int) sizeof(casadi_real); }
-
-static const casadi_int casadi_s0[3] = {1, 1, 1};
-
-/* trum_contact_stiffness:(E_e,E_f,b_e,b_s,h_f,h_t,k_N,k_c,l_f,l_s,mu_f,n_s)->(k_tooth,k_flange,k_con) */
-static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
-  (void)iw, (void)w, (void)mem;
-  casadi_real a00, a01, a02, a03, a04, a05, a06, a07, a08, a09, a10;
-  a00=arg[0]? arg[0][0] : 0;
-  a01=arg[2]? arg[2][0] : 0;
-  a00=(a00*a01);
-  a01=(casadi_real)1.;
-  a02=arg[3]? arg[3][0] : 0;
-  a03=arg[11]? arg[11][0] : 0;
-  a02=(a02*a03);
-  a03=arg[9]? arg[9][0] : 0;
-  a02=(a02/a03);
-  a02=(a01-a02);
-  a00=(a00*a02);
-  a02=arg[5]? arg[5][0] : 0;
-  a03=(a00/a02);
-  if (res[0]!=0) res[0][0]=a03;
-  a03=arg[1]? arg[1][0] : 0;
-  a04=arg[4]? arg[4][0] : 0;
-  a05=casadi_sq(a04);
-  a04=(a04*a05);
-  a03=(a03*a04);
-  a04=arg[7]? arg[7][0] : 0;
-  a05=casadi_sq(a04);
-  a06=(a04*a05);
-  a03=(a03*a06);
-  a06=arg[10]? arg[10][0] : 0;
-  a07=(a01+a06);
-  a07=casadi_sq(a07);
-  a08=arg[8]? arg[8][0] : 0;
-  a09=casadi_sq(a08);
-  a05=(a05*a09);
-  a01=(a01-a06);
-  a09=casadi_sq(a01);
-  a05=(a05*a09);
-  a07=(a07+a05);
-  a05=(casadi_real)3.;
-  a05=(a05+a06);
-  a05=(a05*a01);
-  a01=(a04*a08);
-  a09=cosh(a01);
-  a10=casadi_sq(a09);
-  a05=(a05*a10);
-  a07=(a07+a05);
-  a03=(a03*a07);
-  a07=(casadi_real)12.;
-  a06=casadi_sq(a06);
-  a06=(a07*a06);
-  a07=(a07-a06);
-  a01=sinh(a01);
-  a01=((casadi_real)2.*a01);
-  a01=(a01*a09);
-  a04=((casadi_real)2.*a04);
-  a04=(a04*a08);
-  a01=(a01-a04);
-  a07=(a07*a01);
-  a01=(a03/a07);
-  if (res[1]!=0) res[1][0]=a01;
-  a01=arg[6]? arg[6][0] : 0;
-  a01=((casadi_real)1./a01);
-  a02=(a02/a00);
-  a01=(a01+a02);
-  a07=(a07/a03);
-  a01=(a01+a07);
-  a01=((casadi_real)1./a01);
-  if (res[2]!=0) res[2][0]=a01;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_contact_stiffness(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem){
-  return casadi_f0(arg, res, iw, w, mem);
-}
-
-CASADI_SYMBOL_EXPORT int trum_contact_stiffness_checkout(void) {
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT void trum_contact_stiffness_release(int mem) {
+int trum_contact_stiffness(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem)
+{
+  trum_real a0;
+  trum_real a1;
+  trum_real a2;
+  trum_real a3;
+  trum_real a4;
+  trum_real a5;
+  trum_real a6;
+  trum_real a7;
+  trum_real a8;
+  trum_real a9;
+  trum_real a10;
+  (void)iw;
+  (void)w;
   (void)mem;
-}
-
-CASADI_SYMBOL_EXPORT void trum_contact_stiffness_incref(void) {
-}
-
-CASADI_SYMBOL_EXPORT void trum_contact_stiffness_decref(void) {
-}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_contact_stiffness_n_in(void) { return 12;}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_contact_stiffness_n_out(void) { return 3;}
-
-CASADI_SYMBOL_EXPORT casadi_real trum_contact_stiffness_default_in(casadi_int i) {
-  switch (i) {
-    default: return 0;
+  a0 = (arg[0] != NULL) ? arg[0][0] : TRUM_C(0.0);
+  a1 = (arg[2] != NULL) ? arg[2][0] : TRUM_C(0.0);
+  a0 = a0 * a1;
+  a1 = TRUM_C(1.0);
+  a2 = (arg[3] != NULL) ? arg[3][0] : TRUM_C(0.0);
+  a3 = (arg[11] != NULL) ? arg[11][0] : TRUM_C(0.0);
+  a2 = a2 * a3;
+  a3 = (arg[9] != NULL) ? arg[9][0] : TRUM_C(0.0);
+  a2 = a2 / a3;
+  a2 = a1 - a2;
+  a0 = a0 * a2;
+  a2 = (arg[5] != NULL) ? arg[5][0] : TRUM_C(0.0);
+  a3 = a0 / a2;
+  if (res[0] != NULL) {
+    res[0][0] = a3;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_contact_stiffness_name_in(casadi_int i) {
-  switch (i) {
-    case 0: return "E_e";
-    case 1: return "E_f";
-    case 2: return "b_e";
-    case 3: return "b_s";
-    case 4: return "h_f";
-    case 5: return "h_t";
-    case 6: return "k_N";
-    case 7: return "k_c";
-    case 8: return "l_f";
-    case 9: return "l_s";
-    case 10: return "mu_f";
-    case 11: return "n_s";
-    default: return 0;
+  a3 = (arg[1] != NULL) ? arg[1][0] : TRUM_C(0.0);
+  a4 = (arg[4] != NULL) ? arg[4][0] : TRUM_C(0.0);
+  a5 = a4 * a4;
+  a4 = a4 * a5;
+  a3 = a3 * a4;
+  a4 = (arg[7] != NULL) ? arg[7][0] : TRUM_C(0.0);
+  a5 = a4 * a4;
+  a6 = a4 * a5;
+  a3 = a3 * a6;
+  a6 = (arg[10] != NULL) ? arg[10][0] : TRUM_C(0.0);
+  a7 = a1 + a6;
+  a7 = a7 * a7;
+  a8 = (arg[8] != NULL) ? arg[8][0] : TRUM_C(0.0);
+  a9 = a8 * a8;
+  a5 = a5 * a9;
+  a1 = a1 - a6;
+  a9 = a1 * a1;
+  a5 = a5 * a9;
+  a7 = a7 + a5;
+  a5 = TRUM_C(3.0);
+  a5 = a5 + a6;
+  a5 = a5 * a1;
+  a1 = a4 * a8;
+  a9 = trum_cosh(a1);
+  a10 = a9 * a9;
+  a5 = a5 * a10;
+  a7 = a7 + a5;
+  a3 = a3 * a7;
+  a7 = TRUM_C(12.0);
+  a6 = a6 * a6;
+  a6 = a7 * a6;
+  a7 = a7 - a6;
+  a1 = trum_sinh(a1);
+  a1 = TRUM_C(2.0) * a1;
+  a1 = a1 * a9;
+  a4 = TRUM_C(2.0) * a4;
+  a4 = a4 * a8;
+  a1 = a1 - a4;
+  a7 = a7 * a1;
+  a1 = a3 / a7;
+  if (res[1] != NULL) {
+    res[1][0] = a1;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_contact_stiffness_name_out(casadi_int i) {
-  switch (i) {
-    case 0: return "k_tooth";
-    case 1: return "k_flange";
-    case 2: return "k_con";
-    default: return 0;
+  a1 = (arg[6] != NULL) ? arg[6][0] : TRUM_C(0.0);
+  a1 = TRUM_C(1.0) / a1;
+  a2 = a2 / a0;
+  a1 = a1 + a2;
+  a7 = a7 / a3;
+  a1 = a1 + a7;
+  a1 = TRUM_C(1.0) / a1;
+  if (res[2] != NULL) {
+    res[2][0] = a1;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_contact_stiffness_sparsity_in(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    case 4: return casadi_s0;
-    case 5: return casadi_s0;
-    case 6: return casadi_s0;
-    case 7: return casadi_s0;
-    case 8: return casadi_s0;
-    case 9: return casadi_s0;
-    case 10: return casadi_s0;
-    case 11: return casadi_s0;
-    default: return 0;
-  }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_contact_stiffness_sparsity_out(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    default: return 0;
-  }
-}
-
-CASADI_SYMBOL_EXPORT int trum_contact_stiffness_work(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 12;
-  if (sz_res) *sz_res = 3;
-  if (sz_iw) *sz_iw = 0;
-  if (sz_w) *sz_w = 0;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_contact_stiffness_work_bytes(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 12*sizeof(const casadi_real*);
-  if (sz_res) *sz_res = 3*sizeof(casadi_real*);
-  if (sz_iw) *sz_iw = 0*sizeof(casadi_int);
-  if (sz_w) *sz_w = 0*sizeof(casadi_real);
   return 0;
 }

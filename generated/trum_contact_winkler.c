@@ -10,226 +10,107 @@
  *
  * 59 operations: 21 mul, 14 sub, 9 add, 4 div, 4 sq, 3 twice, 1 cos, 1 fmin, 1 sin, 1 sqrt
  */
-/* How to prefix internal symbols */
-#ifdef CASADI_CODEGEN_PREFIX
-  #define CASADI_NAMESPACE_CONCAT(NS, ID) _CASADI_NAMESPACE_CONCAT(NS, ID)
-  #define _CASADI_NAMESPACE_CONCAT(NS, ID) NS ## ID
-  #define CASADI_PREFIX(ID) CASADI_NAMESPACE_CONCAT(CODEGEN_PREFIX, ID)
-#else
-  #define CASADI_PREFIX(ID) trum_contact_winkler_ ## ID
-#endif
+#include <stddef.h>
 
-#include <math.h>
+#include "trum_kernels.h"
 
-#ifndef casadi_real
-#define casadi_real double
-#endif
-
-#ifndef casadi_int
-#define casadi_int long long int
-#endif
-
-/* Add prefix to internal symbols */
-#define casadi_f0 CASADI_PREFIX(f0)
-#define casadi_fmin CASADI_PREFIX(fmin)
-#define casadi_s0 CASADI_PREFIX(s0)
-#define casadi_sq CASADI_PREFIX(sq)
-
-/* Symbol visibility in DLLs */
-#ifndef CASADI_SYMBOL_EXPORT
-  #if defined(_WIN32) || defined(__WIN32__) || defined(__CYGWIN__)
-    #if defined(STATIC_LINKED)
-      #define CASADI_SYMBOL_EXPORT
-    #else
-      #define CASADI_SYMBOL_EXPORT __declspec(dllexport)
-    #endif
-  #elif defined(__GNUC__) && defined(GCC_HASCLASSVISIBILITY)
-    #define CASADI_SYMBOL_EXPORT __attribute__ ((visibility ("default")))
-  #else
-    #define CASADI_SYMBOL_EXPORT
-  #endif
-#endif
-
-casadi_real casadi_sq(casadi_real x) { return x*x;}
-
-casadi_real casadi_fmin(casadi_real x, casadi_real y) {
-/* Pre-c99 compatibility */
-#if __STDC_VERSION__ < 199901L
-  return x<y ? x : y;
-#else
-  return fmin(x, y);
-#endif
-}
-
-/* Configuration this file was compiled with */
-CASADI_SYMBOL_EXPORT void trum_contact_winkler_casadi_version(int* major, int* minor, int* patch) {
-  *major = 3;
-  *minor = 8;
-  *patch = 2;
-}
-CASADI_SYMBOL_EXPORT int trum_contact_winkler_casadi_int_size(void) { return (int) sizeof(casadi_int); }
-CASADI_SYMBOL_EXPORT int trum_contact_winkler_casadi_real_size(void) { return (int) sizeof(casadi_real); }
-
-static const casadi_int casadi_s0[3] = {1, 1, 1};
-
-/* trum_contact_winkler:(fullness,fullness_root)->(theta,sin_theta,share) */
-static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
-  (void)iw, (void)w, (void)mem;
-  casadi_real a0, a1, a2, a3, a4, a5, a6, a7, a8, a9;
-  a0=(casadi_real)3.1415926535897931e+00;
-  a1=(casadi_real)1.;
-  a2=arg[0]? arg[0][0] : 0;
-  a1=(a1-a2);
-  a1=sqrt(a1);
-  a3=(casadi_real)3.8096815406274533e+00;
-  a4=(casadi_real)8.6811867755963057e-01;
-  a5=arg[1]? arg[1][0] : 0;
-  a6=casadi_sq(a5);
-  a4=(a4*a6);
-  a3=(a3+a4);
-  a4=(casadi_real)9.3928543567875100e-01;
-  a7=(a5*a6);
-  a4=(a4*a7);
-  a3=(a3+a4);
-  a4=(casadi_real)1.7449649747820717e+00;
-  a4=(a4*a5);
-  a7=(casadi_real)6.6808888230630159e-01;
-  a4=(a4-a7);
-  a7=(casadi_real)8.6805554367516102e-01;
-  a7=(a7*a6);
-  a4=(a4-a7);
-  a4=(a1*a4);
-  a3=(a3+a4);
-  a4=(casadi_real)3.8572952340266262e+00;
-  a4=(a4*a5);
-  a3=(a3-a4);
-  a4=(casadi_real)3.4551510817602071e-01;
-  a6=casadi_sq(a6);
-  a4=(a4*a6);
-  a3=(a3-a4);
-  a1=(a1*a3);
-  a3=(a0-a1);
-  a4=sin(a1);
-  a6=(a4*a3);
-  a5=((casadi_real)2.*a4);
-  a7=cos(a1);
-  a8=((casadi_real)2.*a7);
-  a8=(a8*a3);
-  a5=(a5+a8);
-  a8=(casadi_real)6.2831853071795862e+00;
-  a8=(a8*a2);
-  a5=(a5-a8);
-  a6=(a6*a5);
-  a5=(casadi_real)1.0000000000000001e-37;
-  a8=casadi_sq(a4);
-  a8=((casadi_real)2.*a8);
-  a9=casadi_sq(a3);
-  a8=(a8*a9);
-  a5=(a5+a8);
-  a8=(a7*a3);
-  a9=(a4-a8);
-  a8=(a4+a8);
-  a2=(a0*a2);
-  a8=(a8-a2);
-  a9=(a9*a8);
-  a5=(a5-a9);
-  a6=(a6/a5);
-  a3=(a3-a6);
-  a3=casadi_fmin(a0,a3);
-  if (res[0]!=0) res[0][0]=a3;
-  a1=(a1+a3);
-  a1=(a1-a0);
-  a0=(a4*a1);
-  a3=(casadi_real)2.;
-  a0=(a0/a3);
-  a0=(a7+a0);
-  a0=(a1*a0);
-  a0=(a4-a0);
-  if (res[1]!=0) res[1][0]=a0;
-  a0=(a7*a1);
-  a0=(a0/a3);
-  a4=(a4-a0);
-  a1=(a1*a4);
-  a7=(a7+a1);
-  a7=(a7/a2);
-  if (res[2]!=0) res[2][0]=a7;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_contact_winkler(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem){
-  return casadi_f0(arg, res, iw, w, mem);
-}
-
-CASADI_SYMBOL_EXPORT int trum_contact_winkler_checkout(void) {
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT void trum_contact_winkler_release(int mem) {
+int trum_contact_winkler(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem)
+{
+  trum_real a0;
+  trum_real a1;
+  trum_real a2;
+  trum_real a3;
+  trum_real a4;
+  trum_real a5;
+  trum_real a6;
+  trum_real a7;
+  trum_real a8;
+  trum_real a9;
+  (void)iw;
+  (void)w;
   (void)mem;
-}
-
-CASADI_SYMBOL_EXPORT void trum_contact_winkler_incref(void) {
-}
-
-CASADI_SYMBOL_EXPORT void trum_contact_winkler_decref(void) {
-}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_contact_winkler_n_in(void) { return 2;}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_contact_winkler_n_out(void) { return 3;}
-
-CASADI_SYMBOL_EXPORT casadi_real trum_contact_winkler_default_in(casadi_int i) {
-  switch (i) {
-    default: return 0;
+  a0 = TRUM_C(3.141592653589793);
+  a1 = TRUM_C(1.0);
+  a2 = (arg[0] != NULL) ? arg[0][0] : TRUM_C(0.0);
+  a1 = a1 - a2;
+  a1 = trum_sqrt(a1);
+  a3 = TRUM_C(3.8096815406274533);
+  a4 = TRUM_C(0.8681186775596306);
+  a5 = (arg[1] != NULL) ? arg[1][0] : TRUM_C(0.0);
+  a6 = a5 * a5;
+  a4 = a4 * a6;
+  a3 = a3 + a4;
+  a4 = TRUM_C(0.939285435678751);
+  a7 = a5 * a6;
+  a4 = a4 * a7;
+  a3 = a3 + a4;
+  a4 = TRUM_C(1.7449649747820717);
+  a4 = a4 * a5;
+  a7 = TRUM_C(0.6680888823063016);
+  a4 = a4 - a7;
+  a7 = TRUM_C(0.868055543675161);
+  a7 = a7 * a6;
+  a4 = a4 - a7;
+  a4 = a1 * a4;
+  a3 = a3 + a4;
+  a4 = TRUM_C(3.857295234026626);
+  a4 = a4 * a5;
+  a3 = a3 - a4;
+  a4 = TRUM_C(0.3455151081760207);
+  a6 = a6 * a6;
+  a4 = a4 * a6;
+  a3 = a3 - a4;
+  a1 = a1 * a3;
+  a3 = a0 - a1;
+  a4 = trum_sin(a1);
+  a6 = a4 * a3;
+  a5 = TRUM_C(2.0) * a4;
+  a7 = trum_cos(a1);
+  a8 = TRUM_C(2.0) * a7;
+  a8 = a8 * a3;
+  a5 = a5 + a8;
+  a8 = TRUM_C(6.283185307179586);
+  a8 = a8 * a2;
+  a5 = a5 - a8;
+  a6 = a6 * a5;
+  a5 = TRUM_C(1e-37);
+  a8 = a4 * a4;
+  a8 = TRUM_C(2.0) * a8;
+  a9 = a3 * a3;
+  a8 = a8 * a9;
+  a5 = a5 + a8;
+  a8 = a7 * a3;
+  a9 = a4 - a8;
+  a8 = a4 + a8;
+  a2 = a0 * a2;
+  a8 = a8 - a2;
+  a9 = a9 * a8;
+  a5 = a5 - a9;
+  a6 = a6 / a5;
+  a3 = a3 - a6;
+  a3 = trum_fmin(a0, a3);
+  if (res[0] != NULL) {
+    res[0][0] = a3;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_contact_winkler_name_in(casadi_int i) {
-  switch (i) {
-    case 0: return "fullness";
-    case 1: return "fullness_root";
-    default: return 0;
+  a1 = a1 + a3;
+  a1 = a1 - a0;
+  a0 = a4 * a1;
+  a3 = TRUM_C(2.0);
+  a0 = a0 / a3;
+  a0 = a7 + a0;
+  a0 = a1 * a0;
+  a0 = a4 - a0;
+  if (res[1] != NULL) {
+    res[1][0] = a0;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_contact_winkler_name_out(casadi_int i) {
-  switch (i) {
-    case 0: return "theta";
-    case 1: return "sin_theta";
-    case 2: return "share";
-    default: return 0;
+  a0 = a7 * a1;
+  a0 = a0 / a3;
+  a4 = a4 - a0;
+  a1 = a1 * a4;
+  a7 = a7 + a1;
+  a7 = a7 / a2;
+  if (res[2] != NULL) {
+    res[2][0] = a7;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_contact_winkler_sparsity_in(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    default: return 0;
-  }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_contact_winkler_sparsity_out(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    default: return 0;
-  }
-}
-
-CASADI_SYMBOL_EXPORT int trum_contact_winkler_work(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 2;
-  if (sz_res) *sz_res = 3;
-  if (sz_iw) *sz_iw = 0;
-  if (sz_w) *sz_w = 0;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_contact_winkler_work_bytes(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 2*sizeof(const casadi_real*);
-  if (sz_res) *sz_res = 3*sizeof(casadi_real*);
-  if (sz_iw) *sz_iw = 0*sizeof(casadi_int);
-  if (sz_w) *sz_w = 0*sizeof(casadi_real);
   return 0;
 }

@@ -10,145 +10,30 @@
  *
  * 3 operations: 1 add, 1 div, 1 mul
  */
-/* How to prefix internal symbols */
-#ifdef CASADI_CODEGEN_PREFIX
-  #define CASADI_NAMESPACE_CONCAT(NS, ID) _CASADI_NAMESPACE_CONCAT(NS, ID)
-  #define _CASADI_NAMESPACE_CONCAT(NS, ID) NS ## ID
-  #define CASADI_PREFIX(ID) CASADI_NAMESPACE_CONCAT(CODEGEN_PREFIX, ID)
-#else
-  #define CASADI_PREFIX(ID) trum_drive_ ## ID
-#endif
+#include <stddef.h>
 
-#include <math.h>
+#include "trum_kernels.h"
 
-#ifndef casadi_real
-#define casadi_real double
-#endif
-
-#ifndef casadi_int
-#define casadi_int long long int
-#endif
-
-/* Add prefix to internal symbols */
-#define casadi_f0 CASADI_PREFIX(f0)
-#define casadi_s0 CASADI_PREFIX(s0)
-
-/* Symbol visibility in DLLs */
-#ifndef CASADI_SYMBOL_EXPORT
-  #if defined(_WIN32) || defined(__WIN32__) || defined(__CYGWIN__)
-    #if defined(STATIC_LINKED)
-      #define CASADI_SYMBOL_EXPORT
-    #else
-      #define CASADI_SYMBOL_EXPORT __declspec(dllexport)
-    #endif
-  #elif defined(__GNUC__) && defined(GCC_HASCLASSVISIBILITY)
-    #define CASADI_SYMBOL_EXPORT __attribute__ ((visibility ("default")))
-  #else
-    #define CASADI_SYMBOL_EXPORT
-  #endif
-#endif
-
-/* Configuration this file was compiled with */
-CASADI_SYMBOL_EXPORT void trum_drive_casadi_version(int* major, int* minor, int* patch) {
-  *major = 3;
-  *minor = 8;
-  *patch = 2;
-}
-CASADI_SYMBOL_EXPORT int trum_drive_casadi_int_size(void) { return (int) sizeof(casadi_int); }
-CASADI_SYMBOL_EXPORT int trum_drive_casadi_real_size(void) { return (int) sizeof(casadi_real); }
-
-static const casadi_int casadi_s0[3] = {1, 1, 1};
-
-/* trum_drive:(Delta_omega,m,omega_n)->(omega_q,T) */
-static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
-  (void)iw, (void)w, (void)mem;
-  casadi_real a0, a1, a2;
-  a0=arg[0]? arg[0][0] : 0;
-  a1=arg[2]? arg[2][0] : 0;
-  a0=(a0+a1);
-  if (res[0]!=0) res[0][0]=a0;
-  a1=(casadi_real)6.2831853071795862e+00;
-  a2=arg[1]? arg[1][0] : 0;
-  a1=(a1*a2);
-  a1=(a1/a0);
-  if (res[1]!=0) res[1][0]=a1;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_drive(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem){
-  return casadi_f0(arg, res, iw, w, mem);
-}
-
-CASADI_SYMBOL_EXPORT int trum_drive_checkout(void) {
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT void trum_drive_release(int mem) {
+int trum_drive(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem)
+{
+  trum_real a0;
+  trum_real a1;
+  trum_real a2;
+  (void)iw;
+  (void)w;
   (void)mem;
-}
-
-CASADI_SYMBOL_EXPORT void trum_drive_incref(void) {
-}
-
-CASADI_SYMBOL_EXPORT void trum_drive_decref(void) {
-}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_drive_n_in(void) { return 3;}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_drive_n_out(void) { return 2;}
-
-CASADI_SYMBOL_EXPORT casadi_real trum_drive_default_in(casadi_int i) {
-  switch (i) {
-    default: return 0;
+  a0 = (arg[0] != NULL) ? arg[0][0] : TRUM_C(0.0);
+  a1 = (arg[2] != NULL) ? arg[2][0] : TRUM_C(0.0);
+  a0 = a0 + a1;
+  if (res[0] != NULL) {
+    res[0][0] = a0;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_drive_name_in(casadi_int i) {
-  switch (i) {
-    case 0: return "Delta_omega";
-    case 1: return "m";
-    case 2: return "omega_n";
-    default: return 0;
+  a1 = TRUM_C(6.283185307179586);
+  a2 = (arg[1] != NULL) ? arg[1][0] : TRUM_C(0.0);
+  a1 = a1 * a2;
+  a1 = a1 / a0;
+  if (res[1] != NULL) {
+    res[1][0] = a1;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_drive_name_out(casadi_int i) {
-  switch (i) {
-    case 0: return "omega_q";
-    case 1: return "T";
-    default: return 0;
-  }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_drive_sparsity_in(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    default: return 0;
-  }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_drive_sparsity_out(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    default: return 0;
-  }
-}
-
-CASADI_SYMBOL_EXPORT int trum_drive_work(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 3;
-  if (sz_res) *sz_res = 2;
-  if (sz_iw) *sz_iw = 0;
-  if (sz_w) *sz_w = 0;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_drive_work_bytes(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 3*sizeof(const casadi_real*);
-  if (sz_res) *sz_res = 2*sizeof(casadi_real*);
-  if (sz_iw) *sz_iw = 0*sizeof(casadi_int);
-  if (sz_w) *sz_w = 0*sizeof(casadi_real);
   return 0;
 }

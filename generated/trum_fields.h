@@ -2,67 +2,69 @@
 #ifndef TRUM_FIELDS_H
 #define TRUM_FIELDS_H
 
+#include "trum_math.h"
+
 /* field, symbol, SI unit, lowest, highest, is the lowest excluded, the highest, must it be an integer,
  * must it be given: where not, 0 stands for a value that the model is to find */
 #define TRUM_MOTOR_FIELDS(X) \
-  X(radius, R, "m", 0.0, 10.0, 1, 1, 0, 1) \
-  X(tooth_count, n_s, "1", 1.0, HUGE_VAL, 0, 1, 1, 1) \
-  X(perimeter, l_s, "m", 0.0, 10.0, 1, 1, 0, 1) \
-  X(slot_width, b_s, "m", 0.0, 10.0, 1, 1, 0, 1) \
-  X(beam_width, b_e, "m", 0.0, 10.0, 1, 1, 0, 1) \
-  X(beam_thickness, h_e, "m", 0.0, 10.0, 1, 1, 0, 1) \
-  X(tooth_height, h_t, "m", 0.0, 10.0, 1, 1, 0, 1) \
-  X(beam_density, rho_e, "kg/m^3", 0.0, HUGE_VAL, 1, 1, 0, 1) \
-  X(beam_young_modulus, E_e, "Pa", 0.0, HUGE_VAL, 1, 1, 0, 1) \
-  X(beam_shear_modulus, G_e, "Pa", 0.0, HUGE_VAL, 1, 1, 0, 1) \
-  X(beam_poisson_ratio, mu_e, "1", -1.0, 0.5, 1, 0, 0, 1) \
-  X(piezo_width, b_p, "m", 0.0, 10.0, 1, 1, 0, 1) \
-  X(piezo_thickness, h_p, "m", 0.0, 10.0, 1, 1, 0, 1) \
-  X(piezo_density, rho_p, "kg/m^3", 0.0, HUGE_VAL, 1, 1, 0, 1) \
-  X(piezo_young_modulus, E_p, "Pa", 0.0, HUGE_VAL, 1, 1, 0, 1) \
-  X(piezo_shear_modulus, G_p, "Pa", 0.0, HUGE_VAL, 1, 1, 0, 1) \
-  X(piezo_poisson_ratio, mu_p, "1", -1.0, 0.5, 1, 0, 0, 1) \
-  X(piezo_strain_constant, d_31, "C/N", -HUGE_VAL, HUGE_VAL, 1, 1, 0, 1) \
-  X(piezo_compliance, s_11E, "m^2/N", 0.0, HUGE_VAL, 1, 1, 0, 1) \
-  X(voltage, U_s, "V", 0.0, HUGE_VAL, 1, 1, 0, 1) \
-  X(layer_width, b_m, "m", 0.0, 10.0, 1, 1, 0, 1) \
-  X(layer_thickness, h_m, "m", 0.0, 10.0, 1, 1, 0, 1) \
-  X(layer_density, rho_m, "kg/m^3", 0.0, HUGE_VAL, 1, 1, 0, 1) \
-  X(layer_young_modulus, E_m, "Pa", 0.0, HUGE_VAL, 1, 1, 0, 1) \
-  X(layer_poisson_ratio, mu_m, "1", -1.0, 0.5, 1, 0, 0, 1) \
-  X(crests, n_j, "1", 1.0, HUGE_VAL, 0, 1, 1, 1) \
-  X(shear_correction, kappa, "1", 0.0, 1.0, 1, 0, 0, 1) \
-  X(damping_ratio, xi, "1", 0.0, 1.0, 0, 1, 0, 1) \
-  X(free_amplitude, W_max, "m", 0.0, 0.01, 1, 1, 0, 1) \
-  X(amplitude_factor, C_f, "1", 0.0, HUGE_VAL, 1, 1, 0, 1) \
-  X(amplitude_exponent, varsigma, "1", 0.0, HUGE_VAL, 0, 1, 0, 1) \
-  X(fit_prepressure_min, F_min, "N", 0.0, HUGE_VAL, 1, 1, 0, 1) \
-  X(fit_prepressure_max, F_max, "N", 0.0, HUGE_VAL, 1, 1, 0, 1) \
-  X(friction_coefficient, mu, "1", 0.0, HUGE_VAL, 0, 1, 0, 1) \
-  X(contact_radius, r_c, "m", 0.0, 10.0, 1, 1, 0, 1) \
-  X(curvature_radius, r_t, "m", 0.0, 10.0, 1, 1, 0, 1) \
-  X(rotor_inertia, J, "kg*m^2", 1e-15, 1000000.0, 1, 1, 0, 1) \
-  X(resonance_frequency, f_n, "Hz", 0.0, 1000000000.0, 1, 1, 0, 0) \
-  X(amplitude, W_maxf, "m", 0.0, 0.01, 1, 1, 0, 0) \
-  X(neutral_axis, D, "m", 0.0, 10.0, 1, 1, 0, 0) \
-  X(wavenumber, k_c, "1/m", 0.0, HUGE_VAL, 1, 1, 0, 0) \
-  X(layer_stiffness, k_N, "N/m^2", 0.0, HUGE_VAL, 1, 1, 0, 0) \
-  X(contact_stiffness, k_con, "N/m^2", 0.0, HUGE_VAL, 1, 1, 0, 0) \
-  X(tangential_stiffness, k_T, "N/m^2", 0.0, HUGE_VAL, 1, 1, 0, 0) \
-  X(flange_thickness, h_f, "m", 0.0, 10.0, 1, 1, 0, 0) \
-  X(flange_length, l_f, "m", 0.0, 10.0, 1, 1, 0, 0) \
-  X(flange_young_modulus, E_f, "Pa", 0.0, HUGE_VAL, 1, 1, 0, 0) \
-  X(flange_poisson_ratio, mu_f, "1", 0.0, 0.5, 1, 0, 0, 0)
+  X(radius, R, "m", TRUM_C(0.0), TRUM_C(10.0), 1, 1, 0, 1) \
+  X(tooth_count, n_s, "1", TRUM_C(1.0), TRUM_HUGE, 0, 1, 1, 1) \
+  X(perimeter, l_s, "m", TRUM_C(0.0), TRUM_C(10.0), 1, 1, 0, 1) \
+  X(slot_width, b_s, "m", TRUM_C(0.0), TRUM_C(10.0), 1, 1, 0, 1) \
+  X(beam_width, b_e, "m", TRUM_C(0.0), TRUM_C(10.0), 1, 1, 0, 1) \
+  X(beam_thickness, h_e, "m", TRUM_C(0.0), TRUM_C(10.0), 1, 1, 0, 1) \
+  X(tooth_height, h_t, "m", TRUM_C(0.0), TRUM_C(10.0), 1, 1, 0, 1) \
+  X(beam_density, rho_e, "kg/m^3", TRUM_C(0.0), TRUM_HUGE, 1, 1, 0, 1) \
+  X(beam_young_modulus, E_e, "Pa", TRUM_C(0.0), TRUM_HUGE, 1, 1, 0, 1) \
+  X(beam_shear_modulus, G_e, "Pa", TRUM_C(0.0), TRUM_HUGE, 1, 1, 0, 1) \
+  X(beam_poisson_ratio, mu_e, "1", TRUM_C(-1.0), TRUM_C(0.5), 1, 0, 0, 1) \
+  X(piezo_width, b_p, "m", TRUM_C(0.0), TRUM_C(10.0), 1, 1, 0, 1) \
+  X(piezo_thickness, h_p, "m", TRUM_C(0.0), TRUM_C(10.0), 1, 1, 0, 1) \
+  X(piezo_density, rho_p, "kg/m^3", TRUM_C(0.0), TRUM_HUGE, 1, 1, 0, 1) \
+  X(piezo_young_modulus, E_p, "Pa", TRUM_C(0.0), TRUM_HUGE, 1, 1, 0, 1) \
+  X(piezo_shear_modulus, G_p, "Pa", TRUM_C(0.0), TRUM_HUGE, 1, 1, 0, 1) \
+  X(piezo_poisson_ratio, mu_p, "1", TRUM_C(-1.0), TRUM_C(0.5), 1, 0, 0, 1) \
+  X(piezo_strain_constant, d_31, "C/N", -TRUM_HUGE, TRUM_HUGE, 1, 1, 0, 1) \
+  X(piezo_compliance, s_11E, "m^2/N", TRUM_C(0.0), TRUM_HUGE, 1, 1, 0, 1) \
+  X(voltage, U_s, "V", TRUM_C(0.0), TRUM_HUGE, 1, 1, 0, 1) \
+  X(layer_width, b_m, "m", TRUM_C(0.0), TRUM_C(10.0), 1, 1, 0, 1) \
+  X(layer_thickness, h_m, "m", TRUM_C(0.0), TRUM_C(10.0), 1, 1, 0, 1) \
+  X(layer_density, rho_m, "kg/m^3", TRUM_C(0.0), TRUM_HUGE, 1, 1, 0, 1) \
+  X(layer_young_modulus, E_m, "Pa", TRUM_C(0.0), TRUM_HUGE, 1, 1, 0, 1) \
+  X(layer_poisson_ratio, mu_m, "1", TRUM_C(-1.0), TRUM_C(0.5), 1, 0, 0, 1) \
+  X(crests, n_j, "1", TRUM_C(1.0), TRUM_HUGE, 0, 1, 1, 1) \
+  X(shear_correction, kappa, "1", TRUM_C(0.0), TRUM_C(1.0), 1, 0, 0, 1) \
+  X(damping_ratio, xi, "1", TRUM_C(0.0), TRUM_C(1.0), 0, 1, 0, 1) \
+  X(free_amplitude, W_max, "m", TRUM_C(0.0), TRUM_C(0.01), 1, 1, 0, 1) \
+  X(amplitude_factor, C_f, "1", TRUM_C(0.0), TRUM_HUGE, 1, 1, 0, 1) \
+  X(amplitude_exponent, varsigma, "1", TRUM_C(0.0), TRUM_HUGE, 0, 1, 0, 1) \
+  X(fit_prepressure_min, F_min, "N", TRUM_C(0.0), TRUM_HUGE, 1, 1, 0, 1) \
+  X(fit_prepressure_max, F_max, "N", TRUM_C(0.0), TRUM_HUGE, 1, 1, 0, 1) \
+  X(friction_coefficient, mu, "1", TRUM_C(0.0), TRUM_HUGE, 0, 1, 0, 1) \
+  X(contact_radius, r_c, "m", TRUM_C(0.0), TRUM_C(10.0), 1, 1, 0, 1) \
+  X(curvature_radius, r_t, "m", TRUM_C(0.0), TRUM_C(10.0), 1, 1, 0, 1) \
+  X(rotor_inertia, J, "kg*m^2", TRUM_C(1e-15), TRUM_C(1000000.0), 1, 1, 0, 1) \
+  X(resonance_frequency, f_n, "Hz", TRUM_C(0.0), TRUM_C(1000000000.0), 1, 1, 0, 0) \
+  X(amplitude, W_maxf, "m", TRUM_C(0.0), TRUM_C(0.01), 1, 1, 0, 0) \
+  X(neutral_axis, D, "m", TRUM_C(0.0), TRUM_C(10.0), 1, 1, 0, 0) \
+  X(wavenumber, k_c, "1/m", TRUM_C(0.0), TRUM_HUGE, 1, 1, 0, 0) \
+  X(layer_stiffness, k_N, "N/m^2", TRUM_C(0.0), TRUM_HUGE, 1, 1, 0, 0) \
+  X(contact_stiffness, k_con, "N/m^2", TRUM_C(0.0), TRUM_HUGE, 1, 1, 0, 0) \
+  X(tangential_stiffness, k_T, "N/m^2", TRUM_C(0.0), TRUM_HUGE, 1, 1, 0, 0) \
+  X(flange_thickness, h_f, "m", TRUM_C(0.0), TRUM_C(10.0), 1, 1, 0, 0) \
+  X(flange_length, l_f, "m", TRUM_C(0.0), TRUM_C(10.0), 1, 1, 0, 0) \
+  X(flange_young_modulus, E_f, "Pa", TRUM_C(0.0), TRUM_HUGE, 1, 1, 0, 0) \
+  X(flange_poisson_ratio, mu_f, "1", TRUM_C(0.0), TRUM_C(0.5), 1, 0, 0, 0)
 #define TRUM_DRIVE_FIELDS(X) \
-  X(prepressure, F_c, "N", 0.0, 1000000.0, 1, 1, 0, 1) \
-  X(frequency_difference, Delta_f, "Hz", -1000000000.0, 1000000000.0, 1, 1, 0, 1) \
-  X(periods, m, "1", 1.0, 10000.0, 0, 0, 1, 1) \
-  X(on_periods, n, "1", 1.0, 10000.0, 0, 0, 1, 1) \
-  X(load_torque, T_load, "N*m", -1000000000.0, 1000000000.0, 1, 1, 0, 1) \
-  X(load_inertia, J_load, "kg*m^2", 0.0, 1000000.0, 0, 1, 0, 1) \
-  X(load_radius, r_s, "m", 0.0, 10.0, 0, 1, 0, 1) \
-  X(switching_phase, psi, "rad", -1000000.0, 1000000.0, 1, 1, 0, 1) \
-  X(phase_lead, s, "1", -1.0, 1.0, 0, 0, 0, 1)
+  X(prepressure, F_c, "N", TRUM_C(0.0), TRUM_C(1000000.0), 1, 1, 0, 1) \
+  X(frequency_difference, Delta_f, "Hz", TRUM_C(-1000000000.0), TRUM_C(1000000000.0), 1, 1, 0, 1) \
+  X(periods, m, "1", TRUM_C(1.0), TRUM_C(10000.0), 0, 0, 1, 1) \
+  X(on_periods, n, "1", TRUM_C(1.0), TRUM_C(10000.0), 0, 0, 1, 1) \
+  X(load_torque, T_load, "N*m", TRUM_C(-1000000000.0), TRUM_C(1000000000.0), 1, 1, 0, 1) \
+  X(load_inertia, J_load, "kg*m^2", TRUM_C(0.0), TRUM_C(1000000.0), 0, 1, 0, 1) \
+  X(load_radius, r_s, "m", TRUM_C(0.0), TRUM_C(10.0), 0, 1, 0, 1) \
+  X(switching_phase, psi, "rad", TRUM_C(-1000000.0), TRUM_C(1000000.0), 1, 1, 0, 1) \
+  X(phase_lead, s, "1", TRUM_C(-1.0), TRUM_C(1.0), 0, 0, 0, 1)
 /* figure, SI unit */
 #define TRUM_FIGURES(X) \
   X(resonance_frequency, "Hz") \
@@ -104,5 +106,47 @@ enum { TRUM_FOUNDATION_HARMONIC, TRUM_FOUNDATION_SMEARED, TRUM_FOUNDATION_PRINTE
 enum { TRUM_AMPLITUDE_MEASURED, TRUM_AMPLITUDE_FORCED };
 enum { TRUM_COMPLIANCE_LAYER, TRUM_COMPLIANCE_FLANGE };
 enum { TRUM_TANGENTIAL_RIGID, TRUM_TANGENTIAL_BRUSH };
+
+/* a drive's choice; one that a build has fixed, -DTRUM_FIXED_CONTACT=0 and so on, is a constant */
+#ifdef TRUM_FIXED_START
+#define TRUM_LEVEL_start(drive) ((void)(drive), TRUM_FIXED_START)
+#else
+#define TRUM_LEVEL_start(drive) ((drive)->start)
+#endif
+#ifdef TRUM_FIXED_LOAD
+#define TRUM_LEVEL_load(drive) ((void)(drive), TRUM_FIXED_LOAD)
+#else
+#define TRUM_LEVEL_load(drive) ((drive)->load)
+#endif
+#ifdef TRUM_FIXED_CONTACT
+#define TRUM_LEVEL_contact(drive) ((void)(drive), TRUM_FIXED_CONTACT)
+#else
+#define TRUM_LEVEL_contact(drive) ((drive)->contact)
+#endif
+#ifdef TRUM_FIXED_RESONANCE
+#define TRUM_LEVEL_resonance(drive) ((void)(drive), TRUM_FIXED_RESONANCE)
+#else
+#define TRUM_LEVEL_resonance(drive) ((drive)->resonance)
+#endif
+#ifdef TRUM_FIXED_FOUNDATION
+#define TRUM_LEVEL_foundation(drive) ((void)(drive), TRUM_FIXED_FOUNDATION)
+#else
+#define TRUM_LEVEL_foundation(drive) ((drive)->foundation)
+#endif
+#ifdef TRUM_FIXED_AMPLITUDE
+#define TRUM_LEVEL_amplitude(drive) ((void)(drive), TRUM_FIXED_AMPLITUDE)
+#else
+#define TRUM_LEVEL_amplitude(drive) ((drive)->amplitude)
+#endif
+#ifdef TRUM_FIXED_COMPLIANCE
+#define TRUM_LEVEL_compliance(drive) ((void)(drive), TRUM_FIXED_COMPLIANCE)
+#else
+#define TRUM_LEVEL_compliance(drive) ((drive)->compliance)
+#endif
+#ifdef TRUM_FIXED_TANGENTIAL
+#define TRUM_LEVEL_tangential(drive) ((void)(drive), TRUM_FIXED_TANGENTIAL)
+#else
+#define TRUM_LEVEL_tangential(drive) ((drive)->tangential)
+#endif
 
 #endif

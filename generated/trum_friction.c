@@ -18,295 +18,158 @@
  *
  * 88 operations: 26 mul, 18 sub, 16 add, 9 lt, 6 twice, 3 fabs, 3 fmax, 2 div, 1 atan2, 1 fmin, 1 neg, 1 sq, 1 sqrt
  */
-/* How to prefix internal symbols */
-#ifdef CASADI_CODEGEN_PREFIX
-  #define CASADI_NAMESPACE_CONCAT(NS, ID) _CASADI_NAMESPACE_CONCAT(NS, ID)
-  #define _CASADI_NAMESPACE_CONCAT(NS, ID) NS ## ID
-  #define CASADI_PREFIX(ID) CASADI_NAMESPACE_CONCAT(CODEGEN_PREFIX, ID)
-#else
-  #define CASADI_PREFIX(ID) trum_friction_ ## ID
-#endif
+#include <stddef.h>
 
-#include <math.h>
+#include "trum_kernels.h"
 
-#ifndef casadi_real
-#define casadi_real double
-#endif
-
-#ifndef casadi_int
-#define casadi_int long long int
-#endif
-
-/* Add prefix to internal symbols */
-#define casadi_f0 CASADI_PREFIX(f0)
-#define casadi_fabs CASADI_PREFIX(fabs)
-#define casadi_fmax CASADI_PREFIX(fmax)
-#define casadi_fmin CASADI_PREFIX(fmin)
-#define casadi_s0 CASADI_PREFIX(s0)
-#define casadi_sq CASADI_PREFIX(sq)
-
-/* Symbol visibility in DLLs */
-#ifndef CASADI_SYMBOL_EXPORT
-  #if defined(_WIN32) || defined(__WIN32__) || defined(__CYGWIN__)
-    #if defined(STATIC_LINKED)
-      #define CASADI_SYMBOL_EXPORT
-    #else
-      #define CASADI_SYMBOL_EXPORT __declspec(dllexport)
-    #endif
-  #elif defined(__GNUC__) && defined(GCC_HASCLASSVISIBILITY)
-    #define CASADI_SYMBOL_EXPORT __attribute__ ((visibility ("default")))
-  #else
-    #define CASADI_SYMBOL_EXPORT
-  #endif
-#endif
-
-casadi_real casadi_fmin(casadi_real x, casadi_real y) {
-/* Pre-c99 compatibility */
-#if __STDC_VERSION__ < 199901L
-  return x<y ? x : y;
-#else
-  return fmin(x, y);
-#endif
-}
-
-casadi_real casadi_fmax(casadi_real x, casadi_real y) {
-/* Pre-c99 compatibility */
-#if __STDC_VERSION__ < 199901L
-  return x>y ? x : y;
-#else
-  return fmax(x, y);
-#endif
-}
-
-casadi_real casadi_sq(casadi_real x) { return x*x;}
-
-casadi_real casadi_fabs(casadi_real x) {
-/* Pre-c99 compatibility */
-#if __STDC_VERSION__ < 199901L
-  return x>0 ? x : -x;
-#else
-  return fabs(x);
-#endif
-}
-
-/* Configuration this file was compiled with */
-CASADI_SYMBOL_EXPORT void trum_friction_casadi_version(int* major, int* minor, int* patch) {
-  *major = 3;
-  *minor = 8;
-  *patch = 2;
-}
-CASADI_SYMBOL_EXPORT int trum_friction_casadi_int_size(void) { return (int) sizeof(casadi_int); }
-CASADI_SYMBOL_EXPORT int trum_friction_casadi_real_size(void) { return (int) sizeof(casadi_real); }
-
-static const casadi_int casadi_s0[3] = {1, 1, 1};
-
-/* trum_friction:(R_v,cos_phi,engagement,phi,share,sin_phi,sin_theta,theta,v)->(f,f_v,p_1,p_2) */
-static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
-  (void)iw, (void)w, (void)mem;
-  casadi_real a00, a01, a02, a03, a04, a05, a06, a07, a08, a09, a10, a11;
-  casadi_real a12, a13, a14, a15, a16, a17, a18, a19, a20, a21, a22, a23;
-  casadi_real a24, a25, a26, a27;
-  a00=(casadi_real)3.1415926535897931e+00;
-  a01=arg[3]? arg[3][0] : 0;
-  a02=(casadi_real)1.;
-  a03=(casadi_real)-1.;
-  a04=arg[8]? arg[8][0] : 0;
-  a05=arg[0]? arg[0][0] : 0;
-  a06=(casadi_real)1.0000000000000001e-37;
-  a07=(a05+a06);
-  a07=(a04/a07);
-  a07=casadi_fmin(a02,a07);
-  a03=casadi_fmax(a03,a07);
-  a07=casadi_sq(a03);
-  a07=(a02-a07);
-  a07=sqrt(a07);
-  a08=atan2(a07,a03);
-  a09=(a01+a08);
-  a10=(a00<a09);
-  a11=((casadi_real)2.*a10);
-  a12=(a01-a08);
-  a13=(casadi_real)-3.1415926535897931e+00;
-  a14=(a12<a13);
-  a15=((casadi_real)2.*a14);
-  a11=(a11+a15);
-  a15=arg[2]? arg[2][0] : 0;
-  a16=arg[5]? arg[5][0] : 0;
-  a17=(a16*a03);
-  a18=arg[1]? arg[1][0] : 0;
-  a19=(a18*a07);
-  a20=(a17+a19);
-  a21=(casadi_real)6.2831853071795862e+00;
-  a13=(a09<a13);
-  a10=(a10-a13);
-  a10=(a21*a10);
-  a09=(a09-a10);
-  a10=casadi_fabs(a09);
-  a22=arg[7]? arg[7][0] : 0;
-  a10=(a10<a22);
-  a20=(a20*a10);
-  a23=arg[6]? arg[6][0] : 0;
-  a24=(casadi_real)0.;
-  a25=(a24<a09);
-  a25=((casadi_real)2.*a25);
-  a25=(a25-a02);
-  a26=(a23*a25);
-  a27=(a02-a10);
-  a26=(a26*a27);
-  a20=(a20+a26);
-  a20=(a15*a20);
-  a11=(a11+a20);
-  a20=arg[4]? arg[4][0] : 0;
-  a09=(a09*a10);
-  a25=(a22*a25);
-  a25=(a25*a27);
-  a09=(a09+a25);
-  a09=(a20*a09);
-  a11=(a11+a09);
-  a11=(a11-a02);
-  a00=(a00<a12);
-  a09=((casadi_real)2.*a00);
-  a11=(a11-a09);
-  a13=((casadi_real)2.*a13);
-  a11=(a11-a13);
-  a17=(a17-a19);
-  a00=(a00-a14);
-  a21=(a21*a00);
-  a08=(a08+a21);
-  a08=(a08-a01);
-  a08=casadi_fabs(a08);
-  a08=(a08<a22);
-  a17=(a17*a08);
-  a12=(a12-a21);
-  a21=(a24<a12);
-  a21=((casadi_real)2.*a21);
-  a21=(a21-a02);
-  a23=(a23*a21);
-  a02=(a02-a08);
-  a23=(a23*a02);
-  a17=(a17+a23);
-  a17=(a15*a17);
-  a11=(a11-a17);
-  a12=(a12*a08);
-  a22=(a22*a21);
-  a22=(a22*a02);
-  a12=(a12+a22);
-  a12=(a20*a12);
-  a11=(a11-a12);
-  if (res[0]!=0) res[0][0]=a11;
-  a04=casadi_fabs(a04);
-  a04=(a04<a05);
-  a18=(a18*a03);
-  a16=(a16*a07);
-  a03=(a18+a16);
-  a03=(a15*a03);
-  a03=(a20+a03);
-  a11=casadi_fmax(a24,a03);
-  a18=(a18-a16);
-  a15=(a15*a18);
-  a20=(a20+a15);
-  a24=casadi_fmax(a24,a20);
-  a11=(a11+a24);
-  a04=(a04*a11);
-  a05=(a05*a07);
-  a06=(a06+a05);
-  a04=(a04/a06);
-  a04=(-a04);
-  if (res[1]!=0) res[1][0]=a04;
-  if (res[2]!=0) res[2][0]=a20;
-  if (res[3]!=0) res[3][0]=a03;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_friction(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem){
-  return casadi_f0(arg, res, iw, w, mem);
-}
-
-CASADI_SYMBOL_EXPORT int trum_friction_checkout(void) {
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT void trum_friction_release(int mem) {
+int trum_friction(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem)
+{
+  trum_real a0;
+  trum_real a1;
+  trum_real a2;
+  trum_real a3;
+  trum_real a4;
+  trum_real a5;
+  trum_real a6;
+  trum_real a7;
+  trum_real a8;
+  trum_real a9;
+  trum_real a10;
+  trum_real a11;
+  trum_real a12;
+  trum_real a13;
+  trum_real a14;
+  trum_real a15;
+  trum_real a16;
+  trum_real a17;
+  trum_real a18;
+  trum_real a19;
+  trum_real a20;
+  trum_real a21;
+  trum_real a22;
+  trum_real a23;
+  trum_real a24;
+  trum_real a25;
+  trum_real a26;
+  trum_real a27;
+  (void)iw;
+  (void)w;
   (void)mem;
-}
-
-CASADI_SYMBOL_EXPORT void trum_friction_incref(void) {
-}
-
-CASADI_SYMBOL_EXPORT void trum_friction_decref(void) {
-}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_friction_n_in(void) { return 9;}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_friction_n_out(void) { return 4;}
-
-CASADI_SYMBOL_EXPORT casadi_real trum_friction_default_in(casadi_int i) {
-  switch (i) {
-    default: return 0;
+  a0 = TRUM_C(3.141592653589793);
+  a1 = (arg[3] != NULL) ? arg[3][0] : TRUM_C(0.0);
+  a2 = TRUM_C(1.0);
+  a3 = TRUM_C(-1.0);
+  a4 = (arg[8] != NULL) ? arg[8][0] : TRUM_C(0.0);
+  a5 = (arg[0] != NULL) ? arg[0][0] : TRUM_C(0.0);
+  a6 = TRUM_C(1e-37);
+  a7 = a5 + a6;
+  a7 = a4 / a7;
+  a7 = trum_fmin(a2, a7);
+  a3 = trum_fmax(a3, a7);
+  a7 = a3 * a3;
+  a7 = a2 - a7;
+  a7 = trum_sqrt(a7);
+  a8 = trum_atan2(a7, a3);
+  a9 = a1 + a8;
+  a10 = TRUM_LESS(a0, a9);
+  a11 = TRUM_C(2.0) * a10;
+  a12 = a1 - a8;
+  a13 = TRUM_C(-3.141592653589793);
+  a14 = TRUM_LESS(a12, a13);
+  a15 = TRUM_C(2.0) * a14;
+  a11 = a11 + a15;
+  a15 = (arg[2] != NULL) ? arg[2][0] : TRUM_C(0.0);
+  a16 = (arg[5] != NULL) ? arg[5][0] : TRUM_C(0.0);
+  a17 = a16 * a3;
+  a18 = (arg[1] != NULL) ? arg[1][0] : TRUM_C(0.0);
+  a19 = a18 * a7;
+  a20 = a17 + a19;
+  a21 = TRUM_C(6.283185307179586);
+  a13 = TRUM_LESS(a9, a13);
+  a10 = a10 - a13;
+  a10 = a21 * a10;
+  a9 = a9 - a10;
+  a10 = trum_fabs(a9);
+  a22 = (arg[7] != NULL) ? arg[7][0] : TRUM_C(0.0);
+  a10 = TRUM_LESS(a10, a22);
+  a20 = a20 * a10;
+  a23 = (arg[6] != NULL) ? arg[6][0] : TRUM_C(0.0);
+  a24 = TRUM_C(0.0);
+  a25 = TRUM_LESS(a24, a9);
+  a25 = TRUM_C(2.0) * a25;
+  a25 = a25 - a2;
+  a26 = a23 * a25;
+  a27 = a2 - a10;
+  a26 = a26 * a27;
+  a20 = a20 + a26;
+  a20 = a15 * a20;
+  a11 = a11 + a20;
+  a20 = (arg[4] != NULL) ? arg[4][0] : TRUM_C(0.0);
+  a9 = a9 * a10;
+  a25 = a22 * a25;
+  a25 = a25 * a27;
+  a9 = a9 + a25;
+  a9 = a20 * a9;
+  a11 = a11 + a9;
+  a11 = a11 - a2;
+  a0 = TRUM_LESS(a0, a12);
+  a9 = TRUM_C(2.0) * a0;
+  a11 = a11 - a9;
+  a13 = TRUM_C(2.0) * a13;
+  a11 = a11 - a13;
+  a17 = a17 - a19;
+  a0 = a0 - a14;
+  a21 = a21 * a0;
+  a8 = a8 + a21;
+  a8 = a8 - a1;
+  a8 = trum_fabs(a8);
+  a8 = TRUM_LESS(a8, a22);
+  a17 = a17 * a8;
+  a12 = a12 - a21;
+  a21 = TRUM_LESS(a24, a12);
+  a21 = TRUM_C(2.0) * a21;
+  a21 = a21 - a2;
+  a23 = a23 * a21;
+  a2 = a2 - a8;
+  a23 = a23 * a2;
+  a17 = a17 + a23;
+  a17 = a15 * a17;
+  a11 = a11 - a17;
+  a12 = a12 * a8;
+  a22 = a22 * a21;
+  a22 = a22 * a2;
+  a12 = a12 + a22;
+  a12 = a20 * a12;
+  a11 = a11 - a12;
+  if (res[0] != NULL) {
+    res[0][0] = a11;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_friction_name_in(casadi_int i) {
-  switch (i) {
-    case 0: return "R_v";
-    case 1: return "cos_phi";
-    case 2: return "engagement";
-    case 3: return "phi";
-    case 4: return "share";
-    case 5: return "sin_phi";
-    case 6: return "sin_theta";
-    case 7: return "theta";
-    case 8: return "v";
-    default: return 0;
+  a4 = trum_fabs(a4);
+  a4 = TRUM_LESS(a4, a5);
+  a18 = a18 * a3;
+  a16 = a16 * a7;
+  a3 = a18 + a16;
+  a3 = a15 * a3;
+  a3 = a20 + a3;
+  a11 = trum_fmax(a24, a3);
+  a18 = a18 - a16;
+  a15 = a15 * a18;
+  a20 = a20 + a15;
+  a24 = trum_fmax(a24, a20);
+  a11 = a11 + a24;
+  a4 = a4 * a11;
+  a5 = a5 * a7;
+  a6 = a6 + a5;
+  a4 = a4 / a6;
+  a4 = -a4;
+  if (res[1] != NULL) {
+    res[1][0] = a4;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_friction_name_out(casadi_int i) {
-  switch (i) {
-    case 0: return "f";
-    case 1: return "f_v";
-    case 2: return "p_1";
-    case 3: return "p_2";
-    default: return 0;
+  if (res[2] != NULL) {
+    res[2][0] = a20;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_friction_sparsity_in(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    case 4: return casadi_s0;
-    case 5: return casadi_s0;
-    case 6: return casadi_s0;
-    case 7: return casadi_s0;
-    case 8: return casadi_s0;
-    default: return 0;
+  if (res[3] != NULL) {
+    res[3][0] = a3;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_friction_sparsity_out(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    default: return 0;
-  }
-}
-
-CASADI_SYMBOL_EXPORT int trum_friction_work(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 9;
-  if (sz_res) *sz_res = 4;
-  if (sz_iw) *sz_iw = 0;
-  if (sz_w) *sz_w = 0;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_friction_work_bytes(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 9*sizeof(const casadi_real*);
-  if (sz_res) *sz_res = 4*sizeof(casadi_real*);
-  if (sz_iw) *sz_iw = 0*sizeof(casadi_int);
-  if (sz_w) *sz_w = 0*sizeof(casadi_real);
   return 0;
 }

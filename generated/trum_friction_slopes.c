@@ -18,292 +18,148 @@
  *
  * 85 operations: 29 mul, 16 sub, 14 add, 9 lt, 3 div, 3 fmax, 2 fabs, 2 sq, 2 twice, 1 atan2, 1 fmin, 1 inv, 1 neg, 1 sqrt
  */
-/* How to prefix internal symbols */
-#ifdef CASADI_CODEGEN_PREFIX
-  #define CASADI_NAMESPACE_CONCAT(NS, ID) _CASADI_NAMESPACE_CONCAT(NS, ID)
-  #define _CASADI_NAMESPACE_CONCAT(NS, ID) NS ## ID
-  #define CASADI_PREFIX(ID) CASADI_NAMESPACE_CONCAT(CODEGEN_PREFIX, ID)
-#else
-  #define CASADI_PREFIX(ID) trum_friction_slopes_ ## ID
-#endif
+#include <stddef.h>
 
-#include <math.h>
+#include "trum_kernels.h"
 
-#ifndef casadi_real
-#define casadi_real double
-#endif
-
-#ifndef casadi_int
-#define casadi_int long long int
-#endif
-
-/* Add prefix to internal symbols */
-#define casadi_f0 CASADI_PREFIX(f0)
-#define casadi_fabs CASADI_PREFIX(fabs)
-#define casadi_fmax CASADI_PREFIX(fmax)
-#define casadi_fmin CASADI_PREFIX(fmin)
-#define casadi_s0 CASADI_PREFIX(s0)
-#define casadi_sq CASADI_PREFIX(sq)
-
-/* Symbol visibility in DLLs */
-#ifndef CASADI_SYMBOL_EXPORT
-  #if defined(_WIN32) || defined(__WIN32__) || defined(__CYGWIN__)
-    #if defined(STATIC_LINKED)
-      #define CASADI_SYMBOL_EXPORT
-    #else
-      #define CASADI_SYMBOL_EXPORT __declspec(dllexport)
-    #endif
-  #elif defined(__GNUC__) && defined(GCC_HASCLASSVISIBILITY)
-    #define CASADI_SYMBOL_EXPORT __attribute__ ((visibility ("default")))
-  #else
-    #define CASADI_SYMBOL_EXPORT
-  #endif
-#endif
-
-casadi_real casadi_fmin(casadi_real x, casadi_real y) {
-/* Pre-c99 compatibility */
-#if __STDC_VERSION__ < 199901L
-  return x<y ? x : y;
-#else
-  return fmin(x, y);
-#endif
-}
-
-casadi_real casadi_fmax(casadi_real x, casadi_real y) {
-/* Pre-c99 compatibility */
-#if __STDC_VERSION__ < 199901L
-  return x>y ? x : y;
-#else
-  return fmax(x, y);
-#endif
-}
-
-casadi_real casadi_sq(casadi_real x) { return x*x;}
-
-casadi_real casadi_fabs(casadi_real x) {
-/* Pre-c99 compatibility */
-#if __STDC_VERSION__ < 199901L
-  return x>0 ? x : -x;
-#else
-  return fabs(x);
-#endif
-}
-
-/* Configuration this file was compiled with */
-CASADI_SYMBOL_EXPORT void trum_friction_slopes_casadi_version(int* major, int* minor, int* patch) {
-  *major = 3;
-  *minor = 8;
-  *patch = 2;
-}
-CASADI_SYMBOL_EXPORT int trum_friction_slopes_casadi_int_size(void) { return (int) sizeof(casadi_int); }
-CASADI_SYMBOL_EXPORT int trum_friction_slopes_casadi_real_size(void) { return (int) sizeof(casadi_real); }
-
-static const casadi_int casadi_s0[3] = {1, 1, 1};
-
-/* trum_friction_slopes:(R_v,cos_phi,engagement,phi,share,sin_phi,sin_theta,theta,v)->(f_phi,f_E,theta_E,E_height) */
-static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
-  (void)iw, (void)w, (void)mem;
-  casadi_real a00, a01, a02, a03, a04, a05, a06, a07, a08, a09, a10, a11;
-  casadi_real a12, a13, a14, a15, a16, a17, a18, a19;
-  a00=(casadi_real)0.;
-  a01=arg[4]? arg[4][0] : 0;
-  a02=arg[2]? arg[2][0] : 0;
-  a03=arg[1]? arg[1][0] : 0;
-  a04=(casadi_real)-1.;
-  a05=(casadi_real)1.;
-  a06=arg[8]? arg[8][0] : 0;
-  a07=arg[0]? arg[0][0] : 0;
-  a08=(casadi_real)1.0000000000000001e-37;
-  a07=(a07+a08);
-  a06=(a06/a07);
-  a06=casadi_fmin(a05,a06);
-  a04=casadi_fmax(a04,a06);
-  a06=(a03*a04);
-  a07=arg[5]? arg[5][0] : 0;
-  a09=casadi_sq(a04);
-  a09=(a05-a09);
-  a09=sqrt(a09);
-  a10=(a07*a09);
-  a11=(a06-a10);
-  a11=(a02*a11);
-  a11=(a01+a11);
-  a11=casadi_fmax(a00,a11);
-  a06=(a06+a10);
-  a06=(a02*a06);
-  a06=(a01+a06);
-  a06=casadi_fmax(a00,a06);
-  a11=(a11-a06);
-  if (res[0]!=0) res[0][0]=a11;
-  a11=arg[3]? arg[3][0] : 0;
-  a06=atan2(a09,a04);
-  a10=(a11+a06);
-  a12=(casadi_real)6.2831853071795862e+00;
-  a13=(casadi_real)3.1415926535897931e+00;
-  a14=(a13<a10);
-  a15=(casadi_real)-3.1415926535897931e+00;
-  a16=(a10<a15);
-  a14=(a14-a16);
-  a14=(a12*a14);
-  a10=(a10-a14);
-  a14=casadi_fabs(a10);
-  a16=arg[7]? arg[7][0] : 0;
-  a14=(a14<a16);
-  a07=(a07*a04);
-  a03=(a03*a09);
-  a09=(a07+a03);
-  a09=(a09*a14);
-  a04=arg[6]? arg[6][0] : 0;
-  a17=(a00<a10);
-  a17=((casadi_real)2.*a17);
-  a17=(a17-a05);
-  a18=(a04*a17);
-  a19=(a05-a14);
-  a18=(a18*a19);
-  a09=(a09+a18);
-  a09=(a02*a09);
-  a18=((casadi_real)1./a16);
-  a01=(a01-a18);
-  a10=(a10*a14);
-  a17=(a16*a17);
-  a17=(a17*a19);
-  a10=(a10+a17);
-  a10=(a01*a10);
-  a09=(a09+a10);
-  a14=(a14*a09);
-  a09=(a11-a06);
-  a10=(a13<a09);
-  a15=(a09<a15);
-  a10=(a10-a15);
-  a12=(a12*a10);
-  a06=(a06+a12);
-  a06=(a06-a11);
-  a06=casadi_fabs(a06);
-  a06=(a06<a16);
-  a07=(a07-a03);
-  a07=(a07*a06);
-  a09=(a09-a12);
-  a00=(a00<a09);
-  a00=((casadi_real)2.*a00);
-  a00=(a00-a05);
-  a12=(a04*a00);
-  a05=(a05-a06);
-  a12=(a12*a05);
-  a07=(a07+a12);
-  a07=(a02*a07);
-  a09=(a09*a06);
-  a00=(a16*a00);
-  a00=(a00*a05);
-  a09=(a09+a00);
-  a01=(a01*a09);
-  a07=(a07+a01);
-  a06=(a06*a07);
-  a14=(a14-a06);
-  if (res[1]!=0) res[1][0]=a14;
-  a13=(a16<a13);
-  a02=(a02*a04);
-  a04=(a02*a16);
-  a08=(a08+a04);
-  a13=(a13/a08);
-  a13=(-a13);
-  if (res[2]!=0) res[2][0]=a13;
-  a16=casadi_sq(a16);
-  a02=(a02*a16);
-  a16=(casadi_real)2.;
-  a02=(a02/a16);
-  if (res[3]!=0) res[3][0]=a02;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_friction_slopes(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem){
-  return casadi_f0(arg, res, iw, w, mem);
-}
-
-CASADI_SYMBOL_EXPORT int trum_friction_slopes_checkout(void) {
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT void trum_friction_slopes_release(int mem) {
+int trum_friction_slopes(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem)
+{
+  trum_real a0;
+  trum_real a1;
+  trum_real a2;
+  trum_real a3;
+  trum_real a4;
+  trum_real a5;
+  trum_real a6;
+  trum_real a7;
+  trum_real a8;
+  trum_real a9;
+  trum_real a10;
+  trum_real a11;
+  trum_real a12;
+  trum_real a13;
+  trum_real a14;
+  trum_real a15;
+  trum_real a16;
+  trum_real a17;
+  trum_real a18;
+  trum_real a19;
+  (void)iw;
+  (void)w;
   (void)mem;
-}
-
-CASADI_SYMBOL_EXPORT void trum_friction_slopes_incref(void) {
-}
-
-CASADI_SYMBOL_EXPORT void trum_friction_slopes_decref(void) {
-}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_friction_slopes_n_in(void) { return 9;}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_friction_slopes_n_out(void) { return 4;}
-
-CASADI_SYMBOL_EXPORT casadi_real trum_friction_slopes_default_in(casadi_int i) {
-  switch (i) {
-    default: return 0;
+  a0 = TRUM_C(0.0);
+  a1 = (arg[4] != NULL) ? arg[4][0] : TRUM_C(0.0);
+  a2 = (arg[2] != NULL) ? arg[2][0] : TRUM_C(0.0);
+  a3 = (arg[1] != NULL) ? arg[1][0] : TRUM_C(0.0);
+  a4 = TRUM_C(-1.0);
+  a5 = TRUM_C(1.0);
+  a6 = (arg[8] != NULL) ? arg[8][0] : TRUM_C(0.0);
+  a7 = (arg[0] != NULL) ? arg[0][0] : TRUM_C(0.0);
+  a8 = TRUM_C(1e-37);
+  a7 = a7 + a8;
+  a6 = a6 / a7;
+  a6 = trum_fmin(a5, a6);
+  a4 = trum_fmax(a4, a6);
+  a6 = a3 * a4;
+  a7 = (arg[5] != NULL) ? arg[5][0] : TRUM_C(0.0);
+  a9 = a4 * a4;
+  a9 = a5 - a9;
+  a9 = trum_sqrt(a9);
+  a10 = a7 * a9;
+  a11 = a6 - a10;
+  a11 = a2 * a11;
+  a11 = a1 + a11;
+  a11 = trum_fmax(a0, a11);
+  a6 = a6 + a10;
+  a6 = a2 * a6;
+  a6 = a1 + a6;
+  a6 = trum_fmax(a0, a6);
+  a11 = a11 - a6;
+  if (res[0] != NULL) {
+    res[0][0] = a11;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_friction_slopes_name_in(casadi_int i) {
-  switch (i) {
-    case 0: return "R_v";
-    case 1: return "cos_phi";
-    case 2: return "engagement";
-    case 3: return "phi";
-    case 4: return "share";
-    case 5: return "sin_phi";
-    case 6: return "sin_theta";
-    case 7: return "theta";
-    case 8: return "v";
-    default: return 0;
+  a11 = (arg[3] != NULL) ? arg[3][0] : TRUM_C(0.0);
+  a6 = trum_atan2(a9, a4);
+  a10 = a11 + a6;
+  a12 = TRUM_C(6.283185307179586);
+  a13 = TRUM_C(3.141592653589793);
+  a14 = TRUM_LESS(a13, a10);
+  a15 = TRUM_C(-3.141592653589793);
+  a16 = TRUM_LESS(a10, a15);
+  a14 = a14 - a16;
+  a14 = a12 * a14;
+  a10 = a10 - a14;
+  a14 = trum_fabs(a10);
+  a16 = (arg[7] != NULL) ? arg[7][0] : TRUM_C(0.0);
+  a14 = TRUM_LESS(a14, a16);
+  a7 = a7 * a4;
+  a3 = a3 * a9;
+  a9 = a7 + a3;
+  a9 = a9 * a14;
+  a4 = (arg[6] != NULL) ? arg[6][0] : TRUM_C(0.0);
+  a17 = TRUM_LESS(a0, a10);
+  a17 = TRUM_C(2.0) * a17;
+  a17 = a17 - a5;
+  a18 = a4 * a17;
+  a19 = a5 - a14;
+  a18 = a18 * a19;
+  a9 = a9 + a18;
+  a9 = a2 * a9;
+  a18 = TRUM_C(1.0) / a16;
+  a1 = a1 - a18;
+  a10 = a10 * a14;
+  a17 = a16 * a17;
+  a17 = a17 * a19;
+  a10 = a10 + a17;
+  a10 = a1 * a10;
+  a9 = a9 + a10;
+  a14 = a14 * a9;
+  a9 = a11 - a6;
+  a10 = TRUM_LESS(a13, a9);
+  a15 = TRUM_LESS(a9, a15);
+  a10 = a10 - a15;
+  a12 = a12 * a10;
+  a6 = a6 + a12;
+  a6 = a6 - a11;
+  a6 = trum_fabs(a6);
+  a6 = TRUM_LESS(a6, a16);
+  a7 = a7 - a3;
+  a7 = a7 * a6;
+  a9 = a9 - a12;
+  a0 = TRUM_LESS(a0, a9);
+  a0 = TRUM_C(2.0) * a0;
+  a0 = a0 - a5;
+  a12 = a4 * a0;
+  a5 = a5 - a6;
+  a12 = a12 * a5;
+  a7 = a7 + a12;
+  a7 = a2 * a7;
+  a9 = a9 * a6;
+  a0 = a16 * a0;
+  a0 = a0 * a5;
+  a9 = a9 + a0;
+  a1 = a1 * a9;
+  a7 = a7 + a1;
+  a6 = a6 * a7;
+  a14 = a14 - a6;
+  if (res[1] != NULL) {
+    res[1][0] = a14;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_friction_slopes_name_out(casadi_int i) {
-  switch (i) {
-    case 0: return "f_phi";
-    case 1: return "f_E";
-    case 2: return "theta_E";
-    case 3: return "E_height";
-    default: return 0;
+  a13 = TRUM_LESS(a16, a13);
+  a2 = a2 * a4;
+  a4 = a2 * a16;
+  a8 = a8 + a4;
+  a13 = a13 / a8;
+  a13 = -a13;
+  if (res[2] != NULL) {
+    res[2][0] = a13;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_friction_slopes_sparsity_in(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    case 4: return casadi_s0;
-    case 5: return casadi_s0;
-    case 6: return casadi_s0;
-    case 7: return casadi_s0;
-    case 8: return casadi_s0;
-    default: return 0;
+  a16 = a16 * a16;
+  a2 = a2 * a16;
+  a16 = TRUM_C(2.0);
+  a2 = a2 / a16;
+  if (res[3] != NULL) {
+    res[3][0] = a2;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_friction_slopes_sparsity_out(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    default: return 0;
-  }
-}
-
-CASADI_SYMBOL_EXPORT int trum_friction_slopes_work(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 9;
-  if (sz_res) *sz_res = 4;
-  if (sz_iw) *sz_iw = 0;
-  if (sz_w) *sz_w = 0;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_friction_slopes_work_bytes(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 9*sizeof(const casadi_real*);
-  if (sz_res) *sz_res = 4*sizeof(casadi_real*);
-  if (sz_iw) *sz_iw = 0*sizeof(casadi_int);
-  if (sz_w) *sz_w = 0*sizeof(casadi_real);
   return 0;
 }

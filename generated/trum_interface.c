@@ -21,213 +21,75 @@
  *
  * 28 operations: 15 mul, 3 sub, 2 add, 2 div, 2 lt, 1 cos, 1 fmax, 1 sin, 1 twice
  */
-/* How to prefix internal symbols */
-#ifdef CASADI_CODEGEN_PREFIX
-  #define CASADI_NAMESPACE_CONCAT(NS, ID) _CASADI_NAMESPACE_CONCAT(NS, ID)
-  #define _CASADI_NAMESPACE_CONCAT(NS, ID) NS ## ID
-  #define CASADI_PREFIX(ID) CASADI_NAMESPACE_CONCAT(CODEGEN_PREFIX, ID)
-#else
-  #define CASADI_PREFIX(ID) trum_interface_ ## ID
-#endif
+#include <stddef.h>
 
-#include <math.h>
+#include "trum_kernels.h"
 
-#ifndef casadi_real
-#define casadi_real double
-#endif
-
-#ifndef casadi_int
-#define casadi_int long long int
-#endif
-
-/* Add prefix to internal symbols */
-#define casadi_f0 CASADI_PREFIX(f0)
-#define casadi_fmax CASADI_PREFIX(fmax)
-#define casadi_s0 CASADI_PREFIX(s0)
-
-/* Symbol visibility in DLLs */
-#ifndef CASADI_SYMBOL_EXPORT
-  #if defined(_WIN32) || defined(__WIN32__) || defined(__CYGWIN__)
-    #if defined(STATIC_LINKED)
-      #define CASADI_SYMBOL_EXPORT
-    #else
-      #define CASADI_SYMBOL_EXPORT __declspec(dllexport)
-    #endif
-  #elif defined(__GNUC__) && defined(GCC_HASCLASSVISIBILITY)
-    #define CASADI_SYMBOL_EXPORT __attribute__ ((visibility ("default")))
-  #else
-    #define CASADI_SYMBOL_EXPORT
-  #endif
-#endif
-
-casadi_real casadi_fmax(casadi_real x, casadi_real y) {
-/* Pre-c99 compatibility */
-#if __STDC_VERSION__ < 199901L
-  return x>y ? x : y;
-#else
-  return fmax(x, y);
-#endif
-}
-
-/* Configuration this file was compiled with */
-CASADI_SYMBOL_EXPORT void trum_interface_casadi_version(int* major, int* minor, int* patch) {
-  *major = 3;
-  *minor = 8;
-  *patch = 2;
-}
-CASADI_SYMBOL_EXPORT int trum_interface_casadi_int_size(void) { return (int) sizeof(casadi_int); }
-CASADI_SYMBOL_EXPORT int trum_interface_casadi_real_size(void) { return (int) sizeof(casadi_real); }
-
-static const casadi_int casadi_s0[3] = {1, 1, 1};
-
-/* trum_interface:(F_c,R_v,cos_phi,engagement,k_c,mu,n_j,share,sin_phi,v,x,x_max)->(v_x,v_x_slope,p,traction) */
-static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
-  (void)iw, (void)w, (void)mem;
-  casadi_real a0, a1, a2, a3, a4, a5, a6, a7;
-  a0=arg[1]? arg[1][0] : 0;
-  a1=arg[2]? arg[2][0] : 0;
-  a2=arg[4]? arg[4][0] : 0;
-  a3=arg[10]? arg[10][0] : 0;
-  a4=arg[11]? arg[11][0] : 0;
-  a3=(a3-a4);
-  a3=(a2*a3);
-  a4=cos(a3);
-  a5=(a1*a4);
-  a6=arg[8]? arg[8][0] : 0;
-  a3=sin(a3);
-  a7=(a6*a3);
-  a5=(a5+a7);
-  a5=(a0*a5);
-  if (res[0]!=0) res[0][0]=a5;
-  a6=(a2*a6);
-  a6=(a6*a4);
-  a1=(a1*a2);
-  a1=(a1*a3);
-  a6=(a6-a1);
-  a0=(a0*a6);
-  if (res[1]!=0) res[1][0]=a0;
-  a0=arg[0]? arg[0][0] : 0;
-  a0=(a0*a2);
-  a2=(casadi_real)0.;
-  a6=arg[7]? arg[7][0] : 0;
-  a1=arg[3]? arg[3][0] : 0;
-  a1=(a1*a4);
-  a6=(a6+a1);
-  a2=casadi_fmax(a2,a6);
-  a6=(a0*a2);
-  a1=arg[6]? arg[6][0] : 0;
-  a1=((casadi_real)2.*a1);
-  a6=(a6/a1);
-  if (res[2]!=0) res[2][0]=a6;
-  a6=arg[5]? arg[5][0] : 0;
-  a0=(a0*a6);
-  a0=(a0*a2);
-  a2=arg[9]? arg[9][0] : 0;
-  a6=(a2<a5);
-  a5=(a5<a2);
-  a6=(a6-a5);
-  a0=(a0*a6);
-  a0=(a0/a1);
-  if (res[3]!=0) res[3][0]=a0;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_interface(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem){
-  return casadi_f0(arg, res, iw, w, mem);
-}
-
-CASADI_SYMBOL_EXPORT int trum_interface_checkout(void) {
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT void trum_interface_release(int mem) {
+int trum_interface(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem)
+{
+  trum_real a0;
+  trum_real a1;
+  trum_real a2;
+  trum_real a3;
+  trum_real a4;
+  trum_real a5;
+  trum_real a6;
+  trum_real a7;
+  (void)iw;
+  (void)w;
   (void)mem;
-}
-
-CASADI_SYMBOL_EXPORT void trum_interface_incref(void) {
-}
-
-CASADI_SYMBOL_EXPORT void trum_interface_decref(void) {
-}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_interface_n_in(void) { return 12;}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_interface_n_out(void) { return 4;}
-
-CASADI_SYMBOL_EXPORT casadi_real trum_interface_default_in(casadi_int i) {
-  switch (i) {
-    default: return 0;
+  a0 = (arg[1] != NULL) ? arg[1][0] : TRUM_C(0.0);
+  a1 = (arg[2] != NULL) ? arg[2][0] : TRUM_C(0.0);
+  a2 = (arg[4] != NULL) ? arg[4][0] : TRUM_C(0.0);
+  a3 = (arg[10] != NULL) ? arg[10][0] : TRUM_C(0.0);
+  a4 = (arg[11] != NULL) ? arg[11][0] : TRUM_C(0.0);
+  a3 = a3 - a4;
+  a3 = a2 * a3;
+  a4 = trum_cos(a3);
+  a5 = a1 * a4;
+  a6 = (arg[8] != NULL) ? arg[8][0] : TRUM_C(0.0);
+  a3 = trum_sin(a3);
+  a7 = a6 * a3;
+  a5 = a5 + a7;
+  a5 = a0 * a5;
+  if (res[0] != NULL) {
+    res[0][0] = a5;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_interface_name_in(casadi_int i) {
-  switch (i) {
-    case 0: return "F_c";
-    case 1: return "R_v";
-    case 2: return "cos_phi";
-    case 3: return "engagement";
-    case 4: return "k_c";
-    case 5: return "mu";
-    case 6: return "n_j";
-    case 7: return "share";
-    case 8: return "sin_phi";
-    case 9: return "v";
-    case 10: return "x";
-    case 11: return "x_max";
-    default: return 0;
+  a6 = a2 * a6;
+  a6 = a6 * a4;
+  a1 = a1 * a2;
+  a1 = a1 * a3;
+  a6 = a6 - a1;
+  a0 = a0 * a6;
+  if (res[1] != NULL) {
+    res[1][0] = a0;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_interface_name_out(casadi_int i) {
-  switch (i) {
-    case 0: return "v_x";
-    case 1: return "v_x_slope";
-    case 2: return "p";
-    case 3: return "traction";
-    default: return 0;
+  a0 = (arg[0] != NULL) ? arg[0][0] : TRUM_C(0.0);
+  a0 = a0 * a2;
+  a2 = TRUM_C(0.0);
+  a6 = (arg[7] != NULL) ? arg[7][0] : TRUM_C(0.0);
+  a1 = (arg[3] != NULL) ? arg[3][0] : TRUM_C(0.0);
+  a1 = a1 * a4;
+  a6 = a6 + a1;
+  a2 = trum_fmax(a2, a6);
+  a6 = a0 * a2;
+  a1 = (arg[6] != NULL) ? arg[6][0] : TRUM_C(0.0);
+  a1 = TRUM_C(2.0) * a1;
+  a6 = a6 / a1;
+  if (res[2] != NULL) {
+    res[2][0] = a6;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_interface_sparsity_in(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    case 4: return casadi_s0;
-    case 5: return casadi_s0;
-    case 6: return casadi_s0;
-    case 7: return casadi_s0;
-    case 8: return casadi_s0;
-    case 9: return casadi_s0;
-    case 10: return casadi_s0;
-    case 11: return casadi_s0;
-    default: return 0;
+  a6 = (arg[5] != NULL) ? arg[5][0] : TRUM_C(0.0);
+  a0 = a0 * a6;
+  a0 = a0 * a2;
+  a2 = (arg[9] != NULL) ? arg[9][0] : TRUM_C(0.0);
+  a6 = TRUM_LESS(a2, a5);
+  a5 = TRUM_LESS(a5, a2);
+  a6 = a6 - a5;
+  a0 = a0 * a6;
+  a0 = a0 / a1;
+  if (res[3] != NULL) {
+    res[3][0] = a0;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_interface_sparsity_out(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    default: return 0;
-  }
-}
-
-CASADI_SYMBOL_EXPORT int trum_interface_work(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 12;
-  if (sz_res) *sz_res = 4;
-  if (sz_iw) *sz_iw = 0;
-  if (sz_w) *sz_w = 0;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_interface_work_bytes(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 12*sizeof(const casadi_real*);
-  if (sz_res) *sz_res = 4*sizeof(casadi_real*);
-  if (sz_iw) *sz_iw = 0*sizeof(casadi_int);
-  if (sz_w) *sz_w = 0*sizeof(casadi_real);
   return 0;
 }

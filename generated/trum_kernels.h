@@ -6,12 +6,10 @@
 #error "trum: -Ofast, -ffast-math, -ffinite-math-only drop the tests for NaN that refuse input and end searches"
 #endif
 
-/* the numbers of kernels outside lanes: double, or casadi_real where the compiler is told one */
-#ifdef casadi_real
-typedef casadi_real trum_real;
-#else
-typedef double trum_real;
-#endif
+#include "trum_math.h"
+
+/* SHA-256 of the expressions that the kernels are written from */
+#define TRUM_DERIVATIONS "c05a397d2de59eac2781521d900746bab89d1b3ff301f467e4bb9c199a2985db"
 
 #ifdef __cplusplus
 extern "C" {

@@ -58,7 +58,7 @@ typedef struct {
 static inline void trum_lanes_rotation(const trum_constants* constants, trum_phasors* phasors, real tau) {
   const real* arg[trum_rotation_n_arg] = {&constants->Delta_omega, &constants->omega_n, &tau, &constants->xi};
   real* res[trum_rotation_n_res] = {&phasors->e_re, &phasors->e_im, &phasors->d_re, &phasors->d_im};
-  TRUM_KERNEL(trum_rotation)(arg, res, 0, 0, 0);
+  (void)TRUM_KERNEL(trum_rotation)(arg, res, 0, 0, 0);
 }
 
 /* Wave height and surface speed (eqs. 11, 16, 20) */
@@ -69,7 +69,7 @@ static inline void trum_lanes_wave(const trum_constants* constants, const trum_r
       &region->f_B_re, &region->g_A, &region->g_B, &constants->k_c, &constants->omega_n, &constants->p_im,
       &constants->p_re, &constants->s, &constants->xi};
   real* res[trum_wave_n_res] = {&surface->W_c, &surface->R_v, &surface->phi, &surface->cos_phi, &surface->sin_phi};
-  TRUM_KERNEL(trum_wave)(arg, res, 0, 0, 0);
+  (void)TRUM_KERNEL(trum_wave)(arg, res, 0, 0, 0);
 }
 
 /* How far the layer is engaged (eq. 31) */
@@ -77,21 +77,21 @@ static inline void trum_lanes_filling(const trum_constants* constants, trum_surf
     filling) {
   const real* arg[trum_filling_n_arg] = {&surface->W_c, &constants->engagement_per_height};
   real* res[trum_filling_n_res] = {&surface->engagement, &filling->fullness};
-  TRUM_KERNEL(trum_filling)(arg, res, 0, 0, 0);
+  (void)TRUM_KERNEL(trum_filling)(arg, res, 0, 0, 0);
 }
 
 /* Contact of the Winkler layer (eqs. 30, 31) */
 static inline void trum_lanes_contact_winkler(const trum_filling_state* filling, trum_surface* surface) {
   const real* arg[trum_contact_winkler_n_arg] = {&filling->fullness, &filling->fullness_root};
   real* res[trum_contact_winkler_n_res] = {&surface->theta, &surface->sin_theta, &surface->share};
-  TRUM_KERNEL(trum_contact_winkler)(arg, res, 0, 0, 0);
+  (void)TRUM_KERNEL(trum_contact_winkler)(arg, res, 0, 0, 0);
 }
 
 /* Contact of the paper's Hertz width (eqs. 25, 26, 30) */
 static inline void trum_lanes_contact_hertz(const trum_constants* constants, trum_surface* surface) {
   const real* arg[trum_contact_hertz_n_arg] = {&surface->W_c, &constants->W_full};
   real* res[trum_contact_hertz_n_res] = {&surface->theta, &surface->sin_theta, &surface->share, &surface->engagement};
-  TRUM_KERNEL(trum_contact_hertz)(arg, res, 0, 0, 0);
+  (void)TRUM_KERNEL(trum_contact_hertz)(arg, res, 0, 0, 0);
 }
 
 /* Net friction fraction, its slope, pressure where the surface is as fast as the rotor (eqs. 33 to 37) */
@@ -99,7 +99,7 @@ static inline void trum_lanes_friction(const trum_surface* surface, trum_frictio
   const real* arg[trum_friction_n_arg] = {&surface->R_v, &surface->cos_phi, &surface->engagement, &surface->phi,
       &surface->share, &surface->sin_phi, &surface->sin_theta, &surface->theta, &v};
   real* res[trum_friction_n_res] = {&friction->f, &friction->f_v, &friction->p_1, &friction->p_2};
-  TRUM_KERNEL(trum_friction)(arg, res, 0, 0, 0);
+  (void)TRUM_KERNEL(trum_friction)(arg, res, 0, 0, 0);
 }
 
 /* How friction and contact change with the angle phi and the logarithm of the engagement */
@@ -109,7 +109,7 @@ static inline void trum_lanes_friction_slopes(const trum_surface* surface, trum_
       &surface->share, &surface->sin_phi, &surface->sin_theta, &surface->theta, &v};
   real* res[trum_friction_slopes_n_res] = {&derivatives->f_phi, &derivatives->f_E, &derivatives->theta_E,
       &derivatives->E_height};
-  TRUM_KERNEL(trum_friction_slopes)(arg, res, 0, 0, 0);
+  (void)TRUM_KERNEL(trum_friction_slopes)(arg, res, 0, 0, 0);
 }
 
 /* How the wave follows the frequencies, at a fixed share of a drive period, and time */
@@ -124,7 +124,7 @@ static inline void trum_lanes_wave_slopes(const trum_constants* constants, const
   real* res[trum_wave_slopes_n_res];
   int k;
   for (k = 0; k < trum_wave_slopes_n_res; ++k) res[k] = &results[k];
-  TRUM_KERNEL(trum_wave_slopes)(arg, res, 0, 0, 0);
+  (void)TRUM_KERNEL(trum_wave_slopes)(arg, res, 0, 0, 0);
 }
 
 /* Friction's slope by the rim's speed, over a bent step, where the rotor is as fast as all of the surface */
@@ -132,7 +132,7 @@ static inline void trum_lanes_friction_limit(const trum_saturation* saturation, 
   const real* arg[trum_friction_limit_n_arg] = {&saturation->R_v, &saturation->R_v_rate, &saturation->p_larger,
       &saturation->p_smaller, &saturation->step, &saturation->v, &saturation->v_rate};
   real* res[trum_friction_limit_n_res] = {T_f_v};
-  TRUM_KERNEL(trum_friction_limit)(arg, res, 0, 0, 0);
+  (void)TRUM_KERNEL(trum_friction_limit)(arg, res, 0, 0, 0);
 }
 
 /* The half-angle's slope by the engagement's logarithm, over a bent step, where the whole wave touches */
@@ -140,7 +140,7 @@ static inline void trum_lanes_contact_limit(const trum_constants* constants, con
     T_theta_E) {
   const real* arg[trum_contact_limit_n_arg] = {&full->W_c_rate, &constants->W_full, &full->step};
   real* res[trum_contact_limit_n_res] = {T_theta_E};
-  TRUM_KERNEL(trum_contact_limit)(arg, res, 0, 0, 0);
+  (void)TRUM_KERNEL(trum_contact_limit)(arg, res, 0, 0, 0);
 }
 
 #endif

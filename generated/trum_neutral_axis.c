@@ -13,177 +13,56 @@
  *
  * 23 operations: 12 mul, 3 add, 3 sq, 2 div, 2 twice, 1 sub
  */
-/* How to prefix internal symbols */
-#ifdef CASADI_CODEGEN_PREFIX
-  #define CASADI_NAMESPACE_CONCAT(NS, ID) _CASADI_NAMESPACE_CONCAT(NS, ID)
-  #define _CASADI_NAMESPACE_CONCAT(NS, ID) NS ## ID
-  #define CASADI_PREFIX(ID) CASADI_NAMESPACE_CONCAT(CODEGEN_PREFIX, ID)
-#else
-  #define CASADI_PREFIX(ID) trum_neutral_axis_ ## ID
-#endif
+#include <stddef.h>
 
-#include <math.h>
+#include "trum_kernels.h"
 
-#ifndef casadi_real
-#define casadi_real double
-#endif
-
-#ifndef casadi_int
-#define casadi_int long long int
-#endif
-
-/* Add prefix to internal symbols */
-#define casadi_f0 CASADI_PREFIX(f0)
-#define casadi_s0 CASADI_PREFIX(s0)
-#define casadi_sq CASADI_PREFIX(sq)
-
-/* Symbol visibility in DLLs */
-#ifndef CASADI_SYMBOL_EXPORT
-  #if defined(_WIN32) || defined(__WIN32__) || defined(__CYGWIN__)
-    #if defined(STATIC_LINKED)
-      #define CASADI_SYMBOL_EXPORT
-    #else
-      #define CASADI_SYMBOL_EXPORT __declspec(dllexport)
-    #endif
-  #elif defined(__GNUC__) && defined(GCC_HASCLASSVISIBILITY)
-    #define CASADI_SYMBOL_EXPORT __attribute__ ((visibility ("default")))
-  #else
-    #define CASADI_SYMBOL_EXPORT
-  #endif
-#endif
-
-casadi_real casadi_sq(casadi_real x) { return x*x;}
-
-/* Configuration this file was compiled with */
-CASADI_SYMBOL_EXPORT void trum_neutral_axis_casadi_version(int* major, int* minor, int* patch) {
-  *major = 3;
-  *minor = 8;
-  *patch = 2;
-}
-CASADI_SYMBOL_EXPORT int trum_neutral_axis_casadi_int_size(void) { return (int) sizeof(casadi_int); }
-CASADI_SYMBOL_EXPORT int trum_neutral_axis_casadi_real_size(void) { return (int) sizeof(casadi_real); }
-
-static const casadi_int casadi_s0[3] = {1, 1, 1};
-
-/* trum_neutral_axis:(E_e,E_p,b_e,b_p,h_e,h_p,h_t)->(D) */
-static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
-  (void)iw, (void)w, (void)mem;
-  casadi_real a0, a1, a2, a3, a4, a5, a6, a7;
-  a0=arg[1]? arg[1][0] : 0;
-  a1=arg[3]? arg[3][0] : 0;
-  a2=(a0*a1);
-  a3=arg[5]? arg[5][0] : 0;
-  a4=casadi_sq(a3);
-  a4=(a2*a4);
-  a0=((casadi_real)2.*a0);
-  a0=(a0*a1);
-  a1=arg[4]? arg[4][0] : 0;
-  a0=(a0*a1);
-  a0=(a0*a3);
-  a4=(a4+a0);
-  a0=arg[0]? arg[0][0] : 0;
-  a5=arg[2]? arg[2][0] : 0;
-  a0=(a0*a5);
-  a5=casadi_sq(a1);
-  a5=(a0*a5);
-  a6=(casadi_real)1.;
-  a7=arg[6]? arg[6][0] : 0;
-  a7=(a7/a1);
-  a6=(a6-a7);
-  a7=casadi_sq(a6);
-  a6=(a6*a7);
-  a5=(a5*a6);
-  a4=(a4+a5);
-  a2=(a2*a3);
-  a0=(a0*a1);
-  a0=(a0*a6);
-  a2=(a2+a0);
-  a2=((casadi_real)2.*a2);
-  a4=(a4/a2);
-  if (res[0]!=0) res[0][0]=a4;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_neutral_axis(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem){
-  return casadi_f0(arg, res, iw, w, mem);
-}
-
-CASADI_SYMBOL_EXPORT int trum_neutral_axis_checkout(void) {
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT void trum_neutral_axis_release(int mem) {
+int trum_neutral_axis(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem)
+{
+  trum_real a0;
+  trum_real a1;
+  trum_real a2;
+  trum_real a3;
+  trum_real a4;
+  trum_real a5;
+  trum_real a6;
+  trum_real a7;
+  (void)iw;
+  (void)w;
   (void)mem;
-}
-
-CASADI_SYMBOL_EXPORT void trum_neutral_axis_incref(void) {
-}
-
-CASADI_SYMBOL_EXPORT void trum_neutral_axis_decref(void) {
-}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_neutral_axis_n_in(void) { return 7;}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_neutral_axis_n_out(void) { return 1;}
-
-CASADI_SYMBOL_EXPORT casadi_real trum_neutral_axis_default_in(casadi_int i) {
-  switch (i) {
-    default: return 0;
+  a0 = (arg[1] != NULL) ? arg[1][0] : TRUM_C(0.0);
+  a1 = (arg[3] != NULL) ? arg[3][0] : TRUM_C(0.0);
+  a2 = a0 * a1;
+  a3 = (arg[5] != NULL) ? arg[5][0] : TRUM_C(0.0);
+  a4 = a3 * a3;
+  a4 = a2 * a4;
+  a0 = TRUM_C(2.0) * a0;
+  a0 = a0 * a1;
+  a1 = (arg[4] != NULL) ? arg[4][0] : TRUM_C(0.0);
+  a0 = a0 * a1;
+  a0 = a0 * a3;
+  a4 = a4 + a0;
+  a0 = (arg[0] != NULL) ? arg[0][0] : TRUM_C(0.0);
+  a5 = (arg[2] != NULL) ? arg[2][0] : TRUM_C(0.0);
+  a0 = a0 * a5;
+  a5 = a1 * a1;
+  a5 = a0 * a5;
+  a6 = TRUM_C(1.0);
+  a7 = (arg[6] != NULL) ? arg[6][0] : TRUM_C(0.0);
+  a7 = a7 / a1;
+  a6 = a6 - a7;
+  a7 = a6 * a6;
+  a6 = a6 * a7;
+  a5 = a5 * a6;
+  a4 = a4 + a5;
+  a2 = a2 * a3;
+  a0 = a0 * a1;
+  a0 = a0 * a6;
+  a2 = a2 + a0;
+  a2 = TRUM_C(2.0) * a2;
+  a4 = a4 / a2;
+  if (res[0] != NULL) {
+    res[0][0] = a4;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_neutral_axis_name_in(casadi_int i) {
-  switch (i) {
-    case 0: return "E_e";
-    case 1: return "E_p";
-    case 2: return "b_e";
-    case 3: return "b_p";
-    case 4: return "h_e";
-    case 5: return "h_p";
-    case 6: return "h_t";
-    default: return 0;
-  }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_neutral_axis_name_out(casadi_int i) {
-  switch (i) {
-    case 0: return "D";
-    default: return 0;
-  }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_neutral_axis_sparsity_in(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    case 4: return casadi_s0;
-    case 5: return casadi_s0;
-    case 6: return casadi_s0;
-    default: return 0;
-  }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_neutral_axis_sparsity_out(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    default: return 0;
-  }
-}
-
-CASADI_SYMBOL_EXPORT int trum_neutral_axis_work(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 7;
-  if (sz_res) *sz_res = 1;
-  if (sz_iw) *sz_iw = 0;
-  if (sz_w) *sz_w = 0;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_neutral_axis_work_bytes(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 7*sizeof(const casadi_real*);
-  if (sz_res) *sz_res = 1*sizeof(casadi_real*);
-  if (sz_iw) *sz_iw = 0*sizeof(casadi_int);
-  if (sz_w) *sz_w = 0*sizeof(casadi_real);
   return 0;
 }

@@ -3,6 +3,8 @@
 #ifndef TRUM_ORBIT_FIELDS_H
 #define TRUM_ORBIT_FIELDS_H
 
+#include "trum_math.h"
+
 /* name, SI unit */
 /* a drive cycle */
 #define TRUM_CYCLE_IN(X) \
@@ -173,125 +175,125 @@
 
 /* what the friction of a brush depends on */
 typedef struct {
-  double theta; /* rad: contact half-angle k_c x_m */
-  double grip; /* 1: tangential over normal stiffness of the contact, times D k_c / mu */
-  double ratio; /* 1: speed of the rotor's rim over the greatest of the surface */
+  trum_real theta; /* rad: contact half-angle k_c x_m */
+  trum_real grip; /* 1: tangential over normal stiffness of the contact, times D k_c / mu */
+  trum_real ratio; /* 1: speed of the rotor's rim over the greatest of the surface */
 } trum_brush_in;
 
 /* what the rotor's speed over a brush depends on */
 typedef struct {
-  double theta; /* rad: contact half-angle k_c x_m */
-  double grip; /* 1: tangential over normal stiffness of the contact, times D k_c / mu */
-  double f; /* 1: net friction fraction, of mu F_c */
+  trum_real theta; /* rad: contact half-angle k_c x_m */
+  trum_real grip; /* 1: tangential over normal stiffness of the contact, times D k_c / mu */
+  trum_real f; /* 1: net friction fraction, of mu F_c */
 } trum_brush_speed_in;
 
 /* what the determinant's sums over a cycle need */
 typedef struct {
-  double omega_n; /* rad/s: resonant angular frequency */
-  double Delta_omega; /* rad/s: angular frequency difference, drive less resonance */
-  double xi; /* 1: damping ratio */
-  double psi; /* rad: drive phase at which the phases are switched (switching_phase) */
-  double s; /* 1: phase lead of B in quarter periods, +1 or -1 */
-  double m; /* 1: drive pulses per cycle (periods) */
-  double n; /* 1: pulses each phase gets per cycle (on_periods) */
-  double a_A; /* m: free displacement of phase A at the start of the region */
-  double b_A; /* m/s: free velocity of phase A at the start of the region */
-  double a_B; /* m: free displacement of phase B at the start of the region */
-  double b_B; /* m/s: free velocity of phase B at the start of the region */
-  double panels; /* 1: panels of the quadrature in a period of the faster of drive and resonance */
+  trum_real omega_n; /* rad/s: resonant angular frequency */
+  trum_real Delta_omega; /* rad/s: angular frequency difference, drive less resonance */
+  trum_real xi; /* 1: damping ratio */
+  trum_real psi; /* rad: drive phase at which the phases are switched (switching_phase) */
+  trum_real s; /* 1: phase lead of B in quarter periods, +1 or -1 */
+  trum_real m; /* 1: drive pulses per cycle (periods) */
+  trum_real n; /* 1: pulses each phase gets per cycle (on_periods) */
+  trum_real a_A; /* m: free displacement of phase A at the start of the region */
+  trum_real b_A; /* m/s: free velocity of phase A at the start of the region */
+  trum_real a_B; /* m: free displacement of phase B at the start of the region */
+  trum_real b_B; /* m/s: free velocity of phase B at the start of the region */
+  trum_real panels; /* 1: panels of the quadrature in a period of the faster of drive and resonance */
 } trum_cycle_sums_in;
 
 /* what a cycle's determinant sums to */
 typedef struct {
-  double q_plus; /* m^2: integral of Q's positive part over a cycle */
-  double q_minus; /* m^2: of its negative part's magnitude */
-  double p_plus; /* m^4/s: of the positive part's square */
-  double p_minus; /* m^4/s: of the negative part's square */
+  trum_real q_plus; /* m^2: integral of Q's positive part over a cycle */
+  trum_real q_minus; /* m^2: of its negative part's magnitude */
+  trum_real p_plus; /* m^4/s: of the positive part's square */
+  trum_real p_minus; /* m^4/s: of the negative part's square */
 } trum_cycle_sums_out;
 
 /* an instant of a cycle */
 typedef struct {
-  double t; /* s: time */
-  double omega_n; /* rad/s: resonant angular frequency */
-  double Delta_omega; /* rad/s: angular frequency difference, drive less resonance */
-  double xi; /* 1: damping ratio */
-  double psi; /* rad: drive phase at which the phases are switched (switching_phase) */
-  double s; /* 1: phase lead of B in quarter periods, +1 or -1 */
-  double m; /* 1: drive pulses per cycle (periods) */
-  double n; /* 1: pulses each phase gets per cycle (on_periods) */
-  double a_A; /* m: free displacement of phase A at the start of the region */
-  double b_A; /* m/s: free velocity of phase A at the start of the region */
-  double a_B; /* m: free displacement of phase B at the start of the region */
-  double b_B; /* m/s: free velocity of phase B at the start of the region */
-  double W; /* m: amplitude of a phase's standing wave */
-  double D; /* m: neutral axis */
-  double k_c; /* 1/m: wavenumber */
+  trum_real t; /* s: time */
+  trum_real omega_n; /* rad/s: resonant angular frequency */
+  trum_real Delta_omega; /* rad/s: angular frequency difference, drive less resonance */
+  trum_real xi; /* 1: damping ratio */
+  trum_real psi; /* rad: drive phase at which the phases are switched (switching_phase) */
+  trum_real s; /* 1: phase lead of B in quarter periods, +1 or -1 */
+  trum_real m; /* 1: drive pulses per cycle (periods) */
+  trum_real n; /* 1: pulses each phase gets per cycle (on_periods) */
+  trum_real a_A; /* m: free displacement of phase A at the start of the region */
+  trum_real b_A; /* m/s: free velocity of phase A at the start of the region */
+  trum_real a_B; /* m: free displacement of phase B at the start of the region */
+  trum_real b_B; /* m/s: free velocity of phase B at the start of the region */
+  trum_real W; /* m: amplitude of a phase's standing wave */
+  trum_real D; /* m: neutral axis */
+  trum_real k_c; /* 1/m: wavenumber */
 } trum_cycle_response_in;
 
 /* both phases and their determinant there */
 typedef struct {
-  double w_A; /* m: displacement of phase A */
-  double w_B; /* m: displacement of phase B */
-  double v_A; /* m/s: velocity of phase A */
-  double v_B; /* m/s: velocity of phase B */
-  double Q; /* m^2/s: direction determinant (eq. 24) */
+  trum_real w_A; /* m: displacement of phase A */
+  trum_real w_B; /* m: displacement of phase B */
+  trum_real v_A; /* m/s: velocity of phase A */
+  trum_real v_B; /* m/s: velocity of phase B */
+  trum_real Q; /* m^2/s: direction determinant (eq. 24) */
 } trum_cycle_response_out;
 
 /* what an orbit needs of a point; angles in rad */
 typedef struct {
-  double omega_n; /* rad/s: resonant angular frequency */
-  double Delta_omega; /* rad/s: angular frequency difference, drive less resonance */
-  double xi; /* 1: damping ratio */
-  double psi; /* rad: drive phase at which the phases are switched (switching_phase) */
-  double s; /* 1: phase lead of B in quarter periods, +1 or -1 */
-  double m; /* 1: drive pulses per cycle (periods) */
-  double n; /* 1: pulses each phase gets per cycle (on_periods) */
-  double a_A; /* m: free displacement of phase A at the start of the region */
-  double b_A; /* m/s: free velocity of phase A at the start of the region */
-  double a_B; /* m: free displacement of phase B at the start of the region */
-  double b_B; /* m/s: free velocity of phase B at the start of the region */
-  double W; /* m: amplitude of a phase's standing wave */
-  double D; /* m: neutral axis */
-  double k_c; /* 1/m: wavenumber */
-  double engagement_per_height; /* 1/m: engagement over wave height */
-  double W_full; /* m: wave height below which the whole wave touches */
-  double hertz; /* 1: whether the contact has the paper's Hertz width (1) or is the Winkler layer's (0) */
-  double push; /* m/s^2: mu F_c r_c^2 / J_total, the rim's acceleration by full friction (eq. 38) */
-  double drag; /* m/s^2: the load's T_load r_c / J_total (eq. 38) */
-  double tolerance; /* 1: of mean and extremes, relative to the largest speed */
-  double held; /* 1: whether (1 or 0) contact and stall torque of a rotor that is held are wanted */
+  trum_real omega_n; /* rad/s: resonant angular frequency */
+  trum_real Delta_omega; /* rad/s: angular frequency difference, drive less resonance */
+  trum_real xi; /* 1: damping ratio */
+  trum_real psi; /* rad: drive phase at which the phases are switched (switching_phase) */
+  trum_real s; /* 1: phase lead of B in quarter periods, +1 or -1 */
+  trum_real m; /* 1: drive pulses per cycle (periods) */
+  trum_real n; /* 1: pulses each phase gets per cycle (on_periods) */
+  trum_real a_A; /* m: free displacement of phase A at the start of the region */
+  trum_real b_A; /* m/s: free velocity of phase A at the start of the region */
+  trum_real a_B; /* m: free displacement of phase B at the start of the region */
+  trum_real b_B; /* m/s: free velocity of phase B at the start of the region */
+  trum_real W; /* m: amplitude of a phase's standing wave */
+  trum_real D; /* m: neutral axis */
+  trum_real k_c; /* 1/m: wavenumber */
+  trum_real engagement_per_height; /* 1/m: engagement over wave height */
+  trum_real W_full; /* m: wave height below which the whole wave touches */
+  trum_real hertz; /* 1: whether the contact has the paper's Hertz width (1) or is the Winkler layer's (0) */
+  trum_real push; /* m/s^2: mu F_c r_c^2 / J_total, the rim's acceleration by full friction (eq. 38) */
+  trum_real drag; /* m/s^2: the load's T_load r_c / J_total (eq. 38) */
+  trum_real tolerance; /* 1: of mean and extremes, relative to the largest speed */
+  trum_real held; /* 1: whether (1 or 0) contact and stall torque of a rotor that is held are wanted */
 } trum_orbit_in;
 
 /* an orbit's figures */
 typedef struct {
-  double mean; /* m/s: mean speed of the rim */
-  double low; /* m/s: its lowest */
-  double high; /* m/s: its highest */
-  double variance; /* m^2/s^2: its variance */
-  double contact; /* 1: mean of theta/pi with the rotor held; NaN unless wanted */
-  double held; /* 1: mean friction fraction with the rotor held; NaN unless wanted */
-  double start; /* m/s: speed at the start of the cycle */
-  double level; /* 1: error that a step of the last lap was allowed, per drive period */
-  double error; /* 1: the largest of the bounds below, over the largest speed */
-  double mean_error; /* m/s: bound of the error of mean */
-  double low_error; /* m/s: of low */
-  double high_error; /* m/s: of high */
-  double deviation_error; /* m/s: of the root of variance */
-  double contact_error; /* 1: of contact */
-  double held_error; /* 1: of held */
-  double flags; /* 1: sum of the bits of TRUM_ORBIT_FLAGS */
+  trum_real mean; /* m/s: mean speed of the rim */
+  trum_real low; /* m/s: its lowest */
+  trum_real high; /* m/s: its highest */
+  trum_real variance; /* m^2/s^2: its variance */
+  trum_real contact; /* 1: mean of theta/pi with the rotor held; NaN unless wanted */
+  trum_real held; /* 1: mean friction fraction with the rotor held; NaN unless wanted */
+  trum_real start; /* m/s: speed at the start of the cycle */
+  trum_real level; /* 1: error that a step of the last lap was allowed, per drive period */
+  trum_real error; /* 1: the largest of the bounds below, over the largest speed */
+  trum_real mean_error; /* m/s: bound of the error of mean */
+  trum_real low_error; /* m/s: of low */
+  trum_real high_error; /* m/s: of high */
+  trum_real deviation_error; /* m/s: of the root of variance */
+  trum_real contact_error; /* 1: of contact */
+  trum_real held_error; /* 1: of held */
+  trum_real flags; /* 1: sum of the bits of TRUM_ORBIT_FLAGS */
 } trum_orbit_out;
 
 /* derivatives of the free motion before t1 by resonance and difference */
 typedef struct {
-  double a_A_omega_n; /* m*s: derivative of a_A by omega_n */
-  double b_A_omega_n; /* m: derivative of b_A by omega_n */
-  double a_B_omega_n; /* m*s: derivative of a_B by omega_n */
-  double b_B_omega_n; /* m: derivative of b_B by omega_n */
-  double a_A_Delta_omega; /* m*s: derivative of a_A by Delta_omega */
-  double b_A_Delta_omega; /* m: derivative of b_A by Delta_omega */
-  double a_B_Delta_omega; /* m*s: derivative of a_B by Delta_omega */
-  double b_B_Delta_omega; /* m: derivative of b_B by Delta_omega */
+  trum_real a_A_omega_n; /* m*s: derivative of a_A by omega_n */
+  trum_real b_A_omega_n; /* m: derivative of b_A by omega_n */
+  trum_real a_B_omega_n; /* m*s: derivative of a_B by omega_n */
+  trum_real b_B_omega_n; /* m: derivative of b_B by omega_n */
+  trum_real a_A_Delta_omega; /* m*s: derivative of a_A by Delta_omega */
+  trum_real b_A_Delta_omega; /* m: derivative of b_A by Delta_omega */
+  trum_real a_B_Delta_omega; /* m*s: derivative of a_B by Delta_omega */
+  trum_real b_B_Delta_omega; /* m: derivative of b_B by Delta_omega */
 } trum_slopes_in;
 
 /* figures that have slopes, the rows of the slopes' matrix */
@@ -317,7 +319,7 @@ enum {
 };
 
 typedef struct {
-  double of[TRUM_SLOPE_FIGURES_COUNT][TRUM_SLOPE_PARAMETERS_COUNT];
+  trum_real of[TRUM_SLOPE_FIGURES_COUNT][TRUM_SLOPE_PARAMETERS_COUNT];
 } trum_slopes_out;
 
 /* bits of an orbit's flags, and their names */

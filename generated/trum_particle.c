@@ -26,320 +26,202 @@
  *
  * 125 operations: 67 mul, 19 add, 12 sub, 9 div, 5 cos, 5 sin, 3 sq, 2 sqrt, 1 atan2, 1 exp, 1 neg
  */
-/* How to prefix internal symbols */
-#ifdef CASADI_CODEGEN_PREFIX
-  #define CASADI_NAMESPACE_CONCAT(NS, ID) _CASADI_NAMESPACE_CONCAT(NS, ID)
-  #define _CASADI_NAMESPACE_CONCAT(NS, ID) NS ## ID
-  #define CASADI_PREFIX(ID) CASADI_NAMESPACE_CONCAT(CODEGEN_PREFIX, ID)
-#else
-  #define CASADI_PREFIX(ID) trum_particle_ ## ID
-#endif
+#include <stddef.h>
 
-#include <math.h>
+#include "trum_kernels.h"
 
-#ifndef casadi_real
-#define casadi_real double
-#endif
-
-#ifndef casadi_int
-#define casadi_int long long int
-#endif
-
-/* Add prefix to internal symbols */
-#define casadi_f0 CASADI_PREFIX(f0)
-#define casadi_s0 CASADI_PREFIX(s0)
-#define casadi_sq CASADI_PREFIX(sq)
-
-/* Symbol visibility in DLLs */
-#ifndef CASADI_SYMBOL_EXPORT
-  #if defined(_WIN32) || defined(__WIN32__) || defined(__CYGWIN__)
-    #if defined(STATIC_LINKED)
-      #define CASADI_SYMBOL_EXPORT
-    #else
-      #define CASADI_SYMBOL_EXPORT __declspec(dllexport)
-    #endif
-  #elif defined(__GNUC__) && defined(GCC_HASCLASSVISIBILITY)
-    #define CASADI_SYMBOL_EXPORT __attribute__ ((visibility ("default")))
-  #else
-    #define CASADI_SYMBOL_EXPORT
-  #endif
-#endif
-
-casadi_real casadi_sq(casadi_real x) { return x*x;}
-
-/* Configuration this file was compiled with */
-CASADI_SYMBOL_EXPORT void trum_particle_casadi_version(int* major, int* minor, int* patch) {
-  *major = 3;
-  *minor = 8;
-  *patch = 2;
-}
-CASADI_SYMBOL_EXPORT int trum_particle_casadi_int_size(void) { return (int) sizeof(casadi_int); }
-CASADI_SYMBOL_EXPORT int trum_particle_casadi_real_size(void) { return (int) sizeof(casadi_real); }
-
-static const casadi_int casadi_s0[3] = {1, 1, 1};
-
-/* trum_particle:(D,Delta_omega,W,a_A,a_B,b_A,b_B,g_A,g_B,k_c,omega_n,psi,s,tau,x,xi)->(zeta_z,zeta_x,v_x,A_Q,x_max) */
-static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
-  (void)iw, (void)w, (void)mem;
-  casadi_real a00, a01, a02, a03, a04, a05, a06, a07, a08, a09, a10, a11;
-  casadi_real a12, a13, a14, a15, a16, a17, a18, a19, a20, a21, a22, a23;
-  casadi_real a24, a25, a26, a27, a28, a29, a30;
-  a00=arg[9]? arg[9][0] : 0;
-  a01=arg[14]? arg[14][0] : 0;
-  a01=(a00*a01);
-  a02=sin(a01);
-  a03=arg[2]? arg[2][0] : 0;
-  a04=arg[7]? arg[7][0] : 0;
-  a04=(a03*a04);
-  a05=arg[11]? arg[11][0] : 0;
-  a06=arg[13]? arg[13][0] : 0;
-  a07=arg[1]? arg[1][0] : 0;
-  a08=arg[10]? arg[10][0] : 0;
-  a07=(a07+a08);
-  a09=(a06*a07);
-  a10=(a05+a09);
-  a11=cos(a10);
-  a12=(a04*a11);
-  a06=(a08*a06);
-  a13=arg[15]? arg[15][0] : 0;
-  a14=(a06*a13);
-  a14=(-a14);
-  a14=exp(a14);
-  a15=arg[3]? arg[3][0] : 0;
-  a16=(casadi_real)1.;
-  a17=casadi_sq(a13);
-  a16=(a16-a17);
-  a16=sqrt(a16);
-  a06=(a06*a16);
-  a17=cos(a06);
-  a18=(a15*a17);
-  a19=arg[5]? arg[5][0] : 0;
-  a20=(a15*a08);
-  a21=(a20*a13);
-  a21=(a19+a21);
-  a06=sin(a06);
-  a22=(a21*a06);
-  a23=(a08*a16);
-  a22=(a22/a23);
-  a18=(a18+a22);
-  a18=(a14*a18);
-  a12=(a12+a18);
-  a18=(a02*a12);
-  a01=cos(a01);
-  a22=arg[4]? arg[4][0] : 0;
-  a24=(a22*a17);
-  a25=arg[6]? arg[6][0] : 0;
-  a08=(a22*a08);
-  a26=(a08*a13);
-  a26=(a25+a26);
-  a27=(a26*a06);
-  a27=(a27/a23);
-  a24=(a24+a27);
-  a24=(a14*a24);
-  a27=arg[8]? arg[8][0] : 0;
-  a03=(a03*a27);
-  a27=arg[12]? arg[12][0] : 0;
-  a03=(a03*a27);
-  a10=sin(a10);
-  a27=(a03*a10);
-  a24=(a24-a27);
-  a27=(a01*a24);
-  a18=(a18+a27);
-  if (res[0]!=0) res[0][0]=a18;
-  a18=arg[0]? arg[0][0] : 0;
-  a27=(a00*a01);
-  a28=(a27*a12);
-  a29=(a00*a02);
-  a30=(a29*a24);
-  a28=(a28-a30);
-  a28=(a18*a28);
-  if (res[1]!=0) res[1][0]=a28;
-  a28=(a19*a17);
-  a19=(a19*a13);
-  a20=(a20+a19);
-  a20=(a20*a06);
-  a20=(a20/a16);
-  a28=(a28-a20);
-  a28=(a14*a28);
-  a20=(a04*a07);
-  a20=(a20*a10);
-  a28=(a28-a20);
-  a27=(a27*a28);
-  a28=(a25*a17);
-  a25=(a25*a13);
-  a08=(a08+a25);
-  a08=(a08*a06);
-  a08=(a08/a16);
-  a28=(a28-a08);
-  a28=(a14*a28);
-  a07=(a03*a07);
-  a07=(a07*a11);
-  a28=(a28-a07);
-  a29=(a29*a28);
-  a27=(a27-a29);
-  a18=(a18*a27);
-  if (res[2]!=0) res[2][0]=a18;
-  a15=(a15*a14);
-  a18=(a15*a06);
-  a27=sin(a05);
-  a29=cos(a09);
-  a28=(a27*a29);
-  a05=cos(a05);
-  a09=sin(a09);
-  a07=(a05*a09);
-  a28=(a28+a07);
-  a07=(a04*a28);
-  a18=(a18+a07);
-  a21=(a14*a21);
-  a07=(a21*a17);
-  a07=(a07/a23);
-  a18=(a18-a07);
-  a18=(a02*a18);
-  a22=(a22*a14);
-  a07=(a22*a06);
-  a05=(a05*a29);
-  a27=(a27*a09);
-  a05=(a05-a27);
-  a27=(a03*a05);
-  a07=(a07+a27);
-  a14=(a14*a26);
-  a26=(a14*a17);
-  a26=(a26/a23);
-  a07=(a07-a26);
-  a07=(a01*a07);
-  a18=(a18+a07);
-  a18=casadi_sq(a18);
-  a15=(a15*a17);
-  a04=(a04*a05);
-  a15=(a15+a04);
-  a21=(a21*a06);
-  a21=(a21/a23);
-  a15=(a15+a21);
-  a02=(a02*a15);
-  a22=(a22*a17);
-  a03=(a03*a28);
-  a22=(a22-a03);
-  a14=(a14*a06);
-  a14=(a14/a23);
-  a22=(a22+a14);
-  a01=(a01*a22);
-  a02=(a02+a01);
-  a02=casadi_sq(a02);
-  a18=(a18+a02);
-  a18=sqrt(a18);
-  if (res[3]!=0) res[3][0]=a18;
-  a12=atan2(a12,a24);
-  a12=(a12/a00);
-  if (res[4]!=0) res[4][0]=a12;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_particle(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem){
-  return casadi_f0(arg, res, iw, w, mem);
-}
-
-CASADI_SYMBOL_EXPORT int trum_particle_checkout(void) {
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT void trum_particle_release(int mem) {
+int trum_particle(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem)
+{
+  trum_real a0;
+  trum_real a1;
+  trum_real a2;
+  trum_real a3;
+  trum_real a4;
+  trum_real a5;
+  trum_real a6;
+  trum_real a7;
+  trum_real a8;
+  trum_real a9;
+  trum_real a10;
+  trum_real a11;
+  trum_real a12;
+  trum_real a13;
+  trum_real a14;
+  trum_real a15;
+  trum_real a16;
+  trum_real a17;
+  trum_real a18;
+  trum_real a19;
+  trum_real a20;
+  trum_real a21;
+  trum_real a22;
+  trum_real a23;
+  trum_real a24;
+  trum_real a25;
+  trum_real a26;
+  trum_real a27;
+  trum_real a28;
+  trum_real a29;
+  trum_real a30;
+  (void)iw;
+  (void)w;
   (void)mem;
-}
-
-CASADI_SYMBOL_EXPORT void trum_particle_incref(void) {
-}
-
-CASADI_SYMBOL_EXPORT void trum_particle_decref(void) {
-}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_particle_n_in(void) { return 16;}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_particle_n_out(void) { return 5;}
-
-CASADI_SYMBOL_EXPORT casadi_real trum_particle_default_in(casadi_int i) {
-  switch (i) {
-    default: return 0;
+  a0 = (arg[9] != NULL) ? arg[9][0] : TRUM_C(0.0);
+  a1 = (arg[14] != NULL) ? arg[14][0] : TRUM_C(0.0);
+  a1 = a0 * a1;
+  a2 = trum_sin(a1);
+  a3 = (arg[2] != NULL) ? arg[2][0] : TRUM_C(0.0);
+  a4 = (arg[7] != NULL) ? arg[7][0] : TRUM_C(0.0);
+  a4 = a3 * a4;
+  a5 = (arg[11] != NULL) ? arg[11][0] : TRUM_C(0.0);
+  a6 = (arg[13] != NULL) ? arg[13][0] : TRUM_C(0.0);
+  a7 = (arg[1] != NULL) ? arg[1][0] : TRUM_C(0.0);
+  a8 = (arg[10] != NULL) ? arg[10][0] : TRUM_C(0.0);
+  a7 = a7 + a8;
+  a9 = a6 * a7;
+  a10 = a5 + a9;
+  a11 = trum_cos(a10);
+  a12 = a4 * a11;
+  a6 = a8 * a6;
+  a13 = (arg[15] != NULL) ? arg[15][0] : TRUM_C(0.0);
+  a14 = a6 * a13;
+  a14 = -a14;
+  a14 = trum_exp(a14);
+  a15 = (arg[3] != NULL) ? arg[3][0] : TRUM_C(0.0);
+  a16 = TRUM_C(1.0);
+  a17 = a13 * a13;
+  a16 = a16 - a17;
+  a16 = trum_sqrt(a16);
+  a6 = a6 * a16;
+  a17 = trum_cos(a6);
+  a18 = a15 * a17;
+  a19 = (arg[5] != NULL) ? arg[5][0] : TRUM_C(0.0);
+  a20 = a15 * a8;
+  a21 = a20 * a13;
+  a21 = a19 + a21;
+  a6 = trum_sin(a6);
+  a22 = a21 * a6;
+  a23 = a8 * a16;
+  a22 = a22 / a23;
+  a18 = a18 + a22;
+  a18 = a14 * a18;
+  a12 = a12 + a18;
+  a18 = a2 * a12;
+  a1 = trum_cos(a1);
+  a22 = (arg[4] != NULL) ? arg[4][0] : TRUM_C(0.0);
+  a24 = a22 * a17;
+  a25 = (arg[6] != NULL) ? arg[6][0] : TRUM_C(0.0);
+  a8 = a22 * a8;
+  a26 = a8 * a13;
+  a26 = a25 + a26;
+  a27 = a26 * a6;
+  a27 = a27 / a23;
+  a24 = a24 + a27;
+  a24 = a14 * a24;
+  a27 = (arg[8] != NULL) ? arg[8][0] : TRUM_C(0.0);
+  a3 = a3 * a27;
+  a27 = (arg[12] != NULL) ? arg[12][0] : TRUM_C(0.0);
+  a3 = a3 * a27;
+  a10 = trum_sin(a10);
+  a27 = a3 * a10;
+  a24 = a24 - a27;
+  a27 = a1 * a24;
+  a18 = a18 + a27;
+  if (res[0] != NULL) {
+    res[0][0] = a18;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_particle_name_in(casadi_int i) {
-  switch (i) {
-    case 0: return "D";
-    case 1: return "Delta_omega";
-    case 2: return "W";
-    case 3: return "a_A";
-    case 4: return "a_B";
-    case 5: return "b_A";
-    case 6: return "b_B";
-    case 7: return "g_A";
-    case 8: return "g_B";
-    case 9: return "k_c";
-    case 10: return "omega_n";
-    case 11: return "psi";
-    case 12: return "s";
-    case 13: return "tau";
-    case 14: return "x";
-    case 15: return "xi";
-    default: return 0;
+  a18 = (arg[0] != NULL) ? arg[0][0] : TRUM_C(0.0);
+  a27 = a0 * a1;
+  a28 = a27 * a12;
+  a29 = a0 * a2;
+  a30 = a29 * a24;
+  a28 = a28 - a30;
+  a28 = a18 * a28;
+  if (res[1] != NULL) {
+    res[1][0] = a28;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_particle_name_out(casadi_int i) {
-  switch (i) {
-    case 0: return "zeta_z";
-    case 1: return "zeta_x";
-    case 2: return "v_x";
-    case 3: return "A_Q";
-    case 4: return "x_max";
-    default: return 0;
+  a28 = a19 * a17;
+  a19 = a19 * a13;
+  a20 = a20 + a19;
+  a20 = a20 * a6;
+  a20 = a20 / a16;
+  a28 = a28 - a20;
+  a28 = a14 * a28;
+  a20 = a4 * a7;
+  a20 = a20 * a10;
+  a28 = a28 - a20;
+  a27 = a27 * a28;
+  a28 = a25 * a17;
+  a25 = a25 * a13;
+  a8 = a8 + a25;
+  a8 = a8 * a6;
+  a8 = a8 / a16;
+  a28 = a28 - a8;
+  a28 = a14 * a28;
+  a7 = a3 * a7;
+  a7 = a7 * a11;
+  a28 = a28 - a7;
+  a29 = a29 * a28;
+  a27 = a27 - a29;
+  a18 = a18 * a27;
+  if (res[2] != NULL) {
+    res[2][0] = a18;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_particle_sparsity_in(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    case 4: return casadi_s0;
-    case 5: return casadi_s0;
-    case 6: return casadi_s0;
-    case 7: return casadi_s0;
-    case 8: return casadi_s0;
-    case 9: return casadi_s0;
-    case 10: return casadi_s0;
-    case 11: return casadi_s0;
-    case 12: return casadi_s0;
-    case 13: return casadi_s0;
-    case 14: return casadi_s0;
-    case 15: return casadi_s0;
-    default: return 0;
+  a15 = a15 * a14;
+  a18 = a15 * a6;
+  a27 = trum_sin(a5);
+  a29 = trum_cos(a9);
+  a28 = a27 * a29;
+  a5 = trum_cos(a5);
+  a9 = trum_sin(a9);
+  a7 = a5 * a9;
+  a28 = a28 + a7;
+  a7 = a4 * a28;
+  a18 = a18 + a7;
+  a21 = a14 * a21;
+  a7 = a21 * a17;
+  a7 = a7 / a23;
+  a18 = a18 - a7;
+  a18 = a2 * a18;
+  a22 = a22 * a14;
+  a7 = a22 * a6;
+  a5 = a5 * a29;
+  a27 = a27 * a9;
+  a5 = a5 - a27;
+  a27 = a3 * a5;
+  a7 = a7 + a27;
+  a14 = a14 * a26;
+  a26 = a14 * a17;
+  a26 = a26 / a23;
+  a7 = a7 - a26;
+  a7 = a1 * a7;
+  a18 = a18 + a7;
+  a18 = a18 * a18;
+  a15 = a15 * a17;
+  a4 = a4 * a5;
+  a15 = a15 + a4;
+  a21 = a21 * a6;
+  a21 = a21 / a23;
+  a15 = a15 + a21;
+  a2 = a2 * a15;
+  a22 = a22 * a17;
+  a3 = a3 * a28;
+  a22 = a22 - a3;
+  a14 = a14 * a6;
+  a14 = a14 / a23;
+  a22 = a22 + a14;
+  a1 = a1 * a22;
+  a2 = a2 + a1;
+  a2 = a2 * a2;
+  a18 = a18 + a2;
+  a18 = trum_sqrt(a18);
+  if (res[3] != NULL) {
+    res[3][0] = a18;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_particle_sparsity_out(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    case 4: return casadi_s0;
-    default: return 0;
+  a12 = trum_atan2(a12, a24);
+  a12 = a12 / a0;
+  if (res[4] != NULL) {
+    res[4][0] = a12;
   }
-}
-
-CASADI_SYMBOL_EXPORT int trum_particle_work(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 16;
-  if (sz_res) *sz_res = 5;
-  if (sz_iw) *sz_iw = 0;
-  if (sz_w) *sz_w = 0;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_particle_work_bytes(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 16*sizeof(const casadi_real*);
-  if (sz_res) *sz_res = 5*sizeof(casadi_real*);
-  if (sz_iw) *sz_iw = 0*sizeof(casadi_int);
-  if (sz_w) *sz_w = 0*sizeof(casadi_real);
   return 0;
 }

@@ -60,7 +60,7 @@ static inline void trum_plain_winkler_balance(const trum_balance* balance, trum_
   const trum_real* arg[trum_winkler_balance_n_arg] = {&balance->F_c, &balance->W, &balance->k_N, &balance->k_c,
       &balance->n_j, &theta};
   trum_real* res[trum_winkler_balance_n_res] = {&values->residual, &values->slope};
-  trum_winkler_balance(arg, res, 0, 0, 0);
+  (void)trum_winkler_balance(arg, res, 0, 0, 0);
 }
 
 /* Duration of each region; free motion at its start and at the cycle's end (eqs. 9, 10) */
@@ -72,7 +72,7 @@ static inline void trum_plain_regions(const trum_cycle_constants* constants, con
   trum_real* res[trum_regions_n_res];
   int k;
   for (k = 0; k < trum_regions_n_res; ++k) res[k] = &results[k];
-  trum_regions(arg, res, 0, 0, 0);
+  (void)trum_regions(arg, res, 0, 0, 0);
 }
 
 /* Both phases' motions at the start of the regions as phasors (eqs. 9, 10) */
@@ -84,7 +84,7 @@ static inline void trum_plain_region_phasors(const trum_cycle_constants* constan
   trum_real* res[trum_region_phasors_n_res];
   int k;
   for (k = 0; k < trum_region_phasors_n_res; ++k) res[k] = &results[k];
-  trum_region_phasors(arg, res, 0, 0, 0);
+  (void)trum_region_phasors(arg, res, 0, 0, 0);
 }
 
 /* How the motion's phasors at the start of the regions follow the frequencies */
@@ -98,7 +98,7 @@ static inline void trum_plain_regions_slopes(const trum_cycle_constants* constan
   trum_real* res[trum_regions_slopes_n_res];
   int k;
   for (k = 0; k < trum_regions_slopes_n_res; ++k) res[k] = &results[k];
-  trum_regions_slopes(arg, res, 0, 0, 0);
+  (void)trum_regions_slopes(arg, res, 0, 0, 0);
 }
 
 /* Both phases within a region (eqs. 9, 10), determinant and its rate (eqs. 24, A5) */
@@ -109,7 +109,7 @@ static inline void trum_plain_response(const trum_cycle_constants* constants, co
       &constants->psi, &constants->s, &tau, &constants->xi};
   trum_real* res[trum_response_n_res] = {&phases->w_A, &phases->w_B, &phases->v_A, &phases->v_B, &phases->Q,
       &phases->Q_rate};
-  trum_response(arg, res, 0, 0, 0);
+  (void)trum_response(arg, res, 0, 0, 0);
 }
 
 /* Stress of a bristle that sticks and friction's limit, and their integrals from where it began to */
@@ -117,14 +117,14 @@ static inline void trum_plain_brush_passage(const trum_bristle* bristle, trum_pa
   const trum_real* arg[trum_brush_passage_n_arg] = {&bristle->grip, &bristle->ratio, &bristle->t_0, &bristle->theta, &u,
       &bristle->u_0};
   trum_real* res[trum_brush_passage_n_res] = {&passage->stress, &passage->limit, &passage->stuck, &passage->slid};
-  trum_brush_passage(arg, res, 0, 0, 0);
+  (void)trum_brush_passage(arg, res, 0, 0, 0);
 }
 
 /* Where a sliding bristle could begin to stick */
 static inline void trum_plain_brush_turns(const trum_bristle* bristle, trum_turns* turns) {
   const trum_real* arg[trum_brush_turns_n_arg] = {&bristle->grip, &bristle->ratio};
   trum_real* res[trum_brush_turns_n_res] = {&turns->delay, &turns->span};
-  trum_brush_turns(arg, res, 0, 0, 0);
+  (void)trum_brush_turns(arg, res, 0, 0, 0);
 }
 
 #endif

@@ -29,323 +29,202 @@
  *
  * 118 operations: 54 mul, 21 sub, 20 add, 16 div, 2 cos, 2 sin, 1 exp, 1 sq, 1 sqrt
  */
-/* How to prefix internal symbols */
-#ifdef CASADI_CODEGEN_PREFIX
-  #define CASADI_NAMESPACE_CONCAT(NS, ID) _CASADI_NAMESPACE_CONCAT(NS, ID)
-  #define _CASADI_NAMESPACE_CONCAT(NS, ID) NS ## ID
-  #define CASADI_PREFIX(ID) CASADI_NAMESPACE_CONCAT(CODEGEN_PREFIX, ID)
-#else
-  #define CASADI_PREFIX(ID) trum_region_phasors_ ## ID
-#endif
+#include <stddef.h>
 
-#include <math.h>
+#include "trum_kernels.h"
 
-#ifndef casadi_real
-#define casadi_real double
-#endif
-
-#ifndef casadi_int
-#define casadi_int long long int
-#endif
-
-/* Add prefix to internal symbols */
-#define casadi_f0 CASADI_PREFIX(f0)
-#define casadi_s0 CASADI_PREFIX(s0)
-#define casadi_sq CASADI_PREFIX(sq)
-
-/* Symbol visibility in DLLs */
-#ifndef CASADI_SYMBOL_EXPORT
-  #if defined(_WIN32) || defined(__WIN32__) || defined(__CYGWIN__)
-    #if defined(STATIC_LINKED)
-      #define CASADI_SYMBOL_EXPORT
-    #else
-      #define CASADI_SYMBOL_EXPORT __declspec(dllexport)
-    #endif
-  #elif defined(__GNUC__) && defined(GCC_HASCLASSVISIBILITY)
-    #define CASADI_SYMBOL_EXPORT __attribute__ ((visibility ("default")))
-  #else
-    #define CASADI_SYMBOL_EXPORT
-  #endif
-#endif
-
-casadi_real casadi_sq(casadi_real x) { return x*x;}
-
-/* Configuration this file was compiled with */
-CASADI_SYMBOL_EXPORT void trum_region_phasors_casadi_version(int* major, int* minor, int* patch) {
-  *major = 3;
-  *minor = 8;
-  *patch = 2;
-}
-CASADI_SYMBOL_EXPORT int trum_region_phasors_casadi_int_size(void) { return (int) sizeof(casadi_int); }
-CASADI_SYMBOL_EXPORT int trum_region_phasors_casadi_real_size(void) { return (int) sizeof(casadi_real); }
-
-static const casadi_int casadi_s0[3] = {1, 1, 1};
-
-/* trum_region_phasors:(Delta_omega,W,a_A,a_B,b_A,b_B,m,n,omega_n,psi,s,xi)->(re_A_redu,im_A_redu,re_A_addredu,im_A_addredu,re_A_add,im_A_add,re_B_redu,im_B_redu,re_B_addredu,im_B_addredu,re_B_add,im_B_add) */
-static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
-  (void)iw, (void)w, (void)mem;
-  casadi_real a00, a01, a02, a03, a04, a05, a06, a07, a08, a09, a10, a11;
-  casadi_real a12, a13, a14, a15, a16, a17, a18;
-  a00=arg[2]? arg[2][0] : 0;
-  a01=arg[1]? arg[1][0] : 0;
-  a02=arg[9]? arg[9][0] : 0;
-  a03=cos(a02);
-  a04=(a01*a03);
-  a00=(a00+a04);
-  if (res[0]!=0) res[0][0]=a00;
-  a02=sin(a02);
-  a05=(a01*a02);
-  a06=arg[0]? arg[0][0] : 0;
-  a07=arg[8]? arg[8][0] : 0;
-  a06=(a06+a07);
-  a08=(a05*a06);
-  a09=arg[4]? arg[4][0] : 0;
-  a10=(a08-a09);
-  a11=arg[11]? arg[11][0] : 0;
-  a12=(a07*a11);
-  a13=(a12*a00);
-  a10=(a10-a13);
-  a14=(casadi_real)1.;
-  a15=casadi_sq(a11);
-  a14=(a14-a15);
-  a14=sqrt(a14);
-  a15=(a07*a14);
-  a10=(a10/a15);
-  if (res[1]!=0) res[1][0]=a10;
-  a10=(casadi_real)-6.2831853071795862e+00;
-  a10=(a10*a07);
-  a10=(a10*a11);
-  a16=arg[6]? arg[6][0] : 0;
-  a17=arg[7]? arg[7][0] : 0;
-  a16=(a16-a17);
-  a10=(a10*a16);
-  a10=(a10/a06);
-  a10=exp(a10);
-  a17=(casadi_real)6.2831853071795862e+00;
-  a17=(a17*a07);
-  a17=(a17*a16);
-  a17=(a17*a14);
-  a17=(a17/a06);
-  a16=cos(a17);
-  a18=(a00*a16);
-  a13=(a09+a13);
-  a13=(a13-a08);
-  a17=sin(a17);
-  a13=(a13*a17);
-  a13=(a13/a15);
-  a18=(a18+a13);
-  a18=(a10*a18);
-  if (res[2]!=0) res[2][0]=a18;
-  a09=(a09-a08);
-  a13=(a09*a16);
-  a00=(a07*a00);
-  a09=(a11*a09);
-  a00=(a00+a09);
-  a00=(a00*a17);
-  a00=(a00/a14);
-  a13=(a13-a00);
-  a13=(a10*a13);
-  a08=(a08+a13);
-  a18=(a18-a04);
-  a13=(a12*a18);
-  a13=(a08+a13);
-  a00=(a13/a15);
-  a00=(a05-a00);
-  if (res[3]!=0) res[3][0]=a00;
-  a00=(a16*a18);
-  a13=(a17*a13);
-  a13=(a13/a15);
-  a00=(a00+a13);
-  a13=(a10*a00);
-  a04=(a04+a13);
-  if (res[4]!=0) res[4][0]=a04;
-  a04=(a12*a10);
-  a04=(a04*a00);
-  a00=(a16*a08);
-  a18=(a07*a18);
-  a08=(a11*a08);
-  a18=(a18+a08);
-  a18=(a17*a18);
-  a18=(a18/a14);
-  a00=(a00-a18);
-  a00=(a10*a00);
-  a04=(a04+a00);
-  a04=(a04/a15);
-  a05=(a05-a04);
-  if (res[5]!=0) res[5][0]=a05;
-  a05=arg[3]? arg[3][0] : 0;
-  a04=arg[10]? arg[10][0] : 0;
-  a01=(a01*a04);
-  a02=(a01*a02);
-  a04=(a05-a02);
-  if (res[6]!=0) res[6][0]=a04;
-  a01=(a01*a03);
-  a03=arg[5]? arg[5][0] : 0;
-  a04=(a05*a07);
-  a00=(a04*a11);
-  a00=(a03+a00);
-  a18=(a00/a15);
-  a18=(a01-a18);
-  if (res[7]!=0) res[7][0]=a18;
-  a05=(a05*a16);
-  a00=(a00*a17);
-  a00=(a00/a15);
-  a05=(a05+a00);
-  a05=(a10*a05);
-  a05=(a05-a02);
-  if (res[8]!=0) res[8][0]=a05;
-  a06=(a01*a06);
-  a00=(a03*a16);
-  a03=(a03*a11);
-  a04=(a04+a03);
-  a04=(a04*a17);
-  a04=(a04/a14);
-  a00=(a00-a04);
-  a00=(a10*a00);
-  a04=(a06-a00);
-  a03=(a12*a05);
-  a04=(a04-a03);
-  a04=(a04/a15);
-  if (res[9]!=0) res[9][0]=a04;
-  a04=(a16*a05);
-  a03=(a00+a03);
-  a03=(a03-a06);
-  a03=(a17*a03);
-  a03=(a03/a15);
-  a04=(a04+a03);
-  a04=(a10*a04);
-  if (res[10]!=0) res[10][0]=a04;
-  a00=(a00-a06);
-  a16=(a16*a00);
-  a07=(a07*a05);
-  a11=(a11*a00);
-  a07=(a07+a11);
-  a17=(a17*a07);
-  a17=(a17/a14);
-  a16=(a16-a17);
-  a10=(a10*a16);
-  a06=(a06+a10);
-  a02=(a02+a04);
-  a12=(a12*a02);
-  a06=(a06+a12);
-  a06=(a06/a15);
-  a01=(a01-a06);
-  if (res[11]!=0) res[11][0]=a01;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_region_phasors(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem){
-  return casadi_f0(arg, res, iw, w, mem);
-}
-
-CASADI_SYMBOL_EXPORT int trum_region_phasors_checkout(void) {
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT void trum_region_phasors_release(int mem) {
+int trum_region_phasors(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem)
+{
+  trum_real a0;
+  trum_real a1;
+  trum_real a2;
+  trum_real a3;
+  trum_real a4;
+  trum_real a5;
+  trum_real a6;
+  trum_real a7;
+  trum_real a8;
+  trum_real a9;
+  trum_real a10;
+  trum_real a11;
+  trum_real a12;
+  trum_real a13;
+  trum_real a14;
+  trum_real a15;
+  trum_real a16;
+  trum_real a17;
+  trum_real a18;
+  (void)iw;
+  (void)w;
   (void)mem;
-}
-
-CASADI_SYMBOL_EXPORT void trum_region_phasors_incref(void) {
-}
-
-CASADI_SYMBOL_EXPORT void trum_region_phasors_decref(void) {
-}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_region_phasors_n_in(void) { return 12;}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_region_phasors_n_out(void) { return 12;}
-
-CASADI_SYMBOL_EXPORT casadi_real trum_region_phasors_default_in(casadi_int i) {
-  switch (i) {
-    default: return 0;
+  a0 = (arg[2] != NULL) ? arg[2][0] : TRUM_C(0.0);
+  a1 = (arg[1] != NULL) ? arg[1][0] : TRUM_C(0.0);
+  a2 = (arg[9] != NULL) ? arg[9][0] : TRUM_C(0.0);
+  a3 = trum_cos(a2);
+  a4 = a1 * a3;
+  a0 = a0 + a4;
+  if (res[0] != NULL) {
+    res[0][0] = a0;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_region_phasors_name_in(casadi_int i) {
-  switch (i) {
-    case 0: return "Delta_omega";
-    case 1: return "W";
-    case 2: return "a_A";
-    case 3: return "a_B";
-    case 4: return "b_A";
-    case 5: return "b_B";
-    case 6: return "m";
-    case 7: return "n";
-    case 8: return "omega_n";
-    case 9: return "psi";
-    case 10: return "s";
-    case 11: return "xi";
-    default: return 0;
+  a2 = trum_sin(a2);
+  a5 = a1 * a2;
+  a6 = (arg[0] != NULL) ? arg[0][0] : TRUM_C(0.0);
+  a7 = (arg[8] != NULL) ? arg[8][0] : TRUM_C(0.0);
+  a6 = a6 + a7;
+  a8 = a5 * a6;
+  a9 = (arg[4] != NULL) ? arg[4][0] : TRUM_C(0.0);
+  a10 = a8 - a9;
+  a11 = (arg[11] != NULL) ? arg[11][0] : TRUM_C(0.0);
+  a12 = a7 * a11;
+  a13 = a12 * a0;
+  a10 = a10 - a13;
+  a14 = TRUM_C(1.0);
+  a15 = a11 * a11;
+  a14 = a14 - a15;
+  a14 = trum_sqrt(a14);
+  a15 = a7 * a14;
+  a10 = a10 / a15;
+  if (res[1] != NULL) {
+    res[1][0] = a10;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_region_phasors_name_out(casadi_int i) {
-  switch (i) {
-    case 0: return "re_A_redu";
-    case 1: return "im_A_redu";
-    case 2: return "re_A_addredu";
-    case 3: return "im_A_addredu";
-    case 4: return "re_A_add";
-    case 5: return "im_A_add";
-    case 6: return "re_B_redu";
-    case 7: return "im_B_redu";
-    case 8: return "re_B_addredu";
-    case 9: return "im_B_addredu";
-    case 10: return "re_B_add";
-    case 11: return "im_B_add";
-    default: return 0;
+  a10 = TRUM_C(-6.283185307179586);
+  a10 = a10 * a7;
+  a10 = a10 * a11;
+  a16 = (arg[6] != NULL) ? arg[6][0] : TRUM_C(0.0);
+  a17 = (arg[7] != NULL) ? arg[7][0] : TRUM_C(0.0);
+  a16 = a16 - a17;
+  a10 = a10 * a16;
+  a10 = a10 / a6;
+  a10 = trum_exp(a10);
+  a17 = TRUM_C(6.283185307179586);
+  a17 = a17 * a7;
+  a17 = a17 * a16;
+  a17 = a17 * a14;
+  a17 = a17 / a6;
+  a16 = trum_cos(a17);
+  a18 = a0 * a16;
+  a13 = a9 + a13;
+  a13 = a13 - a8;
+  a17 = trum_sin(a17);
+  a13 = a13 * a17;
+  a13 = a13 / a15;
+  a18 = a18 + a13;
+  a18 = a10 * a18;
+  if (res[2] != NULL) {
+    res[2][0] = a18;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_region_phasors_sparsity_in(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    case 4: return casadi_s0;
-    case 5: return casadi_s0;
-    case 6: return casadi_s0;
-    case 7: return casadi_s0;
-    case 8: return casadi_s0;
-    case 9: return casadi_s0;
-    case 10: return casadi_s0;
-    case 11: return casadi_s0;
-    default: return 0;
+  a9 = a9 - a8;
+  a13 = a9 * a16;
+  a0 = a7 * a0;
+  a9 = a11 * a9;
+  a0 = a0 + a9;
+  a0 = a0 * a17;
+  a0 = a0 / a14;
+  a13 = a13 - a0;
+  a13 = a10 * a13;
+  a8 = a8 + a13;
+  a18 = a18 - a4;
+  a13 = a12 * a18;
+  a13 = a8 + a13;
+  a0 = a13 / a15;
+  a0 = a5 - a0;
+  if (res[3] != NULL) {
+    res[3][0] = a0;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_region_phasors_sparsity_out(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    case 4: return casadi_s0;
-    case 5: return casadi_s0;
-    case 6: return casadi_s0;
-    case 7: return casadi_s0;
-    case 8: return casadi_s0;
-    case 9: return casadi_s0;
-    case 10: return casadi_s0;
-    case 11: return casadi_s0;
-    default: return 0;
+  a0 = a16 * a18;
+  a13 = a17 * a13;
+  a13 = a13 / a15;
+  a0 = a0 + a13;
+  a13 = a10 * a0;
+  a4 = a4 + a13;
+  if (res[4] != NULL) {
+    res[4][0] = a4;
   }
-}
-
-CASADI_SYMBOL_EXPORT int trum_region_phasors_work(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 12;
-  if (sz_res) *sz_res = 12;
-  if (sz_iw) *sz_iw = 0;
-  if (sz_w) *sz_w = 0;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_region_phasors_work_bytes(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 12*sizeof(const casadi_real*);
-  if (sz_res) *sz_res = 12*sizeof(casadi_real*);
-  if (sz_iw) *sz_iw = 0*sizeof(casadi_int);
-  if (sz_w) *sz_w = 0*sizeof(casadi_real);
+  a4 = a12 * a10;
+  a4 = a4 * a0;
+  a0 = a16 * a8;
+  a18 = a7 * a18;
+  a8 = a11 * a8;
+  a18 = a18 + a8;
+  a18 = a17 * a18;
+  a18 = a18 / a14;
+  a0 = a0 - a18;
+  a0 = a10 * a0;
+  a4 = a4 + a0;
+  a4 = a4 / a15;
+  a5 = a5 - a4;
+  if (res[5] != NULL) {
+    res[5][0] = a5;
+  }
+  a5 = (arg[3] != NULL) ? arg[3][0] : TRUM_C(0.0);
+  a4 = (arg[10] != NULL) ? arg[10][0] : TRUM_C(0.0);
+  a1 = a1 * a4;
+  a2 = a1 * a2;
+  a4 = a5 - a2;
+  if (res[6] != NULL) {
+    res[6][0] = a4;
+  }
+  a1 = a1 * a3;
+  a3 = (arg[5] != NULL) ? arg[5][0] : TRUM_C(0.0);
+  a4 = a5 * a7;
+  a0 = a4 * a11;
+  a0 = a3 + a0;
+  a18 = a0 / a15;
+  a18 = a1 - a18;
+  if (res[7] != NULL) {
+    res[7][0] = a18;
+  }
+  a5 = a5 * a16;
+  a0 = a0 * a17;
+  a0 = a0 / a15;
+  a5 = a5 + a0;
+  a5 = a10 * a5;
+  a5 = a5 - a2;
+  if (res[8] != NULL) {
+    res[8][0] = a5;
+  }
+  a6 = a1 * a6;
+  a0 = a3 * a16;
+  a3 = a3 * a11;
+  a4 = a4 + a3;
+  a4 = a4 * a17;
+  a4 = a4 / a14;
+  a0 = a0 - a4;
+  a0 = a10 * a0;
+  a4 = a6 - a0;
+  a3 = a12 * a5;
+  a4 = a4 - a3;
+  a4 = a4 / a15;
+  if (res[9] != NULL) {
+    res[9][0] = a4;
+  }
+  a4 = a16 * a5;
+  a3 = a0 + a3;
+  a3 = a3 - a6;
+  a3 = a17 * a3;
+  a3 = a3 / a15;
+  a4 = a4 + a3;
+  a4 = a10 * a4;
+  if (res[10] != NULL) {
+    res[10][0] = a4;
+  }
+  a0 = a0 - a6;
+  a16 = a16 * a0;
+  a7 = a7 * a5;
+  a11 = a11 * a0;
+  a7 = a7 + a11;
+  a17 = a17 * a7;
+  a17 = a17 / a14;
+  a16 = a16 - a17;
+  a10 = a10 * a16;
+  a6 = a6 + a10;
+  a2 = a2 + a4;
+  a12 = a12 * a2;
+  a6 = a6 + a12;
+  a6 = a6 / a15;
+  a1 = a1 - a6;
+  if (res[11] != NULL) {
+    res[11][0] = a1;
+  }
   return 0;
 }

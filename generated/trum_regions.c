@@ -36,371 +36,254 @@
  *
  * 145 operations: 78 mul, 23 add, 18 div, 15 sub, 3 cos, 3 sin, 2 exp, 1 sq, 1 sqrt, 1 twice
  */
-/* How to prefix internal symbols */
-#ifdef CASADI_CODEGEN_PREFIX
-  #define CASADI_NAMESPACE_CONCAT(NS, ID) _CASADI_NAMESPACE_CONCAT(NS, ID)
-  #define _CASADI_NAMESPACE_CONCAT(NS, ID) NS ## ID
-  #define CASADI_PREFIX(ID) CASADI_NAMESPACE_CONCAT(CODEGEN_PREFIX, ID)
-#else
-  #define CASADI_PREFIX(ID) trum_regions_ ## ID
-#endif
+#include <stddef.h>
 
-#include <math.h>
+#include "trum_kernels.h"
 
-#ifndef casadi_real
-#define casadi_real double
-#endif
-
-#ifndef casadi_int
-#define casadi_int long long int
-#endif
-
-/* Add prefix to internal symbols */
-#define casadi_f0 CASADI_PREFIX(f0)
-#define casadi_s0 CASADI_PREFIX(s0)
-#define casadi_sq CASADI_PREFIX(sq)
-
-/* Symbol visibility in DLLs */
-#ifndef CASADI_SYMBOL_EXPORT
-  #if defined(_WIN32) || defined(__WIN32__) || defined(__CYGWIN__)
-    #if defined(STATIC_LINKED)
-      #define CASADI_SYMBOL_EXPORT
-    #else
-      #define CASADI_SYMBOL_EXPORT __declspec(dllexport)
-    #endif
-  #elif defined(__GNUC__) && defined(GCC_HASCLASSVISIBILITY)
-    #define CASADI_SYMBOL_EXPORT __attribute__ ((visibility ("default")))
-  #else
-    #define CASADI_SYMBOL_EXPORT
-  #endif
-#endif
-
-casadi_real casadi_sq(casadi_real x) { return x*x;}
-
-/* Configuration this file was compiled with */
-CASADI_SYMBOL_EXPORT void trum_regions_casadi_version(int* major, int* minor, int* patch) {
-  *major = 3;
-  *minor = 8;
-  *patch = 2;
-}
-CASADI_SYMBOL_EXPORT int trum_regions_casadi_int_size(void) { return (int) sizeof(casadi_int); }
-CASADI_SYMBOL_EXPORT int trum_regions_casadi_real_size(void) { return (int) sizeof(casadi_real); }
-
-static const casadi_int casadi_s0[3] = {1, 1, 1};
-
-/* trum_regions:(Delta_omega,W,a_A,a_B,b_A,b_B,m,n,omega_n,psi,s,xi)->(time_redu,time_addredu,time_add,a_A_redu,b_A_redu,a_B_redu,b_B_redu,a_A_addredu,b_A_addredu,a_B_addredu,b_B_addredu,a_A_add,b_A_add,a_B_add,b_B_add,a_A_end,b_A_end,a_B_end,b_B_end) */
-static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
-  (void)iw, (void)w, (void)mem;
-  casadi_real a00, a01, a02, a03, a04, a05, a06, a07, a08, a09, a10, a11;
-  casadi_real a12, a13, a14, a15, a16, a17, a18, a19, a20, a21, a22;
-  a00=(casadi_real)6.2831853071795862e+00;
-  a01=arg[6]? arg[6][0] : 0;
-  a02=arg[7]? arg[7][0] : 0;
-  a03=(a01-a02);
-  a04=(a00*a03);
-  a05=arg[0]? arg[0][0] : 0;
-  a06=arg[8]? arg[8][0] : 0;
-  a05=(a05+a06);
-  a04=(a04/a05);
-  if (res[0]!=0) res[0][0]=a04;
-  if (res[1]!=0) res[1][0]=a04;
-  a02=((casadi_real)2.*a02);
-  a02=(a02-a01);
-  a01=(a00*a02);
-  a01=(a01/a05);
-  if (res[2]!=0) res[2][0]=a01;
-  a01=arg[2]? arg[2][0] : 0;
-  a04=arg[1]? arg[1][0] : 0;
-  a07=arg[9]? arg[9][0] : 0;
-  a08=cos(a07);
-  a09=(a04*a08);
-  a01=(a01+a09);
-  if (res[3]!=0) res[3][0]=a01;
-  a10=arg[4]? arg[4][0] : 0;
-  a07=sin(a07);
-  a11=(a04*a07);
-  a11=(a11*a05);
-  a12=(a10-a11);
-  if (res[4]!=0) res[4][0]=a12;
-  a13=arg[3]? arg[3][0] : 0;
-  if (res[5]!=0) res[5][0]=a13;
-  a14=arg[5]? arg[5][0] : 0;
-  if (res[6]!=0) res[6][0]=a14;
-  a15=(casadi_real)-6.2831853071795862e+00;
-  a15=(a15*a06);
-  a16=arg[11]? arg[11][0] : 0;
-  a15=(a15*a16);
-  a17=(a15*a03);
-  a17=(a17/a05);
-  a17=exp(a17);
-  a00=(a00*a06);
-  a03=(a00*a03);
-  a18=(casadi_real)1.;
-  a19=casadi_sq(a16);
-  a18=(a18-a19);
-  a18=sqrt(a18);
-  a03=(a03*a18);
-  a03=(a03/a05);
-  a19=cos(a03);
-  a20=(a01*a19);
-  a21=(a06*a16);
-  a22=(a21*a01);
-  a10=(a10+a22);
-  a10=(a10-a11);
-  a03=sin(a03);
-  a10=(a10*a03);
-  a22=(a06*a18);
-  a10=(a10/a22);
-  a20=(a20+a10);
-  a20=(a17*a20);
-  a20=(a20-a09);
-  if (res[7]!=0) res[7][0]=a20;
-  a09=(a12*a19);
-  a01=(a06*a01);
-  a12=(a16*a12);
-  a01=(a01+a12);
-  a01=(a01*a03);
-  a01=(a01/a18);
-  a09=(a09-a01);
-  a09=(a17*a09);
-  a11=(a11+a09);
-  if (res[8]!=0) res[8][0]=a11;
-  a09=(a13*a19);
-  a13=(a13*a06);
-  a01=(a13*a16);
-  a01=(a14+a01);
-  a01=(a01*a03);
-  a01=(a01/a22);
-  a09=(a09+a01);
-  a09=(a17*a09);
-  a01=arg[10]? arg[10][0] : 0;
-  a04=(a04*a01);
-  a07=(a04*a07);
-  a09=(a09-a07);
-  if (res[9]!=0) res[9][0]=a09;
-  a01=(a14*a19);
-  a14=(a14*a16);
-  a13=(a13+a14);
-  a13=(a13*a03);
-  a13=(a13/a18);
-  a01=(a01-a13);
-  a01=(a17*a01);
-  a04=(a04*a08);
-  a04=(a04*a05);
-  a08=(a01-a04);
-  if (res[10]!=0) res[10][0]=a08;
-  a13=(a19*a20);
-  a14=(a21*a20);
-  a14=(a11+a14);
-  a14=(a03*a14);
-  a14=(a14/a22);
-  a13=(a13+a14);
-  a14=(a17*a13);
-  if (res[11]!=0) res[11][0]=a14;
-  a14=(a19*a11);
-  a20=(a06*a20);
-  a11=(a16*a11);
-  a20=(a20+a11);
-  a20=(a03*a20);
-  a20=(a20/a18);
-  a14=(a14-a20);
-  a20=(a17*a14);
-  if (res[12]!=0) res[12][0]=a20;
-  a11=(a19*a09);
-  a12=(a21*a09);
-  a01=(a01+a12);
-  a01=(a01-a04);
-  a01=(a03*a01);
-  a01=(a01/a22);
-  a11=(a11+a01);
-  a11=(a17*a11);
-  a07=(a07+a11);
-  if (res[13]!=0) res[13][0]=a07;
-  a19=(a19*a08);
-  a09=(a06*a09);
-  a08=(a16*a08);
-  a09=(a09+a08);
-  a03=(a03*a09);
-  a03=(a03/a18);
-  a19=(a19-a03);
-  a19=(a17*a19);
-  a04=(a04+a19);
-  if (res[14]!=0) res[14][0]=a04;
-  a15=(a15*a02);
-  a15=(a15/a05);
-  a15=exp(a15);
-  a00=(a00*a02);
-  a00=(a00*a18);
-  a00=(a00/a05);
-  a05=cos(a00);
-  a02=(a17*a05);
-  a19=(a02*a13);
-  a00=sin(a00);
-  a03=(a21*a17);
-  a03=(a03*a13);
-  a03=(a03+a20);
-  a03=(a00*a03);
-  a03=(a03/a22);
-  a19=(a19+a03);
-  a19=(a15*a19);
-  if (res[15]!=0) res[15][0]=a19;
-  a02=(a02*a14);
-  a19=(a06*a17);
-  a19=(a19*a13);
-  a17=(a16*a17);
-  a17=(a17*a14);
-  a19=(a19+a17);
-  a19=(a00*a19);
-  a19=(a19/a18);
-  a02=(a02-a19);
-  a02=(a15*a02);
-  if (res[16]!=0) res[16][0]=a02;
-  a02=(a05*a07);
-  a21=(a21*a07);
-  a21=(a04+a21);
-  a21=(a00*a21);
-  a21=(a21/a22);
-  a02=(a02+a21);
-  a02=(a15*a02);
-  if (res[17]!=0) res[17][0]=a02;
-  a05=(a05*a04);
-  a06=(a06*a07);
-  a16=(a16*a04);
-  a06=(a06+a16);
-  a00=(a00*a06);
-  a00=(a00/a18);
-  a05=(a05-a00);
-  a15=(a15*a05);
-  if (res[18]!=0) res[18][0]=a15;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_regions(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem){
-  return casadi_f0(arg, res, iw, w, mem);
-}
-
-CASADI_SYMBOL_EXPORT int trum_regions_checkout(void) {
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT void trum_regions_release(int mem) {
+int trum_regions(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem)
+{
+  trum_real a0;
+  trum_real a1;
+  trum_real a2;
+  trum_real a3;
+  trum_real a4;
+  trum_real a5;
+  trum_real a6;
+  trum_real a7;
+  trum_real a8;
+  trum_real a9;
+  trum_real a10;
+  trum_real a11;
+  trum_real a12;
+  trum_real a13;
+  trum_real a14;
+  trum_real a15;
+  trum_real a16;
+  trum_real a17;
+  trum_real a18;
+  trum_real a19;
+  trum_real a20;
+  trum_real a21;
+  trum_real a22;
+  (void)iw;
+  (void)w;
   (void)mem;
-}
-
-CASADI_SYMBOL_EXPORT void trum_regions_incref(void) {
-}
-
-CASADI_SYMBOL_EXPORT void trum_regions_decref(void) {
-}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_regions_n_in(void) { return 12;}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_regions_n_out(void) { return 19;}
-
-CASADI_SYMBOL_EXPORT casadi_real trum_regions_default_in(casadi_int i) {
-  switch (i) {
-    default: return 0;
+  a0 = TRUM_C(6.283185307179586);
+  a1 = (arg[6] != NULL) ? arg[6][0] : TRUM_C(0.0);
+  a2 = (arg[7] != NULL) ? arg[7][0] : TRUM_C(0.0);
+  a3 = a1 - a2;
+  a4 = a0 * a3;
+  a5 = (arg[0] != NULL) ? arg[0][0] : TRUM_C(0.0);
+  a6 = (arg[8] != NULL) ? arg[8][0] : TRUM_C(0.0);
+  a5 = a5 + a6;
+  a4 = a4 / a5;
+  if (res[0] != NULL) {
+    res[0][0] = a4;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_regions_name_in(casadi_int i) {
-  switch (i) {
-    case 0: return "Delta_omega";
-    case 1: return "W";
-    case 2: return "a_A";
-    case 3: return "a_B";
-    case 4: return "b_A";
-    case 5: return "b_B";
-    case 6: return "m";
-    case 7: return "n";
-    case 8: return "omega_n";
-    case 9: return "psi";
-    case 10: return "s";
-    case 11: return "xi";
-    default: return 0;
+  if (res[1] != NULL) {
+    res[1][0] = a4;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_regions_name_out(casadi_int i) {
-  switch (i) {
-    case 0: return "time_redu";
-    case 1: return "time_addredu";
-    case 2: return "time_add";
-    case 3: return "a_A_redu";
-    case 4: return "b_A_redu";
-    case 5: return "a_B_redu";
-    case 6: return "b_B_redu";
-    case 7: return "a_A_addredu";
-    case 8: return "b_A_addredu";
-    case 9: return "a_B_addredu";
-    case 10: return "b_B_addredu";
-    case 11: return "a_A_add";
-    case 12: return "b_A_add";
-    case 13: return "a_B_add";
-    case 14: return "b_B_add";
-    case 15: return "a_A_end";
-    case 16: return "b_A_end";
-    case 17: return "a_B_end";
-    case 18: return "b_B_end";
-    default: return 0;
+  a2 = TRUM_C(2.0) * a2;
+  a2 = a2 - a1;
+  a1 = a0 * a2;
+  a1 = a1 / a5;
+  if (res[2] != NULL) {
+    res[2][0] = a1;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_regions_sparsity_in(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    case 4: return casadi_s0;
-    case 5: return casadi_s0;
-    case 6: return casadi_s0;
-    case 7: return casadi_s0;
-    case 8: return casadi_s0;
-    case 9: return casadi_s0;
-    case 10: return casadi_s0;
-    case 11: return casadi_s0;
-    default: return 0;
+  a1 = (arg[2] != NULL) ? arg[2][0] : TRUM_C(0.0);
+  a4 = (arg[1] != NULL) ? arg[1][0] : TRUM_C(0.0);
+  a7 = (arg[9] != NULL) ? arg[9][0] : TRUM_C(0.0);
+  a8 = trum_cos(a7);
+  a9 = a4 * a8;
+  a1 = a1 + a9;
+  if (res[3] != NULL) {
+    res[3][0] = a1;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_regions_sparsity_out(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    case 4: return casadi_s0;
-    case 5: return casadi_s0;
-    case 6: return casadi_s0;
-    case 7: return casadi_s0;
-    case 8: return casadi_s0;
-    case 9: return casadi_s0;
-    case 10: return casadi_s0;
-    case 11: return casadi_s0;
-    case 12: return casadi_s0;
-    case 13: return casadi_s0;
-    case 14: return casadi_s0;
-    case 15: return casadi_s0;
-    case 16: return casadi_s0;
-    case 17: return casadi_s0;
-    case 18: return casadi_s0;
-    default: return 0;
+  a10 = (arg[4] != NULL) ? arg[4][0] : TRUM_C(0.0);
+  a7 = trum_sin(a7);
+  a11 = a4 * a7;
+  a11 = a11 * a5;
+  a12 = a10 - a11;
+  if (res[4] != NULL) {
+    res[4][0] = a12;
   }
-}
-
-CASADI_SYMBOL_EXPORT int trum_regions_work(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 12;
-  if (sz_res) *sz_res = 19;
-  if (sz_iw) *sz_iw = 0;
-  if (sz_w) *sz_w = 0;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_regions_work_bytes(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 12*sizeof(const casadi_real*);
-  if (sz_res) *sz_res = 19*sizeof(casadi_real*);
-  if (sz_iw) *sz_iw = 0*sizeof(casadi_int);
-  if (sz_w) *sz_w = 0*sizeof(casadi_real);
+  a13 = (arg[3] != NULL) ? arg[3][0] : TRUM_C(0.0);
+  if (res[5] != NULL) {
+    res[5][0] = a13;
+  }
+  a14 = (arg[5] != NULL) ? arg[5][0] : TRUM_C(0.0);
+  if (res[6] != NULL) {
+    res[6][0] = a14;
+  }
+  a15 = TRUM_C(-6.283185307179586);
+  a15 = a15 * a6;
+  a16 = (arg[11] != NULL) ? arg[11][0] : TRUM_C(0.0);
+  a15 = a15 * a16;
+  a17 = a15 * a3;
+  a17 = a17 / a5;
+  a17 = trum_exp(a17);
+  a0 = a0 * a6;
+  a3 = a0 * a3;
+  a18 = TRUM_C(1.0);
+  a19 = a16 * a16;
+  a18 = a18 - a19;
+  a18 = trum_sqrt(a18);
+  a3 = a3 * a18;
+  a3 = a3 / a5;
+  a19 = trum_cos(a3);
+  a20 = a1 * a19;
+  a21 = a6 * a16;
+  a22 = a21 * a1;
+  a10 = a10 + a22;
+  a10 = a10 - a11;
+  a3 = trum_sin(a3);
+  a10 = a10 * a3;
+  a22 = a6 * a18;
+  a10 = a10 / a22;
+  a20 = a20 + a10;
+  a20 = a17 * a20;
+  a20 = a20 - a9;
+  if (res[7] != NULL) {
+    res[7][0] = a20;
+  }
+  a9 = a12 * a19;
+  a1 = a6 * a1;
+  a12 = a16 * a12;
+  a1 = a1 + a12;
+  a1 = a1 * a3;
+  a1 = a1 / a18;
+  a9 = a9 - a1;
+  a9 = a17 * a9;
+  a11 = a11 + a9;
+  if (res[8] != NULL) {
+    res[8][0] = a11;
+  }
+  a9 = a13 * a19;
+  a13 = a13 * a6;
+  a1 = a13 * a16;
+  a1 = a14 + a1;
+  a1 = a1 * a3;
+  a1 = a1 / a22;
+  a9 = a9 + a1;
+  a9 = a17 * a9;
+  a1 = (arg[10] != NULL) ? arg[10][0] : TRUM_C(0.0);
+  a4 = a4 * a1;
+  a7 = a4 * a7;
+  a9 = a9 - a7;
+  if (res[9] != NULL) {
+    res[9][0] = a9;
+  }
+  a1 = a14 * a19;
+  a14 = a14 * a16;
+  a13 = a13 + a14;
+  a13 = a13 * a3;
+  a13 = a13 / a18;
+  a1 = a1 - a13;
+  a1 = a17 * a1;
+  a4 = a4 * a8;
+  a4 = a4 * a5;
+  a8 = a1 - a4;
+  if (res[10] != NULL) {
+    res[10][0] = a8;
+  }
+  a13 = a19 * a20;
+  a14 = a21 * a20;
+  a14 = a11 + a14;
+  a14 = a3 * a14;
+  a14 = a14 / a22;
+  a13 = a13 + a14;
+  a14 = a17 * a13;
+  if (res[11] != NULL) {
+    res[11][0] = a14;
+  }
+  a14 = a19 * a11;
+  a20 = a6 * a20;
+  a11 = a16 * a11;
+  a20 = a20 + a11;
+  a20 = a3 * a20;
+  a20 = a20 / a18;
+  a14 = a14 - a20;
+  a20 = a17 * a14;
+  if (res[12] != NULL) {
+    res[12][0] = a20;
+  }
+  a11 = a19 * a9;
+  a12 = a21 * a9;
+  a1 = a1 + a12;
+  a1 = a1 - a4;
+  a1 = a3 * a1;
+  a1 = a1 / a22;
+  a11 = a11 + a1;
+  a11 = a17 * a11;
+  a7 = a7 + a11;
+  if (res[13] != NULL) {
+    res[13][0] = a7;
+  }
+  a19 = a19 * a8;
+  a9 = a6 * a9;
+  a8 = a16 * a8;
+  a9 = a9 + a8;
+  a3 = a3 * a9;
+  a3 = a3 / a18;
+  a19 = a19 - a3;
+  a19 = a17 * a19;
+  a4 = a4 + a19;
+  if (res[14] != NULL) {
+    res[14][0] = a4;
+  }
+  a15 = a15 * a2;
+  a15 = a15 / a5;
+  a15 = trum_exp(a15);
+  a0 = a0 * a2;
+  a0 = a0 * a18;
+  a0 = a0 / a5;
+  a5 = trum_cos(a0);
+  a2 = a17 * a5;
+  a19 = a2 * a13;
+  a0 = trum_sin(a0);
+  a3 = a21 * a17;
+  a3 = a3 * a13;
+  a3 = a3 + a20;
+  a3 = a0 * a3;
+  a3 = a3 / a22;
+  a19 = a19 + a3;
+  a19 = a15 * a19;
+  if (res[15] != NULL) {
+    res[15][0] = a19;
+  }
+  a2 = a2 * a14;
+  a19 = a6 * a17;
+  a19 = a19 * a13;
+  a17 = a16 * a17;
+  a17 = a17 * a14;
+  a19 = a19 + a17;
+  a19 = a0 * a19;
+  a19 = a19 / a18;
+  a2 = a2 - a19;
+  a2 = a15 * a2;
+  if (res[16] != NULL) {
+    res[16][0] = a2;
+  }
+  a2 = a5 * a7;
+  a21 = a21 * a7;
+  a21 = a4 + a21;
+  a21 = a0 * a21;
+  a21 = a21 / a22;
+  a2 = a2 + a21;
+  a2 = a15 * a2;
+  if (res[17] != NULL) {
+    res[17][0] = a2;
+  }
+  a5 = a5 * a4;
+  a6 = a6 * a7;
+  a16 = a16 * a4;
+  a6 = a6 + a16;
+  a0 = a0 * a6;
+  a0 = a0 / a18;
+  a5 = a5 - a0;
+  a15 = a15 * a5;
+  if (res[18] != NULL) {
+    res[18][0] = a15;
+  }
   return 0;
 }

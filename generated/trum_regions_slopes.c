@@ -49,708 +49,597 @@
  *
  * 441 operations: 206 mul, 85 add, 77 sub, 58 div, 8 neg, 2 cos, 2 sin, 1 exp, 1 sq, 1 sqrt
  */
-/* How to prefix internal symbols */
-#ifdef CASADI_CODEGEN_PREFIX
-  #define CASADI_NAMESPACE_CONCAT(NS, ID) _CASADI_NAMESPACE_CONCAT(NS, ID)
-  #define _CASADI_NAMESPACE_CONCAT(NS, ID) NS ## ID
-  #define CASADI_PREFIX(ID) CASADI_NAMESPACE_CONCAT(CODEGEN_PREFIX, ID)
-#else
-  #define CASADI_PREFIX(ID) trum_regions_slopes_ ## ID
-#endif
+#include <stddef.h>
 
-#include <math.h>
+#include "trum_kernels.h"
 
-#ifndef casadi_real
-#define casadi_real double
-#endif
-
-#ifndef casadi_int
-#define casadi_int long long int
-#endif
-
-/* Add prefix to internal symbols */
-#define casadi_f0 CASADI_PREFIX(f0)
-#define casadi_s0 CASADI_PREFIX(s0)
-#define casadi_sq CASADI_PREFIX(sq)
-
-/* Symbol visibility in DLLs */
-#ifndef CASADI_SYMBOL_EXPORT
-  #if defined(_WIN32) || defined(__WIN32__) || defined(__CYGWIN__)
-    #if defined(STATIC_LINKED)
-      #define CASADI_SYMBOL_EXPORT
-    #else
-      #define CASADI_SYMBOL_EXPORT __declspec(dllexport)
-    #endif
-  #elif defined(__GNUC__) && defined(GCC_HASCLASSVISIBILITY)
-    #define CASADI_SYMBOL_EXPORT __attribute__ ((visibility ("default")))
-  #else
-    #define CASADI_SYMBOL_EXPORT
-  #endif
-#endif
-
-casadi_real casadi_sq(casadi_real x) { return x*x;}
-
-/* Configuration this file was compiled with */
-CASADI_SYMBOL_EXPORT void trum_regions_slopes_casadi_version(int* major, int* minor, int* patch) {
-  *major = 3;
-  *minor = 8;
-  *patch = 2;
-}
-CASADI_SYMBOL_EXPORT int trum_regions_slopes_casadi_int_size(void) { return (int) sizeof(casadi_int); }
-CASADI_SYMBOL_EXPORT int trum_regions_slopes_casadi_real_size(void) { return (int) sizeof(casadi_real); }
-
-static const casadi_int casadi_s0[3] = {1, 1, 1};
-
-/* trum_regions_slopes:(Delta_omega,W,a_A,a_A_Delta_omega,a_A_omega_n,a_B,a_B_Delta_omega,a_B_omega_n,b_A,b_A_Delta_omega,b_A_omega_n,b_B,b_B_Delta_omega,b_B_omega_n,m,n,omega_n,psi,s,xi)->(re_A_redu_omega_n,im_A_redu_omega_n,re_A_addredu_omega_n,im_A_addredu_omega_n,re_A_add_omega_n,im_A_add_omega_n,re_B_redu_omega_n,im_B_redu_omega_n,re_B_addredu_omega_n,im_B_addredu_omega_n,re_B_add_omega_n,im_B_add_omega_n,re_A_redu_Delta_omega,im_A_redu_Delta_omega,re_A_addredu_Delta_omega,im_A_addredu_Delta_omega,re_A_add_Delta_omega,im_A_add_Delta_omega,re_B_redu_Delta_omega,im_B_redu_Delta_omega,re_B_addredu_Delta_omega,im_B_addredu_Delta_omega,re_B_add_Delta_omega,im_B_add_Delta_omega) */
-static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
-  (void)iw, (void)w, (void)mem;
-  casadi_real a00, a01, a02, a03, a04, a05, a06, a07, a08, a09, a10, a11;
-  casadi_real a12, a13, a14, a15, a16, a17, a18, a19, a20, a21, a22, a23;
-  casadi_real a24, a25, a26, a27, a28, a29, a30, a31, a32, a33, a34, a35;
-  casadi_real a36, a37, a38, a39, a40, a41, a42, a43, a44, a45, a46;
-  a00=arg[4]? arg[4][0] : 0;
-  if (res[0]!=0) res[0][0]=a00;
-  a01=arg[1]? arg[1][0] : 0;
-  a02=arg[17]? arg[17][0] : 0;
-  a03=sin(a02);
-  a04=(a01*a03);
-  a05=arg[10]? arg[10][0] : 0;
-  a06=(a04-a05);
-  a07=arg[2]? arg[2][0] : 0;
-  a02=cos(a02);
-  a08=(a01*a02);
-  a07=(a07+a08);
-  a09=arg[19]? arg[19][0] : 0;
-  a10=(a07*a09);
-  a11=arg[16]? arg[16][0] : 0;
-  a12=(a11*a09);
-  a13=(a12*a00);
-  a10=(a10+a13);
-  a06=(a06-a10);
-  a13=(casadi_real)1.;
-  a14=casadi_sq(a09);
-  a13=(a13-a14);
-  a13=sqrt(a13);
-  a14=(a11*a13);
-  a06=(a06/a14);
-  a15=arg[0]? arg[0][0] : 0;
-  a15=(a15+a11);
-  a16=(a04*a15);
-  a17=arg[8]? arg[8][0] : 0;
-  a18=(a16-a17);
-  a19=(a12*a07);
-  a18=(a18-a19);
-  a18=(a18/a14);
-  a18=(a18/a14);
-  a18=(a18*a13);
-  a06=(a06-a18);
-  if (res[1]!=0) res[1][0]=a06;
-  a06=(casadi_real)6.2831853071795862e+00;
-  a18=(a06*a11);
-  a20=arg[14]? arg[14][0] : 0;
-  a21=arg[15]? arg[15][0] : 0;
-  a20=(a20-a21);
-  a18=(a18*a20);
-  a18=(a18*a13);
-  a18=(a18/a15);
-  a21=cos(a18);
-  a22=(a07*a21);
-  a19=(a17+a19);
-  a19=(a19-a16);
-  a23=sin(a18);
-  a24=(a19*a23);
-  a24=(a24/a14);
-  a22=(a22+a24);
-  a25=(casadi_real)-6.2831853071795862e+00;
-  a26=(a25*a11);
-  a26=(a26*a09);
-  a26=(a26*a20);
-  a26=(a26/a15);
-  a27=exp(a26);
-  a25=(a25*a09);
-  a25=(a20*a25);
-  a25=(a25/a15);
-  a26=(a26/a15);
-  a25=(a25-a26);
-  a25=(a27*a25);
-  a28=(a22*a25);
-  a29=(a21*a00);
-  a06=(a06*a20);
-  a06=(a13*a06);
-  a06=(a06/a15);
-  a18=(a18/a15);
-  a06=(a06-a18);
-  a20=(a23*a06);
-  a30=(a07*a20);
-  a29=(a29-a30);
-  a10=(a05+a10);
-  a10=(a10-a04);
-  a10=(a23*a10);
-  a06=(a21*a06);
-  a30=(a19*a06);
-  a10=(a10+a30);
-  a10=(a10/a14);
-  a24=(a24/a14);
-  a24=(a24*a13);
-  a10=(a10-a24);
-  a29=(a29+a10);
-  a29=(a27*a29);
-  a28=(a28+a29);
-  if (res[2]!=0) res[2][0]=a28;
-  a17=(a17-a16);
-  a29=(a17*a21);
-  a10=(a11*a07);
-  a24=(a09*a17);
-  a10=(a10+a24);
-  a24=(a10*a23);
-  a24=(a24/a13);
-  a29=(a29-a24);
-  a24=(a29*a25);
-  a05=(a05-a04);
-  a30=(a21*a05);
-  a31=(a17*a20);
-  a30=(a30-a31);
-  a00=(a11*a00);
-  a00=(a07+a00);
-  a05=(a09*a05);
-  a00=(a00+a05);
-  a00=(a23*a00);
-  a05=(a10*a06);
-  a00=(a00+a05);
-  a00=(a00/a13);
-  a30=(a30-a00);
-  a30=(a27*a30);
-  a24=(a24+a30);
-  a24=(a04+a24);
-  a30=(a27*a22);
-  a30=(a30-a08);
-  a08=(a30*a09);
-  a00=(a12*a28);
-  a08=(a08+a00);
-  a08=(a24+a08);
-  a00=(a08/a14);
-  a05=(a27*a29);
-  a16=(a16+a05);
-  a05=(a12*a30);
-  a05=(a16+a05);
-  a31=(a05/a14);
-  a31=(a31/a14);
-  a31=(a31*a13);
-  a00=(a00-a31);
-  a00=(-a00);
-  if (res[3]!=0) res[3][0]=a00;
-  a00=(a21*a30);
-  a31=(a23*a05);
-  a31=(a31/a14);
-  a00=(a00+a31);
-  a32=(a00*a25);
-  a33=(a21*a28);
-  a34=(a30*a20);
-  a33=(a33-a34);
-  a34=(a05*a06);
-  a08=(a23*a08);
-  a34=(a34+a08);
-  a34=(a34/a14);
-  a31=(a31/a14);
-  a31=(a31*a13);
-  a34=(a34-a31);
-  a33=(a33+a34);
-  a34=(a27*a33);
-  a32=(a32+a34);
-  if (res[4]!=0) res[4][0]=a32;
-  a32=(a27*a09);
-  a34=(a12*a25);
-  a32=(a32+a34);
-  a32=(a00*a32);
-  a34=(a12*a27);
-  a33=(a34*a33);
-  a32=(a32+a33);
-  a33=(a21*a16);
-  a31=(a11*a30);
-  a08=(a09*a16);
-  a31=(a31+a08);
-  a08=(a23*a31);
-  a08=(a08/a13);
-  a33=(a33-a08);
-  a08=(a33*a25);
-  a35=(a21*a24);
-  a36=(a16*a20);
-  a35=(a35-a36);
-  a36=(a31*a06);
-  a28=(a11*a28);
-  a28=(a30+a28);
-  a24=(a09*a24);
-  a28=(a28+a24);
-  a28=(a23*a28);
-  a36=(a36+a28);
-  a36=(a36/a13);
-  a35=(a35-a36);
-  a35=(a27*a35);
-  a08=(a08+a35);
-  a32=(a32+a08);
-  a32=(a32/a14);
-  a08=(a34*a00);
-  a35=(a27*a33);
-  a08=(a08+a35);
-  a08=(a08/a14);
-  a08=(a08/a14);
-  a08=(a08*a13);
-  a32=(a32-a08);
-  a32=(-a32);
-  if (res[5]!=0) res[5][0]=a32;
-  a32=arg[7]? arg[7][0] : 0;
-  if (res[6]!=0) res[6][0]=a32;
-  a08=arg[13]? arg[13][0] : 0;
-  a35=(a11*a32);
-  a36=arg[5]? arg[5][0] : 0;
-  a35=(a35+a36);
-  a28=(a09*a35);
-  a28=(a08+a28);
-  a24=(a28/a14);
-  a37=arg[11]? arg[11][0] : 0;
-  a38=(a36*a11);
-  a39=(a38*a09);
-  a39=(a37+a39);
-  a40=(a39/a14);
-  a40=(a40/a14);
-  a40=(a40*a13);
-  a24=(a24-a40);
-  a24=(-a24);
-  if (res[7]!=0) res[7][0]=a24;
-  a24=(a36*a21);
-  a40=(a39*a23);
-  a40=(a40/a14);
-  a24=(a24+a40);
-  a41=(a24*a25);
-  a32=(a21*a32);
-  a42=(a36*a20);
-  a32=(a32-a42);
-  a28=(a23*a28);
-  a42=(a39*a06);
-  a28=(a28+a42);
-  a28=(a28/a14);
-  a40=(a40/a14);
-  a40=(a40*a13);
-  a28=(a28-a40);
-  a32=(a32+a28);
-  a32=(a27*a32);
-  a41=(a41+a32);
-  if (res[8]!=0) res[8][0]=a41;
-  a32=arg[18]? arg[18][0] : 0;
-  a01=(a01*a32);
-  a02=(a01*a02);
-  a32=(a37*a21);
-  a28=(a37*a09);
-  a38=(a38+a28);
-  a28=(a38*a23);
-  a28=(a28/a13);
-  a32=(a32-a28);
-  a28=(a32*a25);
-  a40=(a21*a08);
-  a42=(a37*a20);
-  a40=(a40-a42);
-  a08=(a09*a08);
-  a35=(a35+a08);
-  a35=(a23*a35);
-  a08=(a38*a06);
-  a35=(a35+a08);
-  a35=(a35/a13);
-  a40=(a40-a35);
-  a40=(a27*a40);
-  a28=(a28+a40);
-  a40=(a02-a28);
-  a35=(a27*a24);
-  a01=(a01*a03);
-  a35=(a35-a01);
-  a03=(a35*a09);
-  a08=(a12*a41);
-  a03=(a03+a08);
-  a40=(a40-a03);
-  a40=(a40/a14);
-  a15=(a02*a15);
-  a08=(a27*a32);
-  a42=(a15-a08);
-  a43=(a12*a35);
-  a42=(a42-a43);
-  a42=(a42/a14);
-  a42=(a42/a14);
-  a42=(a42*a13);
-  a40=(a40-a42);
-  if (res[9]!=0) res[9][0]=a40;
-  a40=(a21*a35);
-  a43=(a08+a43);
-  a43=(a43-a15);
-  a42=(a23*a43);
-  a42=(a42/a14);
-  a40=(a40+a42);
-  a44=(a40*a25);
-  a45=(a21*a41);
-  a46=(a35*a20);
-  a45=(a45-a46);
-  a46=(a43*a06);
-  a03=(a28+a03);
-  a03=(a03-a02);
-  a03=(a23*a03);
-  a46=(a46+a03);
-  a46=(a46/a14);
-  a42=(a42/a14);
-  a42=(a42*a13);
-  a46=(a46-a42);
-  a45=(a45+a46);
-  a45=(a27*a45);
-  a44=(a44+a45);
-  if (res[10]!=0) res[10][0]=a44;
-  a08=(a08-a15);
-  a45=(a21*a08);
-  a46=(a11*a35);
-  a42=(a09*a08);
-  a46=(a46+a42);
-  a42=(a23*a46);
-  a42=(a42/a13);
-  a45=(a45-a42);
-  a25=(a45*a25);
-  a28=(a28-a02);
-  a42=(a21*a28);
-  a20=(a08*a20);
-  a42=(a42-a20);
-  a06=(a46*a06);
-  a41=(a11*a41);
-  a41=(a35+a41);
-  a28=(a09*a28);
-  a41=(a41+a28);
-  a41=(a23*a41);
-  a06=(a06+a41);
-  a06=(a06/a13);
-  a42=(a42-a06);
-  a42=(a27*a42);
-  a25=(a25+a42);
-  a25=(a02+a25);
-  a42=(a27*a40);
-  a01=(a01+a42);
-  a42=(a01*a09);
-  a44=(a12*a44);
-  a42=(a42+a44);
-  a25=(a25+a42);
-  a25=(a25/a14);
-  a42=(a27*a45);
-  a15=(a15+a42);
-  a01=(a12*a01);
-  a15=(a15+a01);
-  a15=(a15/a14);
-  a15=(a15/a14);
-  a15=(a15*a13);
-  a25=(a25-a15);
-  a25=(-a25);
-  if (res[11]!=0) res[11][0]=a25;
-  a25=arg[3]? arg[3][0] : 0;
-  if (res[12]!=0) res[12][0]=a25;
-  a15=arg[9]? arg[9][0] : 0;
-  a01=(a04-a15);
-  a42=(a12*a25);
-  a01=(a01-a42);
-  a01=(a01/a14);
-  if (res[13]!=0) res[13][0]=a01;
-  a01=(a21*a25);
-  a44=(a23*a18);
-  a07=(a07*a44);
-  a01=(a01+a07);
-  a42=(a15+a42);
-  a42=(a42-a04);
-  a42=(a23*a42);
-  a18=(a21*a18);
-  a19=(a19*a18);
-  a42=(a42-a19);
-  a42=(a42/a14);
-  a01=(a01+a42);
-  a01=(a27*a01);
-  a26=(a27*a26);
-  a22=(a22*a26);
-  a01=(a01-a22);
-  if (res[14]!=0) res[14][0]=a01;
-  a15=(a15-a04);
-  a22=(a21*a15);
-  a17=(a17*a44);
-  a22=(a22+a17);
-  a25=(a11*a25);
-  a15=(a09*a15);
-  a25=(a25+a15);
-  a25=(a23*a25);
-  a10=(a10*a18);
-  a25=(a25-a10);
-  a25=(a25/a13);
-  a22=(a22-a25);
-  a22=(a27*a22);
-  a29=(a29*a26);
-  a22=(a22-a29);
-  a04=(a04+a22);
-  a22=(a12*a01);
-  a22=(a04+a22);
-  a29=(a22/a14);
-  a29=(-a29);
-  if (res[15]!=0) res[15][0]=a29;
-  a30=(a30*a44);
-  a29=(a21*a01);
-  a30=(a30+a29);
-  a22=(a23*a22);
-  a05=(a05*a18);
-  a22=(a22-a05);
-  a22=(a22/a14);
-  a30=(a30+a22);
-  a22=(a27*a30);
-  a05=(a00*a26);
-  a22=(a22-a05);
-  if (res[16]!=0) res[16][0]=a22;
-  a34=(a34*a30);
-  a30=(a12*a26);
-  a00=(a00*a30);
-  a34=(a34-a00);
-  a16=(a16*a44);
-  a00=(a21*a04);
-  a16=(a16+a00);
-  a01=(a11*a01);
-  a04=(a09*a04);
-  a01=(a01+a04);
-  a01=(a23*a01);
-  a31=(a31*a18);
-  a01=(a01-a31);
-  a01=(a01/a13);
-  a16=(a16-a01);
-  a16=(a27*a16);
-  a33=(a33*a26);
-  a16=(a16-a33);
-  a34=(a34+a16);
-  a34=(a34/a14);
-  a34=(-a34);
-  if (res[17]!=0) res[17][0]=a34;
-  a34=arg[6]? arg[6][0] : 0;
-  if (res[18]!=0) res[18][0]=a34;
-  a16=arg[12]? arg[12][0] : 0;
-  a33=(a11*a34);
-  a01=(a09*a33);
-  a01=(a16+a01);
-  a31=(a01/a14);
-  a31=(-a31);
-  if (res[19]!=0) res[19][0]=a31;
-  a34=(a21*a34);
-  a36=(a36*a44);
-  a34=(a34+a36);
-  a01=(a23*a01);
-  a39=(a39*a18);
-  a01=(a01-a39);
-  a01=(a01/a14);
-  a34=(a34+a01);
-  a34=(a27*a34);
-  a24=(a24*a26);
-  a34=(a34-a24);
-  if (res[20]!=0) res[20][0]=a34;
-  a24=(a21*a16);
-  a37=(a37*a44);
-  a24=(a24+a37);
-  a16=(a09*a16);
-  a33=(a33+a16);
-  a33=(a23*a33);
-  a38=(a38*a18);
-  a33=(a33-a38);
-  a33=(a33/a13);
-  a24=(a24-a33);
-  a24=(a27*a24);
-  a32=(a32*a26);
-  a24=(a24-a32);
-  a32=(a02-a24);
-  a33=(a12*a34);
-  a32=(a32-a33);
-  a32=(a32/a14);
-  if (res[21]!=0) res[21][0]=a32;
-  a35=(a35*a44);
-  a32=(a21*a34);
-  a35=(a35+a32);
-  a33=(a24+a33);
-  a33=(a33-a02);
-  a33=(a23*a33);
-  a43=(a43*a18);
-  a33=(a33-a43);
-  a33=(a33/a14);
-  a35=(a35+a33);
-  a35=(a27*a35);
-  a40=(a40*a26);
-  a35=(a35-a40);
-  if (res[22]!=0) res[22][0]=a35;
-  a08=(a08*a44);
-  a24=(a24-a02);
-  a21=(a21*a24);
-  a08=(a08+a21);
-  a11=(a11*a34);
-  a09=(a09*a24);
-  a11=(a11+a09);
-  a23=(a23*a11);
-  a46=(a46*a18);
-  a23=(a23-a46);
-  a23=(a23/a13);
-  a08=(a08-a23);
-  a27=(a27*a08);
-  a45=(a45*a26);
-  a27=(a27-a45);
-  a02=(a02+a27);
-  a12=(a12*a35);
-  a02=(a02+a12);
-  a02=(a02/a14);
-  a02=(-a02);
-  if (res[23]!=0) res[23][0]=a02;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_regions_slopes(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem){
-  return casadi_f0(arg, res, iw, w, mem);
-}
-
-CASADI_SYMBOL_EXPORT int trum_regions_slopes_checkout(void) {
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT void trum_regions_slopes_release(int mem) {
+int trum_regions_slopes(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem)
+{
+  trum_real a0;
+  trum_real a1;
+  trum_real a2;
+  trum_real a3;
+  trum_real a4;
+  trum_real a5;
+  trum_real a6;
+  trum_real a7;
+  trum_real a8;
+  trum_real a9;
+  trum_real a10;
+  trum_real a11;
+  trum_real a12;
+  trum_real a13;
+  trum_real a14;
+  trum_real a15;
+  trum_real a16;
+  trum_real a17;
+  trum_real a18;
+  trum_real a19;
+  trum_real a20;
+  trum_real a21;
+  trum_real a22;
+  trum_real a23;
+  trum_real a24;
+  trum_real a25;
+  trum_real a26;
+  trum_real a27;
+  trum_real a28;
+  trum_real a29;
+  trum_real a30;
+  trum_real a31;
+  trum_real a32;
+  trum_real a33;
+  trum_real a34;
+  trum_real a35;
+  trum_real a36;
+  trum_real a37;
+  trum_real a38;
+  trum_real a39;
+  trum_real a40;
+  trum_real a41;
+  trum_real a42;
+  trum_real a43;
+  trum_real a44;
+  trum_real a45;
+  trum_real a46;
+  (void)iw;
+  (void)w;
   (void)mem;
-}
-
-CASADI_SYMBOL_EXPORT void trum_regions_slopes_incref(void) {
-}
-
-CASADI_SYMBOL_EXPORT void trum_regions_slopes_decref(void) {
-}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_regions_slopes_n_in(void) { return 20;}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_regions_slopes_n_out(void) { return 24;}
-
-CASADI_SYMBOL_EXPORT casadi_real trum_regions_slopes_default_in(casadi_int i) {
-  switch (i) {
-    default: return 0;
+  a0 = (arg[4] != NULL) ? arg[4][0] : TRUM_C(0.0);
+  if (res[0] != NULL) {
+    res[0][0] = a0;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_regions_slopes_name_in(casadi_int i) {
-  switch (i) {
-    case 0: return "Delta_omega";
-    case 1: return "W";
-    case 2: return "a_A";
-    case 3: return "a_A_Delta_omega";
-    case 4: return "a_A_omega_n";
-    case 5: return "a_B";
-    case 6: return "a_B_Delta_omega";
-    case 7: return "a_B_omega_n";
-    case 8: return "b_A";
-    case 9: return "b_A_Delta_omega";
-    case 10: return "b_A_omega_n";
-    case 11: return "b_B";
-    case 12: return "b_B_Delta_omega";
-    case 13: return "b_B_omega_n";
-    case 14: return "m";
-    case 15: return "n";
-    case 16: return "omega_n";
-    case 17: return "psi";
-    case 18: return "s";
-    case 19: return "xi";
-    default: return 0;
+  a1 = (arg[1] != NULL) ? arg[1][0] : TRUM_C(0.0);
+  a2 = (arg[17] != NULL) ? arg[17][0] : TRUM_C(0.0);
+  a3 = trum_sin(a2);
+  a4 = a1 * a3;
+  a5 = (arg[10] != NULL) ? arg[10][0] : TRUM_C(0.0);
+  a6 = a4 - a5;
+  a7 = (arg[2] != NULL) ? arg[2][0] : TRUM_C(0.0);
+  a2 = trum_cos(a2);
+  a8 = a1 * a2;
+  a7 = a7 + a8;
+  a9 = (arg[19] != NULL) ? arg[19][0] : TRUM_C(0.0);
+  a10 = a7 * a9;
+  a11 = (arg[16] != NULL) ? arg[16][0] : TRUM_C(0.0);
+  a12 = a11 * a9;
+  a13 = a12 * a0;
+  a10 = a10 + a13;
+  a6 = a6 - a10;
+  a13 = TRUM_C(1.0);
+  a14 = a9 * a9;
+  a13 = a13 - a14;
+  a13 = trum_sqrt(a13);
+  a14 = a11 * a13;
+  a6 = a6 / a14;
+  a15 = (arg[0] != NULL) ? arg[0][0] : TRUM_C(0.0);
+  a15 = a15 + a11;
+  a16 = a4 * a15;
+  a17 = (arg[8] != NULL) ? arg[8][0] : TRUM_C(0.0);
+  a18 = a16 - a17;
+  a19 = a12 * a7;
+  a18 = a18 - a19;
+  a18 = a18 / a14;
+  a18 = a18 / a14;
+  a18 = a18 * a13;
+  a6 = a6 - a18;
+  if (res[1] != NULL) {
+    res[1][0] = a6;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_regions_slopes_name_out(casadi_int i) {
-  switch (i) {
-    case 0: return "re_A_redu_omega_n";
-    case 1: return "im_A_redu_omega_n";
-    case 2: return "re_A_addredu_omega_n";
-    case 3: return "im_A_addredu_omega_n";
-    case 4: return "re_A_add_omega_n";
-    case 5: return "im_A_add_omega_n";
-    case 6: return "re_B_redu_omega_n";
-    case 7: return "im_B_redu_omega_n";
-    case 8: return "re_B_addredu_omega_n";
-    case 9: return "im_B_addredu_omega_n";
-    case 10: return "re_B_add_omega_n";
-    case 11: return "im_B_add_omega_n";
-    case 12: return "re_A_redu_Delta_omega";
-    case 13: return "im_A_redu_Delta_omega";
-    case 14: return "re_A_addredu_Delta_omega";
-    case 15: return "im_A_addredu_Delta_omega";
-    case 16: return "re_A_add_Delta_omega";
-    case 17: return "im_A_add_Delta_omega";
-    case 18: return "re_B_redu_Delta_omega";
-    case 19: return "im_B_redu_Delta_omega";
-    case 20: return "re_B_addredu_Delta_omega";
-    case 21: return "im_B_addredu_Delta_omega";
-    case 22: return "re_B_add_Delta_omega";
-    case 23: return "im_B_add_Delta_omega";
-    default: return 0;
+  a6 = TRUM_C(6.283185307179586);
+  a18 = a6 * a11;
+  a20 = (arg[14] != NULL) ? arg[14][0] : TRUM_C(0.0);
+  a21 = (arg[15] != NULL) ? arg[15][0] : TRUM_C(0.0);
+  a20 = a20 - a21;
+  a18 = a18 * a20;
+  a18 = a18 * a13;
+  a18 = a18 / a15;
+  a21 = trum_cos(a18);
+  a22 = a7 * a21;
+  a19 = a17 + a19;
+  a19 = a19 - a16;
+  a23 = trum_sin(a18);
+  a24 = a19 * a23;
+  a24 = a24 / a14;
+  a22 = a22 + a24;
+  a25 = TRUM_C(-6.283185307179586);
+  a26 = a25 * a11;
+  a26 = a26 * a9;
+  a26 = a26 * a20;
+  a26 = a26 / a15;
+  a27 = trum_exp(a26);
+  a25 = a25 * a9;
+  a25 = a20 * a25;
+  a25 = a25 / a15;
+  a26 = a26 / a15;
+  a25 = a25 - a26;
+  a25 = a27 * a25;
+  a28 = a22 * a25;
+  a29 = a21 * a0;
+  a6 = a6 * a20;
+  a6 = a13 * a6;
+  a6 = a6 / a15;
+  a18 = a18 / a15;
+  a6 = a6 - a18;
+  a20 = a23 * a6;
+  a30 = a7 * a20;
+  a29 = a29 - a30;
+  a10 = a5 + a10;
+  a10 = a10 - a4;
+  a10 = a23 * a10;
+  a6 = a21 * a6;
+  a30 = a19 * a6;
+  a10 = a10 + a30;
+  a10 = a10 / a14;
+  a24 = a24 / a14;
+  a24 = a24 * a13;
+  a10 = a10 - a24;
+  a29 = a29 + a10;
+  a29 = a27 * a29;
+  a28 = a28 + a29;
+  if (res[2] != NULL) {
+    res[2][0] = a28;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_regions_slopes_sparsity_in(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    case 4: return casadi_s0;
-    case 5: return casadi_s0;
-    case 6: return casadi_s0;
-    case 7: return casadi_s0;
-    case 8: return casadi_s0;
-    case 9: return casadi_s0;
-    case 10: return casadi_s0;
-    case 11: return casadi_s0;
-    case 12: return casadi_s0;
-    case 13: return casadi_s0;
-    case 14: return casadi_s0;
-    case 15: return casadi_s0;
-    case 16: return casadi_s0;
-    case 17: return casadi_s0;
-    case 18: return casadi_s0;
-    case 19: return casadi_s0;
-    default: return 0;
+  a17 = a17 - a16;
+  a29 = a17 * a21;
+  a10 = a11 * a7;
+  a24 = a9 * a17;
+  a10 = a10 + a24;
+  a24 = a10 * a23;
+  a24 = a24 / a13;
+  a29 = a29 - a24;
+  a24 = a29 * a25;
+  a5 = a5 - a4;
+  a30 = a21 * a5;
+  a31 = a17 * a20;
+  a30 = a30 - a31;
+  a0 = a11 * a0;
+  a0 = a7 + a0;
+  a5 = a9 * a5;
+  a0 = a0 + a5;
+  a0 = a23 * a0;
+  a5 = a10 * a6;
+  a0 = a0 + a5;
+  a0 = a0 / a13;
+  a30 = a30 - a0;
+  a30 = a27 * a30;
+  a24 = a24 + a30;
+  a24 = a4 + a24;
+  a30 = a27 * a22;
+  a30 = a30 - a8;
+  a8 = a30 * a9;
+  a0 = a12 * a28;
+  a8 = a8 + a0;
+  a8 = a24 + a8;
+  a0 = a8 / a14;
+  a5 = a27 * a29;
+  a16 = a16 + a5;
+  a5 = a12 * a30;
+  a5 = a16 + a5;
+  a31 = a5 / a14;
+  a31 = a31 / a14;
+  a31 = a31 * a13;
+  a0 = a0 - a31;
+  a0 = -a0;
+  if (res[3] != NULL) {
+    res[3][0] = a0;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_regions_slopes_sparsity_out(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    case 4: return casadi_s0;
-    case 5: return casadi_s0;
-    case 6: return casadi_s0;
-    case 7: return casadi_s0;
-    case 8: return casadi_s0;
-    case 9: return casadi_s0;
-    case 10: return casadi_s0;
-    case 11: return casadi_s0;
-    case 12: return casadi_s0;
-    case 13: return casadi_s0;
-    case 14: return casadi_s0;
-    case 15: return casadi_s0;
-    case 16: return casadi_s0;
-    case 17: return casadi_s0;
-    case 18: return casadi_s0;
-    case 19: return casadi_s0;
-    case 20: return casadi_s0;
-    case 21: return casadi_s0;
-    case 22: return casadi_s0;
-    case 23: return casadi_s0;
-    default: return 0;
+  a0 = a21 * a30;
+  a31 = a23 * a5;
+  a31 = a31 / a14;
+  a0 = a0 + a31;
+  a32 = a0 * a25;
+  a33 = a21 * a28;
+  a34 = a30 * a20;
+  a33 = a33 - a34;
+  a34 = a5 * a6;
+  a8 = a23 * a8;
+  a34 = a34 + a8;
+  a34 = a34 / a14;
+  a31 = a31 / a14;
+  a31 = a31 * a13;
+  a34 = a34 - a31;
+  a33 = a33 + a34;
+  a34 = a27 * a33;
+  a32 = a32 + a34;
+  if (res[4] != NULL) {
+    res[4][0] = a32;
   }
-}
-
-CASADI_SYMBOL_EXPORT int trum_regions_slopes_work(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 20;
-  if (sz_res) *sz_res = 24;
-  if (sz_iw) *sz_iw = 0;
-  if (sz_w) *sz_w = 0;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_regions_slopes_work_bytes(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 20*sizeof(const casadi_real*);
-  if (sz_res) *sz_res = 24*sizeof(casadi_real*);
-  if (sz_iw) *sz_iw = 0*sizeof(casadi_int);
-  if (sz_w) *sz_w = 0*sizeof(casadi_real);
+  a32 = a27 * a9;
+  a34 = a12 * a25;
+  a32 = a32 + a34;
+  a32 = a0 * a32;
+  a34 = a12 * a27;
+  a33 = a34 * a33;
+  a32 = a32 + a33;
+  a33 = a21 * a16;
+  a31 = a11 * a30;
+  a8 = a9 * a16;
+  a31 = a31 + a8;
+  a8 = a23 * a31;
+  a8 = a8 / a13;
+  a33 = a33 - a8;
+  a8 = a33 * a25;
+  a35 = a21 * a24;
+  a36 = a16 * a20;
+  a35 = a35 - a36;
+  a36 = a31 * a6;
+  a28 = a11 * a28;
+  a28 = a30 + a28;
+  a24 = a9 * a24;
+  a28 = a28 + a24;
+  a28 = a23 * a28;
+  a36 = a36 + a28;
+  a36 = a36 / a13;
+  a35 = a35 - a36;
+  a35 = a27 * a35;
+  a8 = a8 + a35;
+  a32 = a32 + a8;
+  a32 = a32 / a14;
+  a8 = a34 * a0;
+  a35 = a27 * a33;
+  a8 = a8 + a35;
+  a8 = a8 / a14;
+  a8 = a8 / a14;
+  a8 = a8 * a13;
+  a32 = a32 - a8;
+  a32 = -a32;
+  if (res[5] != NULL) {
+    res[5][0] = a32;
+  }
+  a32 = (arg[7] != NULL) ? arg[7][0] : TRUM_C(0.0);
+  if (res[6] != NULL) {
+    res[6][0] = a32;
+  }
+  a8 = (arg[13] != NULL) ? arg[13][0] : TRUM_C(0.0);
+  a35 = a11 * a32;
+  a36 = (arg[5] != NULL) ? arg[5][0] : TRUM_C(0.0);
+  a35 = a35 + a36;
+  a28 = a9 * a35;
+  a28 = a8 + a28;
+  a24 = a28 / a14;
+  a37 = (arg[11] != NULL) ? arg[11][0] : TRUM_C(0.0);
+  a38 = a36 * a11;
+  a39 = a38 * a9;
+  a39 = a37 + a39;
+  a40 = a39 / a14;
+  a40 = a40 / a14;
+  a40 = a40 * a13;
+  a24 = a24 - a40;
+  a24 = -a24;
+  if (res[7] != NULL) {
+    res[7][0] = a24;
+  }
+  a24 = a36 * a21;
+  a40 = a39 * a23;
+  a40 = a40 / a14;
+  a24 = a24 + a40;
+  a41 = a24 * a25;
+  a32 = a21 * a32;
+  a42 = a36 * a20;
+  a32 = a32 - a42;
+  a28 = a23 * a28;
+  a42 = a39 * a6;
+  a28 = a28 + a42;
+  a28 = a28 / a14;
+  a40 = a40 / a14;
+  a40 = a40 * a13;
+  a28 = a28 - a40;
+  a32 = a32 + a28;
+  a32 = a27 * a32;
+  a41 = a41 + a32;
+  if (res[8] != NULL) {
+    res[8][0] = a41;
+  }
+  a32 = (arg[18] != NULL) ? arg[18][0] : TRUM_C(0.0);
+  a1 = a1 * a32;
+  a2 = a1 * a2;
+  a32 = a37 * a21;
+  a28 = a37 * a9;
+  a38 = a38 + a28;
+  a28 = a38 * a23;
+  a28 = a28 / a13;
+  a32 = a32 - a28;
+  a28 = a32 * a25;
+  a40 = a21 * a8;
+  a42 = a37 * a20;
+  a40 = a40 - a42;
+  a8 = a9 * a8;
+  a35 = a35 + a8;
+  a35 = a23 * a35;
+  a8 = a38 * a6;
+  a35 = a35 + a8;
+  a35 = a35 / a13;
+  a40 = a40 - a35;
+  a40 = a27 * a40;
+  a28 = a28 + a40;
+  a40 = a2 - a28;
+  a35 = a27 * a24;
+  a1 = a1 * a3;
+  a35 = a35 - a1;
+  a3 = a35 * a9;
+  a8 = a12 * a41;
+  a3 = a3 + a8;
+  a40 = a40 - a3;
+  a40 = a40 / a14;
+  a15 = a2 * a15;
+  a8 = a27 * a32;
+  a42 = a15 - a8;
+  a43 = a12 * a35;
+  a42 = a42 - a43;
+  a42 = a42 / a14;
+  a42 = a42 / a14;
+  a42 = a42 * a13;
+  a40 = a40 - a42;
+  if (res[9] != NULL) {
+    res[9][0] = a40;
+  }
+  a40 = a21 * a35;
+  a43 = a8 + a43;
+  a43 = a43 - a15;
+  a42 = a23 * a43;
+  a42 = a42 / a14;
+  a40 = a40 + a42;
+  a44 = a40 * a25;
+  a45 = a21 * a41;
+  a46 = a35 * a20;
+  a45 = a45 - a46;
+  a46 = a43 * a6;
+  a3 = a28 + a3;
+  a3 = a3 - a2;
+  a3 = a23 * a3;
+  a46 = a46 + a3;
+  a46 = a46 / a14;
+  a42 = a42 / a14;
+  a42 = a42 * a13;
+  a46 = a46 - a42;
+  a45 = a45 + a46;
+  a45 = a27 * a45;
+  a44 = a44 + a45;
+  if (res[10] != NULL) {
+    res[10][0] = a44;
+  }
+  a8 = a8 - a15;
+  a45 = a21 * a8;
+  a46 = a11 * a35;
+  a42 = a9 * a8;
+  a46 = a46 + a42;
+  a42 = a23 * a46;
+  a42 = a42 / a13;
+  a45 = a45 - a42;
+  a25 = a45 * a25;
+  a28 = a28 - a2;
+  a42 = a21 * a28;
+  a20 = a8 * a20;
+  a42 = a42 - a20;
+  a6 = a46 * a6;
+  a41 = a11 * a41;
+  a41 = a35 + a41;
+  a28 = a9 * a28;
+  a41 = a41 + a28;
+  a41 = a23 * a41;
+  a6 = a6 + a41;
+  a6 = a6 / a13;
+  a42 = a42 - a6;
+  a42 = a27 * a42;
+  a25 = a25 + a42;
+  a25 = a2 + a25;
+  a42 = a27 * a40;
+  a1 = a1 + a42;
+  a42 = a1 * a9;
+  a44 = a12 * a44;
+  a42 = a42 + a44;
+  a25 = a25 + a42;
+  a25 = a25 / a14;
+  a42 = a27 * a45;
+  a15 = a15 + a42;
+  a1 = a12 * a1;
+  a15 = a15 + a1;
+  a15 = a15 / a14;
+  a15 = a15 / a14;
+  a15 = a15 * a13;
+  a25 = a25 - a15;
+  a25 = -a25;
+  if (res[11] != NULL) {
+    res[11][0] = a25;
+  }
+  a25 = (arg[3] != NULL) ? arg[3][0] : TRUM_C(0.0);
+  if (res[12] != NULL) {
+    res[12][0] = a25;
+  }
+  a15 = (arg[9] != NULL) ? arg[9][0] : TRUM_C(0.0);
+  a1 = a4 - a15;
+  a42 = a12 * a25;
+  a1 = a1 - a42;
+  a1 = a1 / a14;
+  if (res[13] != NULL) {
+    res[13][0] = a1;
+  }
+  a1 = a21 * a25;
+  a44 = a23 * a18;
+  a7 = a7 * a44;
+  a1 = a1 + a7;
+  a42 = a15 + a42;
+  a42 = a42 - a4;
+  a42 = a23 * a42;
+  a18 = a21 * a18;
+  a19 = a19 * a18;
+  a42 = a42 - a19;
+  a42 = a42 / a14;
+  a1 = a1 + a42;
+  a1 = a27 * a1;
+  a26 = a27 * a26;
+  a22 = a22 * a26;
+  a1 = a1 - a22;
+  if (res[14] != NULL) {
+    res[14][0] = a1;
+  }
+  a15 = a15 - a4;
+  a22 = a21 * a15;
+  a17 = a17 * a44;
+  a22 = a22 + a17;
+  a25 = a11 * a25;
+  a15 = a9 * a15;
+  a25 = a25 + a15;
+  a25 = a23 * a25;
+  a10 = a10 * a18;
+  a25 = a25 - a10;
+  a25 = a25 / a13;
+  a22 = a22 - a25;
+  a22 = a27 * a22;
+  a29 = a29 * a26;
+  a22 = a22 - a29;
+  a4 = a4 + a22;
+  a22 = a12 * a1;
+  a22 = a4 + a22;
+  a29 = a22 / a14;
+  a29 = -a29;
+  if (res[15] != NULL) {
+    res[15][0] = a29;
+  }
+  a30 = a30 * a44;
+  a29 = a21 * a1;
+  a30 = a30 + a29;
+  a22 = a23 * a22;
+  a5 = a5 * a18;
+  a22 = a22 - a5;
+  a22 = a22 / a14;
+  a30 = a30 + a22;
+  a22 = a27 * a30;
+  a5 = a0 * a26;
+  a22 = a22 - a5;
+  if (res[16] != NULL) {
+    res[16][0] = a22;
+  }
+  a34 = a34 * a30;
+  a30 = a12 * a26;
+  a0 = a0 * a30;
+  a34 = a34 - a0;
+  a16 = a16 * a44;
+  a0 = a21 * a4;
+  a16 = a16 + a0;
+  a1 = a11 * a1;
+  a4 = a9 * a4;
+  a1 = a1 + a4;
+  a1 = a23 * a1;
+  a31 = a31 * a18;
+  a1 = a1 - a31;
+  a1 = a1 / a13;
+  a16 = a16 - a1;
+  a16 = a27 * a16;
+  a33 = a33 * a26;
+  a16 = a16 - a33;
+  a34 = a34 + a16;
+  a34 = a34 / a14;
+  a34 = -a34;
+  if (res[17] != NULL) {
+    res[17][0] = a34;
+  }
+  a34 = (arg[6] != NULL) ? arg[6][0] : TRUM_C(0.0);
+  if (res[18] != NULL) {
+    res[18][0] = a34;
+  }
+  a16 = (arg[12] != NULL) ? arg[12][0] : TRUM_C(0.0);
+  a33 = a11 * a34;
+  a1 = a9 * a33;
+  a1 = a16 + a1;
+  a31 = a1 / a14;
+  a31 = -a31;
+  if (res[19] != NULL) {
+    res[19][0] = a31;
+  }
+  a34 = a21 * a34;
+  a36 = a36 * a44;
+  a34 = a34 + a36;
+  a1 = a23 * a1;
+  a39 = a39 * a18;
+  a1 = a1 - a39;
+  a1 = a1 / a14;
+  a34 = a34 + a1;
+  a34 = a27 * a34;
+  a24 = a24 * a26;
+  a34 = a34 - a24;
+  if (res[20] != NULL) {
+    res[20][0] = a34;
+  }
+  a24 = a21 * a16;
+  a37 = a37 * a44;
+  a24 = a24 + a37;
+  a16 = a9 * a16;
+  a33 = a33 + a16;
+  a33 = a23 * a33;
+  a38 = a38 * a18;
+  a33 = a33 - a38;
+  a33 = a33 / a13;
+  a24 = a24 - a33;
+  a24 = a27 * a24;
+  a32 = a32 * a26;
+  a24 = a24 - a32;
+  a32 = a2 - a24;
+  a33 = a12 * a34;
+  a32 = a32 - a33;
+  a32 = a32 / a14;
+  if (res[21] != NULL) {
+    res[21][0] = a32;
+  }
+  a35 = a35 * a44;
+  a32 = a21 * a34;
+  a35 = a35 + a32;
+  a33 = a24 + a33;
+  a33 = a33 - a2;
+  a33 = a23 * a33;
+  a43 = a43 * a18;
+  a33 = a33 - a43;
+  a33 = a33 / a14;
+  a35 = a35 + a33;
+  a35 = a27 * a35;
+  a40 = a40 * a26;
+  a35 = a35 - a40;
+  if (res[22] != NULL) {
+    res[22][0] = a35;
+  }
+  a8 = a8 * a44;
+  a24 = a24 - a2;
+  a21 = a21 * a24;
+  a8 = a8 + a21;
+  a11 = a11 * a34;
+  a9 = a9 * a24;
+  a11 = a11 + a9;
+  a23 = a23 * a11;
+  a46 = a46 * a18;
+  a23 = a23 - a46;
+  a23 = a23 / a13;
+  a8 = a8 - a23;
+  a27 = a27 * a8;
+  a45 = a45 * a26;
+  a27 = a27 - a45;
+  a2 = a2 + a27;
+  a12 = a12 * a35;
+  a2 = a2 + a12;
+  a2 = a2 / a14;
+  a2 = -a2;
+  if (res[23] != NULL) {
+    res[23][0] = a2;
+  }
   return 0;
 }

@@ -19,245 +19,130 @@
  *
  * 72 operations: 28 mul, 13 add, 10 div, 10 sqrt, 4 sq, 3 inv, 2 sub, 2 twice
  */
-/* How to prefix internal symbols */
-#ifdef CASADI_CODEGEN_PREFIX
-  #define CASADI_NAMESPACE_CONCAT(NS, ID) _CASADI_NAMESPACE_CONCAT(NS, ID)
-  #define _CASADI_NAMESPACE_CONCAT(NS, ID) NS ## ID
-  #define CASADI_PREFIX(ID) CASADI_NAMESPACE_CONCAT(CODEGEN_PREFIX, ID)
-#else
-  #define CASADI_PREFIX(ID) trum_resonance_ ## ID
-#endif
+#include <stddef.h>
 
-#include <math.h>
+#include "trum_kernels.h"
 
-#ifndef casadi_real
-#define casadi_real double
-#endif
-
-#ifndef casadi_int
-#define casadi_int long long int
-#endif
-
-/* Add prefix to internal symbols */
-#define casadi_f0 CASADI_PREFIX(f0)
-#define casadi_s0 CASADI_PREFIX(s0)
-#define casadi_sq CASADI_PREFIX(sq)
-
-/* Symbol visibility in DLLs */
-#ifndef CASADI_SYMBOL_EXPORT
-  #if defined(_WIN32) || defined(__WIN32__) || defined(__CYGWIN__)
-    #if defined(STATIC_LINKED)
-      #define CASADI_SYMBOL_EXPORT
-    #else
-      #define CASADI_SYMBOL_EXPORT __declspec(dllexport)
-    #endif
-  #elif defined(__GNUC__) && defined(GCC_HASCLASSVISIBILITY)
-    #define CASADI_SYMBOL_EXPORT __attribute__ ((visibility ("default")))
-  #else
-    #define CASADI_SYMBOL_EXPORT
-  #endif
-#endif
-
-casadi_real casadi_sq(casadi_real x) { return x*x;}
-
-/* Configuration this file was compiled with */
-CASADI_SYMBOL_EXPORT void trum_resonance_casadi_version(int* major, int* minor, int* patch) {
-  *major = 3;
-  *minor = 8;
-  *patch = 2;
-}
-CASADI_SYMBOL_EXPORT int trum_resonance_casadi_int_size(void) { return (int) sizeof(casadi_int); }
-CASADI_SYMBOL_EXPORT int trum_resonance_casadi_real_size(void) { return (int) sizeof(casadi_real); }
-
-static const casadi_int casadi_s0[3] = {1, 1, 1};
-
-/* trum_resonance:(A,E,G,I_z,k_c,k_dx,k_f,kappa,rho)->(euler,printed,eq6,quartic,beta) */
-static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
-  (void)iw, (void)w, (void)mem;
-  casadi_real a00, a01, a02, a03, a04, a05, a06, a07, a08, a09, a10, a11;
-  casadi_real a12, a13, a14, a15, a16, a17, a18;
-  a00=arg[6]? arg[6][0] : 0;
-  a01=arg[1]? arg[1][0] : 0;
-  a02=arg[3]? arg[3][0] : 0;
-  a03=(a01*a02);
-  a04=arg[4]? arg[4][0] : 0;
-  a05=casadi_sq(a04);
-  a06=casadi_sq(a05);
-  a07=(a03*a06);
-  a08=(a00+a07);
-  a09=sqrt(a08);
-  a10=arg[0]? arg[0][0] : 0;
-  a11=sqrt(a10);
-  a12=arg[8]? arg[8][0] : 0;
-  a13=sqrt(a12);
-  a11=(a11*a13);
-  a09=(a09/a11);
-  if (res[0]!=0) res[0][0]=a09;
-  a09=arg[5]? arg[5][0] : 0;
-  a09=(a09+a07);
-  a09=sqrt(a09);
-  a07=(a10*a12);
-  a11=(a12*a05);
-  a13=((casadi_real)1./a01);
-  a14=arg[2]? arg[2][0] : 0;
-  a15=arg[7]? arg[7][0] : 0;
-  a16=(a14*a15);
-  a17=((casadi_real)1./a16);
-  a13=(a13+a17);
-  a11=(a11*a13);
-  a11=(a07+a11);
-  a11=sqrt(a11);
-  a09=(a09/a11);
-  if (res[1]!=0) res[1][0]=a09;
-  a09=(a03*a00);
-  a09=(a09*a05);
-  a10=(a10*a14);
-  a14=(a10*a15);
-  a09=(a09/a14);
-  a08=(a08+a09);
-  a09=sqrt(a08);
-  a11=(a02*a00);
-  a11=(a11*a12);
-  a11=(a11/a14);
-  a07=(a07+a11);
-  a11=(a02*a12);
-  a13=(a11*a05);
-  a17=(a01+a16);
-  a13=(a13*a17);
-  a13=(a13/a16);
-  a17=(a07+a13);
-  a18=sqrt(a17);
-  a09=(a09/a18);
-  if (res[2]!=0) res[2][0]=a09;
-  a09=((casadi_real)2.*a00);
-  a01=((casadi_real)2.*a01);
-  a01=(a01*a02);
-  a06=(a01*a06);
-  a09=(a09+a06);
-  a01=(a01*a00);
-  a01=(a01*a05);
-  a01=(a01/a14);
-  a09=(a09+a01);
-  a01=sqrt(a09);
-  a17=casadi_sq(a17);
-  a00=(casadi_real)4.;
-  a00=(a00*a02);
-  a12=casadi_sq(a12);
-  a00=(a00*a12);
-  a00=(a00*a08);
-  a00=(a00/a16);
-  a17=(a17-a00);
-  a17=sqrt(a17);
-  a07=(a07+a17);
-  a07=(a07+a13);
-  a13=((casadi_real)1./a07);
-  a13=sqrt(a13);
-  a01=(a01*a13);
-  if (res[3]!=0) res[3][0]=a01;
-  a10=(a10*a04);
-  a10=(a10*a15);
-  a03=(a03*a05);
-  a14=(a14+a03);
-  a11=(a11*a09);
-  a11=(a11/a07);
-  a14=(a14-a11);
-  a10=(a10/a14);
-  if (res[4]!=0) res[4][0]=a10;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_resonance(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem){
-  return casadi_f0(arg, res, iw, w, mem);
-}
-
-CASADI_SYMBOL_EXPORT int trum_resonance_checkout(void) {
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT void trum_resonance_release(int mem) {
+int trum_resonance(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem)
+{
+  trum_real a0;
+  trum_real a1;
+  trum_real a2;
+  trum_real a3;
+  trum_real a4;
+  trum_real a5;
+  trum_real a6;
+  trum_real a7;
+  trum_real a8;
+  trum_real a9;
+  trum_real a10;
+  trum_real a11;
+  trum_real a12;
+  trum_real a13;
+  trum_real a14;
+  trum_real a15;
+  trum_real a16;
+  trum_real a17;
+  trum_real a18;
+  (void)iw;
+  (void)w;
   (void)mem;
-}
-
-CASADI_SYMBOL_EXPORT void trum_resonance_incref(void) {
-}
-
-CASADI_SYMBOL_EXPORT void trum_resonance_decref(void) {
-}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_resonance_n_in(void) { return 9;}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_resonance_n_out(void) { return 5;}
-
-CASADI_SYMBOL_EXPORT casadi_real trum_resonance_default_in(casadi_int i) {
-  switch (i) {
-    default: return 0;
+  a0 = (arg[6] != NULL) ? arg[6][0] : TRUM_C(0.0);
+  a1 = (arg[1] != NULL) ? arg[1][0] : TRUM_C(0.0);
+  a2 = (arg[3] != NULL) ? arg[3][0] : TRUM_C(0.0);
+  a3 = a1 * a2;
+  a4 = (arg[4] != NULL) ? arg[4][0] : TRUM_C(0.0);
+  a5 = a4 * a4;
+  a6 = a5 * a5;
+  a7 = a3 * a6;
+  a8 = a0 + a7;
+  a9 = trum_sqrt(a8);
+  a10 = (arg[0] != NULL) ? arg[0][0] : TRUM_C(0.0);
+  a11 = trum_sqrt(a10);
+  a12 = (arg[8] != NULL) ? arg[8][0] : TRUM_C(0.0);
+  a13 = trum_sqrt(a12);
+  a11 = a11 * a13;
+  a9 = a9 / a11;
+  if (res[0] != NULL) {
+    res[0][0] = a9;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_resonance_name_in(casadi_int i) {
-  switch (i) {
-    case 0: return "A";
-    case 1: return "E";
-    case 2: return "G";
-    case 3: return "I_z";
-    case 4: return "k_c";
-    case 5: return "k_dx";
-    case 6: return "k_f";
-    case 7: return "kappa";
-    case 8: return "rho";
-    default: return 0;
+  a9 = (arg[5] != NULL) ? arg[5][0] : TRUM_C(0.0);
+  a9 = a9 + a7;
+  a9 = trum_sqrt(a9);
+  a7 = a10 * a12;
+  a11 = a12 * a5;
+  a13 = TRUM_C(1.0) / a1;
+  a14 = (arg[2] != NULL) ? arg[2][0] : TRUM_C(0.0);
+  a15 = (arg[7] != NULL) ? arg[7][0] : TRUM_C(0.0);
+  a16 = a14 * a15;
+  a17 = TRUM_C(1.0) / a16;
+  a13 = a13 + a17;
+  a11 = a11 * a13;
+  a11 = a7 + a11;
+  a11 = trum_sqrt(a11);
+  a9 = a9 / a11;
+  if (res[1] != NULL) {
+    res[1][0] = a9;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_resonance_name_out(casadi_int i) {
-  switch (i) {
-    case 0: return "euler";
-    case 1: return "printed";
-    case 2: return "eq6";
-    case 3: return "quartic";
-    case 4: return "beta";
-    default: return 0;
+  a9 = a3 * a0;
+  a9 = a9 * a5;
+  a10 = a10 * a14;
+  a14 = a10 * a15;
+  a9 = a9 / a14;
+  a8 = a8 + a9;
+  a9 = trum_sqrt(a8);
+  a11 = a2 * a0;
+  a11 = a11 * a12;
+  a11 = a11 / a14;
+  a7 = a7 + a11;
+  a11 = a2 * a12;
+  a13 = a11 * a5;
+  a17 = a1 + a16;
+  a13 = a13 * a17;
+  a13 = a13 / a16;
+  a17 = a7 + a13;
+  a18 = trum_sqrt(a17);
+  a9 = a9 / a18;
+  if (res[2] != NULL) {
+    res[2][0] = a9;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_resonance_sparsity_in(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    case 4: return casadi_s0;
-    case 5: return casadi_s0;
-    case 6: return casadi_s0;
-    case 7: return casadi_s0;
-    case 8: return casadi_s0;
-    default: return 0;
+  a9 = TRUM_C(2.0) * a0;
+  a1 = TRUM_C(2.0) * a1;
+  a1 = a1 * a2;
+  a6 = a1 * a6;
+  a9 = a9 + a6;
+  a1 = a1 * a0;
+  a1 = a1 * a5;
+  a1 = a1 / a14;
+  a9 = a9 + a1;
+  a1 = trum_sqrt(a9);
+  a17 = a17 * a17;
+  a0 = TRUM_C(4.0);
+  a0 = a0 * a2;
+  a12 = a12 * a12;
+  a0 = a0 * a12;
+  a0 = a0 * a8;
+  a0 = a0 / a16;
+  a17 = a17 - a0;
+  a17 = trum_sqrt(a17);
+  a7 = a7 + a17;
+  a7 = a7 + a13;
+  a13 = TRUM_C(1.0) / a7;
+  a13 = trum_sqrt(a13);
+  a1 = a1 * a13;
+  if (res[3] != NULL) {
+    res[3][0] = a1;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_resonance_sparsity_out(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    case 4: return casadi_s0;
-    default: return 0;
+  a10 = a10 * a4;
+  a10 = a10 * a15;
+  a3 = a3 * a5;
+  a14 = a14 + a3;
+  a11 = a11 * a9;
+  a11 = a11 / a7;
+  a14 = a14 - a11;
+  a10 = a10 / a14;
+  if (res[4] != NULL) {
+    res[4][0] = a10;
   }
-}
-
-CASADI_SYMBOL_EXPORT int trum_resonance_work(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 9;
-  if (sz_res) *sz_res = 5;
-  if (sz_iw) *sz_iw = 0;
-  if (sz_w) *sz_w = 0;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_resonance_work_bytes(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 9*sizeof(const casadi_real*);
-  if (sz_res) *sz_res = 5*sizeof(casadi_real*);
-  if (sz_iw) *sz_iw = 0*sizeof(casadi_int);
-  if (sz_w) *sz_w = 0*sizeof(casadi_real);
   return 0;
 }

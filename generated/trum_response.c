@@ -26,366 +26,251 @@
  *
  * 171 operations: 112 mul, 22 add, 13 sub, 5 div, 3 cos, 3 sin, 3 sq, 3 sqrt, 3 twice, 2 exp, 2 neg
  */
-/* How to prefix internal symbols */
-#ifdef CASADI_CODEGEN_PREFIX
-  #define CASADI_NAMESPACE_CONCAT(NS, ID) _CASADI_NAMESPACE_CONCAT(NS, ID)
-  #define _CASADI_NAMESPACE_CONCAT(NS, ID) NS ## ID
-  #define CASADI_PREFIX(ID) CASADI_NAMESPACE_CONCAT(CODEGEN_PREFIX, ID)
-#else
-  #define CASADI_PREFIX(ID) trum_response_ ## ID
-#endif
+#include <stddef.h>
 
-#include <math.h>
+#include "trum_kernels.h"
 
-#ifndef casadi_real
-#define casadi_real double
-#endif
-
-#ifndef casadi_int
-#define casadi_int long long int
-#endif
-
-/* Add prefix to internal symbols */
-#define casadi_f0 CASADI_PREFIX(f0)
-#define casadi_s0 CASADI_PREFIX(s0)
-#define casadi_sq CASADI_PREFIX(sq)
-
-/* Symbol visibility in DLLs */
-#ifndef CASADI_SYMBOL_EXPORT
-  #if defined(_WIN32) || defined(__WIN32__) || defined(__CYGWIN__)
-    #if defined(STATIC_LINKED)
-      #define CASADI_SYMBOL_EXPORT
-    #else
-      #define CASADI_SYMBOL_EXPORT __declspec(dllexport)
-    #endif
-  #elif defined(__GNUC__) && defined(GCC_HASCLASSVISIBILITY)
-    #define CASADI_SYMBOL_EXPORT __attribute__ ((visibility ("default")))
-  #else
-    #define CASADI_SYMBOL_EXPORT
-  #endif
-#endif
-
-casadi_real casadi_sq(casadi_real x) { return x*x;}
-
-/* Configuration this file was compiled with */
-CASADI_SYMBOL_EXPORT void trum_response_casadi_version(int* major, int* minor, int* patch) {
-  *major = 3;
-  *minor = 8;
-  *patch = 2;
-}
-CASADI_SYMBOL_EXPORT int trum_response_casadi_int_size(void) { return (int) sizeof(casadi_int); }
-CASADI_SYMBOL_EXPORT int trum_response_casadi_real_size(void) { return (int) sizeof(casadi_real); }
-
-static const casadi_int casadi_s0[3] = {1, 1, 1};
-
-/* trum_response:(D,Delta_omega,W,a_A,a_B,b_A,b_B,g_A,g_B,k_c,omega_n,psi,s,tau,xi)->(w_A,w_B,v_A,v_B,Q,Q_rate) */
-static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
-  (void)iw, (void)w, (void)mem;
-  casadi_real a00, a01, a02, a03, a04, a05, a06, a07, a08, a09, a10, a11;
-  casadi_real a12, a13, a14, a15, a16, a17, a18, a19, a20, a21, a22, a23;
-  casadi_real a24, a25, a26, a27, a28, a29, a30, a31;
-  a00=arg[2]? arg[2][0] : 0;
-  a01=arg[7]? arg[7][0] : 0;
-  a02=(a00*a01);
-  a03=arg[11]? arg[11][0] : 0;
-  a04=arg[13]? arg[13][0] : 0;
-  a05=arg[1]? arg[1][0] : 0;
-  a06=arg[10]? arg[10][0] : 0;
-  a07=(a05+a06);
-  a08=(a04*a07);
-  a08=(a03+a08);
-  a09=cos(a08);
-  a10=(a02*a09);
-  a11=(a06*a04);
-  a12=arg[14]? arg[14][0] : 0;
-  a13=(a11*a12);
-  a14=(-a13);
-  a14=exp(a14);
-  a15=arg[3]? arg[3][0] : 0;
-  a16=(casadi_real)1.;
-  a17=casadi_sq(a12);
-  a18=(a16-a17);
-  a18=sqrt(a18);
-  a19=(a11*a18);
-  a20=cos(a19);
-  a21=(a15*a20);
-  a22=arg[5]? arg[5][0] : 0;
-  a23=(a15*a06);
-  a24=(a23*a12);
-  a24=(a22+a24);
-  a19=sin(a19);
-  a24=(a24*a19);
-  a25=(a06*a18);
-  a24=(a24/a25);
-  a21=(a21+a24);
-  a21=(a14*a21);
-  a10=(a10+a21);
-  if (res[0]!=0) res[0][0]=a10;
-  a21=arg[4]? arg[4][0] : 0;
-  a24=(a21*a20);
-  a26=arg[6]? arg[6][0] : 0;
-  a27=(a21*a06);
-  a28=(a27*a12);
-  a28=(a26+a28);
-  a28=(a28*a19);
-  a28=(a28/a25);
-  a24=(a24+a28);
-  a24=(a14*a24);
-  a28=arg[8]? arg[8][0] : 0;
-  a25=(a00*a28);
-  a29=arg[12]? arg[12][0] : 0;
-  a25=(a25*a29);
-  a08=sin(a08);
-  a30=(a25*a08);
-  a24=(a24-a30);
-  if (res[1]!=0) res[1][0]=a24;
-  a30=(a22*a20);
-  a31=(a22*a12);
-  a23=(a23+a31);
-  a23=(a23*a19);
-  a23=(a23/a18);
-  a30=(a30-a23);
-  a30=(a14*a30);
-  a23=(a02*a07);
-  a23=(a23*a08);
-  a30=(a30-a23);
-  if (res[2]!=0) res[2][0]=a30;
-  a23=(a26*a20);
-  a08=(a26*a12);
-  a27=(a27+a08);
-  a27=(a27*a19);
-  a27=(a27/a18);
-  a23=(a23-a27);
-  a23=(a14*a23);
-  a07=(a25*a07);
-  a07=(a07*a09);
-  a23=(a23-a07);
-  if (res[3]!=0) res[3][0]=a23;
-  a07=arg[0]? arg[0][0] : 0;
-  a09=arg[9]? arg[9][0] : 0;
-  a07=(a07*a09);
-  a30=(a24*a30);
-  a23=(a10*a23);
-  a30=(a30-a23);
-  a30=(a07*a30);
-  if (res[4]!=0) res[4][0]=a30;
-  a07=(a07*a14);
-  a14=(a22*a06);
-  a14=(a14*a19);
-  a14=(a14*a24);
-  a30=(a21*a12);
-  a23=casadi_sq(a06);
-  a30=(a30*a23);
-  a30=(a30*a19);
-  a30=(a30*a10);
-  a14=(a14+a30);
-  a30=((casadi_real)2.*a26);
-  a30=(a30*a06);
-  a09=(a30*a17);
-  a09=(a09*a19);
-  a09=(a09*a10);
-  a14=(a14+a09);
-  a09=(a15*a23);
-  a09=(a09*a18);
-  a09=(a09*a20);
-  a09=(a09*a24);
-  a14=(a14+a09);
-  a22=((casadi_real)2.*a22);
-  a22=(a22*a06);
-  a09=(a22*a12);
-  a09=(a09*a18);
-  a09=(a09*a20);
-  a09=(a09*a24);
-  a14=(a14+a09);
-  a09=casadi_sq(a05);
-  a27=(a25*a09);
-  a13=exp(a13);
-  a27=(a27*a13);
-  a27=(a27*a18);
-  a04=(a05*a04);
-  a03=(a03+a04);
-  a03=(a03+a11);
-  a11=sin(a03);
-  a27=(a27*a11);
-  a27=(a27*a10);
-  a14=(a14+a27);
-  a25=(a25*a23);
-  a25=(a25*a13);
-  a25=(a25*a18);
-  a25=(a25*a11);
-  a25=(a25*a10);
-  a14=(a14+a25);
-  a05=((casadi_real)2.*a05);
-  a05=(a05*a00);
-  a28=(a05*a28);
-  a28=(a28*a06);
-  a28=(a28*a29);
-  a28=(a28*a13);
-  a28=(a28*a18);
-  a28=(a28*a11);
-  a28=(a28*a10);
-  a14=(a14+a28);
-  a09=(a02*a09);
-  a09=(a09*a13);
-  a09=(a09*a18);
-  a03=cos(a03);
-  a09=(a09*a03);
-  a09=(a09*a24);
-  a14=(a14+a09);
-  a02=(a02*a23);
-  a02=(a02*a13);
-  a02=(a02*a18);
-  a02=(a02*a03);
-  a02=(a02*a24);
-  a14=(a14+a02);
-  a05=(a05*a01);
-  a05=(a05*a06);
-  a05=(a05*a13);
-  a05=(a05*a18);
-  a05=(a05*a03);
-  a05=(a05*a24);
-  a14=(a14+a05);
-  a26=(a26*a06);
-  a26=(a26*a19);
-  a26=(a26*a10);
-  a14=(a14-a26);
-  a15=(a15*a12);
-  a15=(a15*a23);
-  a15=(a15*a19);
-  a15=(a15*a24);
-  a14=(a14-a15);
-  a22=(a22*a17);
-  a22=(a22*a19);
-  a22=(a22*a24);
-  a14=(a14-a22);
-  a30=(a30*a12);
-  a30=(a30*a18);
-  a30=(a30*a20);
-  a30=(a30*a10);
-  a14=(a14-a30);
-  a21=(a21*a23);
-  a21=(a21*a18);
-  a21=(a21*a20);
-  a21=(a21*a10);
-  a14=(a14-a21);
-  a07=(a07*a14);
-  a14=(a16+a12);
-  a14=sqrt(a14);
-  a16=(a16-a12);
-  a16=sqrt(a16);
-  a14=(a14*a16);
-  a07=(a07/a14);
-  a07=(-a07);
-  if (res[5]!=0) res[5][0]=a07;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_response(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem){
-  return casadi_f0(arg, res, iw, w, mem);
-}
-
-CASADI_SYMBOL_EXPORT int trum_response_checkout(void) {
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT void trum_response_release(int mem) {
+int trum_response(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem)
+{
+  trum_real a0;
+  trum_real a1;
+  trum_real a2;
+  trum_real a3;
+  trum_real a4;
+  trum_real a5;
+  trum_real a6;
+  trum_real a7;
+  trum_real a8;
+  trum_real a9;
+  trum_real a10;
+  trum_real a11;
+  trum_real a12;
+  trum_real a13;
+  trum_real a14;
+  trum_real a15;
+  trum_real a16;
+  trum_real a17;
+  trum_real a18;
+  trum_real a19;
+  trum_real a20;
+  trum_real a21;
+  trum_real a22;
+  trum_real a23;
+  trum_real a24;
+  trum_real a25;
+  trum_real a26;
+  trum_real a27;
+  trum_real a28;
+  trum_real a29;
+  trum_real a30;
+  trum_real a31;
+  (void)iw;
+  (void)w;
   (void)mem;
-}
-
-CASADI_SYMBOL_EXPORT void trum_response_incref(void) {
-}
-
-CASADI_SYMBOL_EXPORT void trum_response_decref(void) {
-}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_response_n_in(void) { return 15;}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_response_n_out(void) { return 6;}
-
-CASADI_SYMBOL_EXPORT casadi_real trum_response_default_in(casadi_int i) {
-  switch (i) {
-    default: return 0;
+  a0 = (arg[2] != NULL) ? arg[2][0] : TRUM_C(0.0);
+  a1 = (arg[7] != NULL) ? arg[7][0] : TRUM_C(0.0);
+  a2 = a0 * a1;
+  a3 = (arg[11] != NULL) ? arg[11][0] : TRUM_C(0.0);
+  a4 = (arg[13] != NULL) ? arg[13][0] : TRUM_C(0.0);
+  a5 = (arg[1] != NULL) ? arg[1][0] : TRUM_C(0.0);
+  a6 = (arg[10] != NULL) ? arg[10][0] : TRUM_C(0.0);
+  a7 = a5 + a6;
+  a8 = a4 * a7;
+  a8 = a3 + a8;
+  a9 = trum_cos(a8);
+  a10 = a2 * a9;
+  a11 = a6 * a4;
+  a12 = (arg[14] != NULL) ? arg[14][0] : TRUM_C(0.0);
+  a13 = a11 * a12;
+  a14 = -a13;
+  a14 = trum_exp(a14);
+  a15 = (arg[3] != NULL) ? arg[3][0] : TRUM_C(0.0);
+  a16 = TRUM_C(1.0);
+  a17 = a12 * a12;
+  a18 = a16 - a17;
+  a18 = trum_sqrt(a18);
+  a19 = a11 * a18;
+  a20 = trum_cos(a19);
+  a21 = a15 * a20;
+  a22 = (arg[5] != NULL) ? arg[5][0] : TRUM_C(0.0);
+  a23 = a15 * a6;
+  a24 = a23 * a12;
+  a24 = a22 + a24;
+  a19 = trum_sin(a19);
+  a24 = a24 * a19;
+  a25 = a6 * a18;
+  a24 = a24 / a25;
+  a21 = a21 + a24;
+  a21 = a14 * a21;
+  a10 = a10 + a21;
+  if (res[0] != NULL) {
+    res[0][0] = a10;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_response_name_in(casadi_int i) {
-  switch (i) {
-    case 0: return "D";
-    case 1: return "Delta_omega";
-    case 2: return "W";
-    case 3: return "a_A";
-    case 4: return "a_B";
-    case 5: return "b_A";
-    case 6: return "b_B";
-    case 7: return "g_A";
-    case 8: return "g_B";
-    case 9: return "k_c";
-    case 10: return "omega_n";
-    case 11: return "psi";
-    case 12: return "s";
-    case 13: return "tau";
-    case 14: return "xi";
-    default: return 0;
+  a21 = (arg[4] != NULL) ? arg[4][0] : TRUM_C(0.0);
+  a24 = a21 * a20;
+  a26 = (arg[6] != NULL) ? arg[6][0] : TRUM_C(0.0);
+  a27 = a21 * a6;
+  a28 = a27 * a12;
+  a28 = a26 + a28;
+  a28 = a28 * a19;
+  a28 = a28 / a25;
+  a24 = a24 + a28;
+  a24 = a14 * a24;
+  a28 = (arg[8] != NULL) ? arg[8][0] : TRUM_C(0.0);
+  a25 = a0 * a28;
+  a29 = (arg[12] != NULL) ? arg[12][0] : TRUM_C(0.0);
+  a25 = a25 * a29;
+  a8 = trum_sin(a8);
+  a30 = a25 * a8;
+  a24 = a24 - a30;
+  if (res[1] != NULL) {
+    res[1][0] = a24;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_response_name_out(casadi_int i) {
-  switch (i) {
-    case 0: return "w_A";
-    case 1: return "w_B";
-    case 2: return "v_A";
-    case 3: return "v_B";
-    case 4: return "Q";
-    case 5: return "Q_rate";
-    default: return 0;
+  a30 = a22 * a20;
+  a31 = a22 * a12;
+  a23 = a23 + a31;
+  a23 = a23 * a19;
+  a23 = a23 / a18;
+  a30 = a30 - a23;
+  a30 = a14 * a30;
+  a23 = a2 * a7;
+  a23 = a23 * a8;
+  a30 = a30 - a23;
+  if (res[2] != NULL) {
+    res[2][0] = a30;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_response_sparsity_in(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    case 4: return casadi_s0;
-    case 5: return casadi_s0;
-    case 6: return casadi_s0;
-    case 7: return casadi_s0;
-    case 8: return casadi_s0;
-    case 9: return casadi_s0;
-    case 10: return casadi_s0;
-    case 11: return casadi_s0;
-    case 12: return casadi_s0;
-    case 13: return casadi_s0;
-    case 14: return casadi_s0;
-    default: return 0;
+  a23 = a26 * a20;
+  a8 = a26 * a12;
+  a27 = a27 + a8;
+  a27 = a27 * a19;
+  a27 = a27 / a18;
+  a23 = a23 - a27;
+  a23 = a14 * a23;
+  a7 = a25 * a7;
+  a7 = a7 * a9;
+  a23 = a23 - a7;
+  if (res[3] != NULL) {
+    res[3][0] = a23;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_response_sparsity_out(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    case 4: return casadi_s0;
-    case 5: return casadi_s0;
-    default: return 0;
+  a7 = (arg[0] != NULL) ? arg[0][0] : TRUM_C(0.0);
+  a9 = (arg[9] != NULL) ? arg[9][0] : TRUM_C(0.0);
+  a7 = a7 * a9;
+  a30 = a24 * a30;
+  a23 = a10 * a23;
+  a30 = a30 - a23;
+  a30 = a7 * a30;
+  if (res[4] != NULL) {
+    res[4][0] = a30;
   }
-}
-
-CASADI_SYMBOL_EXPORT int trum_response_work(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 15;
-  if (sz_res) *sz_res = 6;
-  if (sz_iw) *sz_iw = 0;
-  if (sz_w) *sz_w = 0;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_response_work_bytes(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 15*sizeof(const casadi_real*);
-  if (sz_res) *sz_res = 6*sizeof(casadi_real*);
-  if (sz_iw) *sz_iw = 0*sizeof(casadi_int);
-  if (sz_w) *sz_w = 0*sizeof(casadi_real);
+  a7 = a7 * a14;
+  a14 = a22 * a6;
+  a14 = a14 * a19;
+  a14 = a14 * a24;
+  a30 = a21 * a12;
+  a23 = a6 * a6;
+  a30 = a30 * a23;
+  a30 = a30 * a19;
+  a30 = a30 * a10;
+  a14 = a14 + a30;
+  a30 = TRUM_C(2.0) * a26;
+  a30 = a30 * a6;
+  a9 = a30 * a17;
+  a9 = a9 * a19;
+  a9 = a9 * a10;
+  a14 = a14 + a9;
+  a9 = a15 * a23;
+  a9 = a9 * a18;
+  a9 = a9 * a20;
+  a9 = a9 * a24;
+  a14 = a14 + a9;
+  a22 = TRUM_C(2.0) * a22;
+  a22 = a22 * a6;
+  a9 = a22 * a12;
+  a9 = a9 * a18;
+  a9 = a9 * a20;
+  a9 = a9 * a24;
+  a14 = a14 + a9;
+  a9 = a5 * a5;
+  a27 = a25 * a9;
+  a13 = trum_exp(a13);
+  a27 = a27 * a13;
+  a27 = a27 * a18;
+  a4 = a5 * a4;
+  a3 = a3 + a4;
+  a3 = a3 + a11;
+  a11 = trum_sin(a3);
+  a27 = a27 * a11;
+  a27 = a27 * a10;
+  a14 = a14 + a27;
+  a25 = a25 * a23;
+  a25 = a25 * a13;
+  a25 = a25 * a18;
+  a25 = a25 * a11;
+  a25 = a25 * a10;
+  a14 = a14 + a25;
+  a5 = TRUM_C(2.0) * a5;
+  a5 = a5 * a0;
+  a28 = a5 * a28;
+  a28 = a28 * a6;
+  a28 = a28 * a29;
+  a28 = a28 * a13;
+  a28 = a28 * a18;
+  a28 = a28 * a11;
+  a28 = a28 * a10;
+  a14 = a14 + a28;
+  a9 = a2 * a9;
+  a9 = a9 * a13;
+  a9 = a9 * a18;
+  a3 = trum_cos(a3);
+  a9 = a9 * a3;
+  a9 = a9 * a24;
+  a14 = a14 + a9;
+  a2 = a2 * a23;
+  a2 = a2 * a13;
+  a2 = a2 * a18;
+  a2 = a2 * a3;
+  a2 = a2 * a24;
+  a14 = a14 + a2;
+  a5 = a5 * a1;
+  a5 = a5 * a6;
+  a5 = a5 * a13;
+  a5 = a5 * a18;
+  a5 = a5 * a3;
+  a5 = a5 * a24;
+  a14 = a14 + a5;
+  a26 = a26 * a6;
+  a26 = a26 * a19;
+  a26 = a26 * a10;
+  a14 = a14 - a26;
+  a15 = a15 * a12;
+  a15 = a15 * a23;
+  a15 = a15 * a19;
+  a15 = a15 * a24;
+  a14 = a14 - a15;
+  a22 = a22 * a17;
+  a22 = a22 * a19;
+  a22 = a22 * a24;
+  a14 = a14 - a22;
+  a30 = a30 * a12;
+  a30 = a30 * a18;
+  a30 = a30 * a20;
+  a30 = a30 * a10;
+  a14 = a14 - a30;
+  a21 = a21 * a23;
+  a21 = a21 * a18;
+  a21 = a21 * a20;
+  a21 = a21 * a10;
+  a14 = a14 - a21;
+  a7 = a7 * a14;
+  a14 = a16 + a12;
+  a14 = trum_sqrt(a14);
+  a16 = a16 - a12;
+  a16 = trum_sqrt(a16);
+  a14 = a14 * a16;
+  a7 = a7 / a14;
+  a7 = -a7;
+  if (res[5] != NULL) {
+    res[5][0] = a7;
+  }
   return 0;
 }

@@ -13,207 +13,85 @@
  *
  * 42 operations: 16 mul, 7 add, 4 div, 3 sub, 3 twice, 2 cos, 2 neg, 2 sin, 1 expm1, 1 sq, 1 sqrt
  */
-/* How to prefix internal symbols */
-#ifdef CASADI_CODEGEN_PREFIX
-  #define CASADI_NAMESPACE_CONCAT(NS, ID) _CASADI_NAMESPACE_CONCAT(NS, ID)
-  #define _CASADI_NAMESPACE_CONCAT(NS, ID) NS ## ID
-  #define CASADI_PREFIX(ID) CASADI_NAMESPACE_CONCAT(CODEGEN_PREFIX, ID)
-#else
-  #define CASADI_PREFIX(ID) trum_rotation_ ## ID
-#endif
+#include <stddef.h>
 
-#include <math.h>
+#include "trum_kernels.h"
 
-#ifndef casadi_real
-#define casadi_real double
-#endif
-
-#ifndef casadi_int
-#define casadi_int long long int
-#endif
-
-/* Add prefix to internal symbols */
-#define casadi_expm1 CASADI_PREFIX(expm1)
-#define casadi_f0 CASADI_PREFIX(f0)
-#define casadi_s0 CASADI_PREFIX(s0)
-#define casadi_sq CASADI_PREFIX(sq)
-
-/* Symbol visibility in DLLs */
-#ifndef CASADI_SYMBOL_EXPORT
-  #if defined(_WIN32) || defined(__WIN32__) || defined(__CYGWIN__)
-    #if defined(STATIC_LINKED)
-      #define CASADI_SYMBOL_EXPORT
-    #else
-      #define CASADI_SYMBOL_EXPORT __declspec(dllexport)
-    #endif
-  #elif defined(__GNUC__) && defined(GCC_HASCLASSVISIBILITY)
-    #define CASADI_SYMBOL_EXPORT __attribute__ ((visibility ("default")))
-  #else
-    #define CASADI_SYMBOL_EXPORT
-  #endif
-#endif
-
-casadi_real casadi_expm1(casadi_real x) {
-/* Pre-c99 compatibility */
-#if __STDC_VERSION__ < 199901L
-  return exp(x)-1;
-#else
-  return expm1(x);
-#endif
-}
-
-casadi_real casadi_sq(casadi_real x) { return x*x;}
-
-/* Configuration this file was compiled with */
-CASADI_SYMBOL_EXPORT void trum_rotation_casadi_version(int* major, int* minor, int* patch) {
-  *major = 3;
-  *minor = 8;
-  *patch = 2;
-}
-CASADI_SYMBOL_EXPORT int trum_rotation_casadi_int_size(void) { return (int) sizeof(casadi_int); }
-CASADI_SYMBOL_EXPORT int trum_rotation_casadi_real_size(void) { return (int) sizeof(casadi_real); }
-
-static const casadi_int casadi_s0[3] = {1, 1, 1};
-
-/* trum_rotation:(Delta_omega,omega_n,tau,xi)->(e_re,e_im,d_re,d_im) */
-static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
-  (void)iw, (void)w, (void)mem;
-  casadi_real a00, a01, a02, a03, a04, a05, a06, a07, a08, a09, a10;
-  a00=(casadi_real)1.;
-  a01=arg[1]? arg[1][0] : 0;
-  a02=arg[2]? arg[2][0] : 0;
-  a03=(a01*a02);
-  a04=arg[3]? arg[3][0] : 0;
-  a03=(a03*a04);
-  a03=(-a03);
-  a03=casadi_expm1(a03);
-  a05=(a00+a03);
-  a06=arg[0]? arg[0][0] : 0;
-  a07=(casadi_real)2.;
-  a06=(a06/a07);
-  a08=(a01/a07);
-  a08=(a06+a08);
-  a04=casadi_sq(a04);
-  a09=(a00-a04);
-  a09=sqrt(a09);
-  a10=(a01*a09);
-  a10=(a10/a07);
-  a08=(a08+a10);
-  a08=(a02*a08);
-  a10=sin(a08);
-  a01=(a01*a04);
-  a00=(a00+a09);
-  a00=((casadi_real)2.*a00);
-  a01=(a01/a00);
-  a06=(a06+a01);
-  a02=(a02*a06);
-  a06=sin(a02);
-  a01=(a10*a06);
-  a08=cos(a08);
-  a02=cos(a02);
-  a00=(a08*a02);
-  a01=(a01+a00);
-  a00=(a05*a01);
-  if (res[0]!=0) res[0][0]=a00;
-  a02=(a10*a02);
-  a00=(a08*a06);
-  a02=(a02-a00);
-  a05=(a05*a02);
-  if (res[1]!=0) res[1][0]=a05;
-  a10=((casadi_real)2.*a10);
-  a10=(a10*a06);
-  a01=(a03*a01);
-  a10=(a10+a01);
-  a10=(-a10);
-  if (res[2]!=0) res[2][0]=a10;
-  a08=((casadi_real)2.*a08);
-  a08=(a08*a06);
-  a03=(a03*a02);
-  a08=(a08-a03);
-  if (res[3]!=0) res[3][0]=a08;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_rotation(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem){
-  return casadi_f0(arg, res, iw, w, mem);
-}
-
-CASADI_SYMBOL_EXPORT int trum_rotation_checkout(void) {
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT void trum_rotation_release(int mem) {
+int trum_rotation(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem)
+{
+  trum_real a0;
+  trum_real a1;
+  trum_real a2;
+  trum_real a3;
+  trum_real a4;
+  trum_real a5;
+  trum_real a6;
+  trum_real a7;
+  trum_real a8;
+  trum_real a9;
+  trum_real a10;
+  (void)iw;
+  (void)w;
   (void)mem;
-}
-
-CASADI_SYMBOL_EXPORT void trum_rotation_incref(void) {
-}
-
-CASADI_SYMBOL_EXPORT void trum_rotation_decref(void) {
-}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_rotation_n_in(void) { return 4;}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_rotation_n_out(void) { return 4;}
-
-CASADI_SYMBOL_EXPORT casadi_real trum_rotation_default_in(casadi_int i) {
-  switch (i) {
-    default: return 0;
+  a0 = TRUM_C(1.0);
+  a1 = (arg[1] != NULL) ? arg[1][0] : TRUM_C(0.0);
+  a2 = (arg[2] != NULL) ? arg[2][0] : TRUM_C(0.0);
+  a3 = a1 * a2;
+  a4 = (arg[3] != NULL) ? arg[3][0] : TRUM_C(0.0);
+  a3 = a3 * a4;
+  a3 = -a3;
+  a3 = trum_expm1(a3);
+  a5 = a0 + a3;
+  a6 = (arg[0] != NULL) ? arg[0][0] : TRUM_C(0.0);
+  a7 = TRUM_C(2.0);
+  a6 = a6 / a7;
+  a8 = a1 / a7;
+  a8 = a6 + a8;
+  a4 = a4 * a4;
+  a9 = a0 - a4;
+  a9 = trum_sqrt(a9);
+  a10 = a1 * a9;
+  a10 = a10 / a7;
+  a8 = a8 + a10;
+  a8 = a2 * a8;
+  a10 = trum_sin(a8);
+  a1 = a1 * a4;
+  a0 = a0 + a9;
+  a0 = TRUM_C(2.0) * a0;
+  a1 = a1 / a0;
+  a6 = a6 + a1;
+  a2 = a2 * a6;
+  a6 = trum_sin(a2);
+  a1 = a10 * a6;
+  a8 = trum_cos(a8);
+  a2 = trum_cos(a2);
+  a0 = a8 * a2;
+  a1 = a1 + a0;
+  a0 = a5 * a1;
+  if (res[0] != NULL) {
+    res[0][0] = a0;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_rotation_name_in(casadi_int i) {
-  switch (i) {
-    case 0: return "Delta_omega";
-    case 1: return "omega_n";
-    case 2: return "tau";
-    case 3: return "xi";
-    default: return 0;
+  a2 = a10 * a2;
+  a0 = a8 * a6;
+  a2 = a2 - a0;
+  a5 = a5 * a2;
+  if (res[1] != NULL) {
+    res[1][0] = a5;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_rotation_name_out(casadi_int i) {
-  switch (i) {
-    case 0: return "e_re";
-    case 1: return "e_im";
-    case 2: return "d_re";
-    case 3: return "d_im";
-    default: return 0;
+  a10 = TRUM_C(2.0) * a10;
+  a10 = a10 * a6;
+  a1 = a3 * a1;
+  a10 = a10 + a1;
+  a10 = -a10;
+  if (res[2] != NULL) {
+    res[2][0] = a10;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_rotation_sparsity_in(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    default: return 0;
+  a8 = TRUM_C(2.0) * a8;
+  a8 = a8 * a6;
+  a3 = a3 * a2;
+  a8 = a8 - a3;
+  if (res[3] != NULL) {
+    res[3][0] = a8;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_rotation_sparsity_out(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    default: return 0;
-  }
-}
-
-CASADI_SYMBOL_EXPORT int trum_rotation_work(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 4;
-  if (sz_res) *sz_res = 4;
-  if (sz_iw) *sz_iw = 0;
-  if (sz_w) *sz_w = 0;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_rotation_work_bytes(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 4*sizeof(const casadi_real*);
-  if (sz_res) *sz_res = 4*sizeof(casadi_real*);
-  if (sz_iw) *sz_iw = 0*sizeof(casadi_int);
-  if (sz_w) *sz_w = 0*sizeof(casadi_real);
   return 0;
 }

@@ -26,243 +26,97 @@
  *
  * 36 operations: 15 mul, 8 div, 6 sq, 3 add, 2 sub, 1 fabs, 1 twice
  */
-/* How to prefix internal symbols */
-#ifdef CASADI_CODEGEN_PREFIX
-  #define CASADI_NAMESPACE_CONCAT(NS, ID) _CASADI_NAMESPACE_CONCAT(NS, ID)
-  #define _CASADI_NAMESPACE_CONCAT(NS, ID) NS ## ID
-  #define CASADI_PREFIX(ID) CASADI_NAMESPACE_CONCAT(CODEGEN_PREFIX, ID)
-#else
-  #define CASADI_PREFIX(ID) trum_rotor_coefficients_ ## ID
-#endif
+#include <stddef.h>
 
-#include <math.h>
+#include "trum_kernels.h"
 
-#ifndef casadi_real
-#define casadi_real double
-#endif
-
-#ifndef casadi_int
-#define casadi_int long long int
-#endif
-
-/* Add prefix to internal symbols */
-#define casadi_f0 CASADI_PREFIX(f0)
-#define casadi_fabs CASADI_PREFIX(fabs)
-#define casadi_s0 CASADI_PREFIX(s0)
-#define casadi_sq CASADI_PREFIX(sq)
-
-/* Symbol visibility in DLLs */
-#ifndef CASADI_SYMBOL_EXPORT
-  #if defined(_WIN32) || defined(__WIN32__) || defined(__CYGWIN__)
-    #if defined(STATIC_LINKED)
-      #define CASADI_SYMBOL_EXPORT
-    #else
-      #define CASADI_SYMBOL_EXPORT __declspec(dllexport)
-    #endif
-  #elif defined(__GNUC__) && defined(GCC_HASCLASSVISIBILITY)
-    #define CASADI_SYMBOL_EXPORT __attribute__ ((visibility ("default")))
-  #else
-    #define CASADI_SYMBOL_EXPORT
-  #endif
-#endif
-
-casadi_real casadi_sq(casadi_real x) { return x*x;}
-
-casadi_real casadi_fabs(casadi_real x) {
-/* Pre-c99 compatibility */
-#if __STDC_VERSION__ < 199901L
-  return x>0 ? x : -x;
-#else
-  return fabs(x);
-#endif
-}
-
-/* Configuration this file was compiled with */
-CASADI_SYMBOL_EXPORT void trum_rotor_coefficients_casadi_version(int* major, int* minor, int* patch) {
-  *major = 3;
-  *minor = 8;
-  *patch = 2;
-}
-CASADI_SYMBOL_EXPORT int trum_rotor_coefficients_casadi_int_size(void) { return (int) sizeof(casadi_int); }
-CASADI_SYMBOL_EXPORT int trum_rotor_coefficients_casadi_real_size(void) { return (int) sizeof(casadi_real); }
-
-static const casadi_int casadi_s0[3] = {1, 1, 1};
-
-/* trum_rotor_coefficients:(E_eq,E_m,F_c,J,J_load,T_load,b_m,k_N,k_c,mu,mu_e,mu_m,n_j,r_c,r_s,r_t)->(engagement_per_height,push,drag,W_full_hertz,W_full_winkler) */
-static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
-  (void)iw, (void)w, (void)mem;
-  casadi_real a00, a01, a02, a03, a04, a05, a06, a07, a08, a09, a10;
-  a00=arg[7]? arg[7][0] : 0;
-  a01=((casadi_real)2.*a00);
-  a02=arg[12]? arg[12][0] : 0;
-  a01=(a01*a02);
-  a03=arg[2]? arg[2][0] : 0;
-  a04=arg[8]? arg[8][0] : 0;
-  a05=(a03*a04);
-  a01=(a01/a05);
-  if (res[0]!=0) res[0][0]=a01;
-  a01=arg[9]? arg[9][0] : 0;
-  a01=(a03*a01);
-  a06=arg[13]? arg[13][0] : 0;
-  a07=casadi_sq(a06);
-  a01=(a01*a07);
-  a07=arg[3]? arg[3][0] : 0;
-  a08=arg[4]? arg[4][0] : 0;
-  a07=(a07+a08);
-  a08=arg[14]? arg[14][0] : 0;
-  a09=arg[5]? arg[5][0] : 0;
-  a10=casadi_fabs(a09);
-  a08=(a08*a10);
-  a10=(casadi_real)9.8066499999999994e+00;
-  a08=(a08/a10);
-  a07=(a07+a08);
-  a01=(a01/a07);
-  if (res[1]!=0) res[1][0]=a01;
-  a09=(a09*a06);
-  a09=(a09/a07);
-  if (res[2]!=0) res[2][0]=a09;
-  a09=(casadi_real)32.;
-  a09=(a09*a03);
-  a04=casadi_sq(a04);
-  a09=(a09*a04);
-  a04=arg[15]? arg[15][0] : 0;
-  a04=casadi_sq(a04);
-  a09=(a09*a04);
-  a04=(casadi_real)1.;
-  a03=arg[10]? arg[10][0] : 0;
-  a03=casadi_sq(a03);
-  a03=(a04-a03);
-  a07=arg[0]? arg[0][0] : 0;
-  a03=(a03/a07);
-  a07=arg[11]? arg[11][0] : 0;
-  a07=casadi_sq(a07);
-  a04=(a04-a07);
-  a07=arg[1]? arg[1][0] : 0;
-  a04=(a04/a07);
-  a03=(a03+a04);
-  a09=(a09*a03);
-  a03=(casadi_real)2.4674011002723395e+02;
-  a04=arg[6]? arg[6][0] : 0;
-  a03=(a03*a04);
-  a04=casadi_sq(a02);
-  a04=(a02*a04);
-  a03=(a03*a04);
-  a09=(a09/a03);
-  if (res[3]!=0) res[3][0]=a09;
-  a09=(casadi_real)6.2831853071795862e+00;
-  a09=(a09*a00);
-  a09=(a09*a02);
-  a05=(a05/a09);
-  if (res[4]!=0) res[4][0]=a05;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_rotor_coefficients(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem){
-  return casadi_f0(arg, res, iw, w, mem);
-}
-
-CASADI_SYMBOL_EXPORT int trum_rotor_coefficients_checkout(void) {
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT void trum_rotor_coefficients_release(int mem) {
+int trum_rotor_coefficients(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem)
+{
+  trum_real a0;
+  trum_real a1;
+  trum_real a2;
+  trum_real a3;
+  trum_real a4;
+  trum_real a5;
+  trum_real a6;
+  trum_real a7;
+  trum_real a8;
+  trum_real a9;
+  trum_real a10;
+  (void)iw;
+  (void)w;
   (void)mem;
-}
-
-CASADI_SYMBOL_EXPORT void trum_rotor_coefficients_incref(void) {
-}
-
-CASADI_SYMBOL_EXPORT void trum_rotor_coefficients_decref(void) {
-}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_rotor_coefficients_n_in(void) { return 16;}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_rotor_coefficients_n_out(void) { return 5;}
-
-CASADI_SYMBOL_EXPORT casadi_real trum_rotor_coefficients_default_in(casadi_int i) {
-  switch (i) {
-    default: return 0;
+  a0 = (arg[7] != NULL) ? arg[7][0] : TRUM_C(0.0);
+  a1 = TRUM_C(2.0) * a0;
+  a2 = (arg[12] != NULL) ? arg[12][0] : TRUM_C(0.0);
+  a1 = a1 * a2;
+  a3 = (arg[2] != NULL) ? arg[2][0] : TRUM_C(0.0);
+  a4 = (arg[8] != NULL) ? arg[8][0] : TRUM_C(0.0);
+  a5 = a3 * a4;
+  a1 = a1 / a5;
+  if (res[0] != NULL) {
+    res[0][0] = a1;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_rotor_coefficients_name_in(casadi_int i) {
-  switch (i) {
-    case 0: return "E_eq";
-    case 1: return "E_m";
-    case 2: return "F_c";
-    case 3: return "J";
-    case 4: return "J_load";
-    case 5: return "T_load";
-    case 6: return "b_m";
-    case 7: return "k_N";
-    case 8: return "k_c";
-    case 9: return "mu";
-    case 10: return "mu_e";
-    case 11: return "mu_m";
-    case 12: return "n_j";
-    case 13: return "r_c";
-    case 14: return "r_s";
-    case 15: return "r_t";
-    default: return 0;
+  a1 = (arg[9] != NULL) ? arg[9][0] : TRUM_C(0.0);
+  a1 = a3 * a1;
+  a6 = (arg[13] != NULL) ? arg[13][0] : TRUM_C(0.0);
+  a7 = a6 * a6;
+  a1 = a1 * a7;
+  a7 = (arg[3] != NULL) ? arg[3][0] : TRUM_C(0.0);
+  a8 = (arg[4] != NULL) ? arg[4][0] : TRUM_C(0.0);
+  a7 = a7 + a8;
+  a8 = (arg[14] != NULL) ? arg[14][0] : TRUM_C(0.0);
+  a9 = (arg[5] != NULL) ? arg[5][0] : TRUM_C(0.0);
+  a10 = trum_fabs(a9);
+  a8 = a8 * a10;
+  a10 = TRUM_C(9.80665);
+  a8 = a8 / a10;
+  a7 = a7 + a8;
+  a1 = a1 / a7;
+  if (res[1] != NULL) {
+    res[1][0] = a1;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_rotor_coefficients_name_out(casadi_int i) {
-  switch (i) {
-    case 0: return "engagement_per_height";
-    case 1: return "push";
-    case 2: return "drag";
-    case 3: return "W_full_hertz";
-    case 4: return "W_full_winkler";
-    default: return 0;
+  a9 = a9 * a6;
+  a9 = a9 / a7;
+  if (res[2] != NULL) {
+    res[2][0] = a9;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_rotor_coefficients_sparsity_in(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    case 4: return casadi_s0;
-    case 5: return casadi_s0;
-    case 6: return casadi_s0;
-    case 7: return casadi_s0;
-    case 8: return casadi_s0;
-    case 9: return casadi_s0;
-    case 10: return casadi_s0;
-    case 11: return casadi_s0;
-    case 12: return casadi_s0;
-    case 13: return casadi_s0;
-    case 14: return casadi_s0;
-    case 15: return casadi_s0;
-    default: return 0;
+  a9 = TRUM_C(32.0);
+  a9 = a9 * a3;
+  a4 = a4 * a4;
+  a9 = a9 * a4;
+  a4 = (arg[15] != NULL) ? arg[15][0] : TRUM_C(0.0);
+  a4 = a4 * a4;
+  a9 = a9 * a4;
+  a4 = TRUM_C(1.0);
+  a3 = (arg[10] != NULL) ? arg[10][0] : TRUM_C(0.0);
+  a3 = a3 * a3;
+  a3 = a4 - a3;
+  a7 = (arg[0] != NULL) ? arg[0][0] : TRUM_C(0.0);
+  a3 = a3 / a7;
+  a7 = (arg[11] != NULL) ? arg[11][0] : TRUM_C(0.0);
+  a7 = a7 * a7;
+  a4 = a4 - a7;
+  a7 = (arg[1] != NULL) ? arg[1][0] : TRUM_C(0.0);
+  a4 = a4 / a7;
+  a3 = a3 + a4;
+  a9 = a9 * a3;
+  a3 = TRUM_C(246.74011002723395);
+  a4 = (arg[6] != NULL) ? arg[6][0] : TRUM_C(0.0);
+  a3 = a3 * a4;
+  a4 = a2 * a2;
+  a4 = a2 * a4;
+  a3 = a3 * a4;
+  a9 = a9 / a3;
+  if (res[3] != NULL) {
+    res[3][0] = a9;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_rotor_coefficients_sparsity_out(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    case 4: return casadi_s0;
-    default: return 0;
+  a9 = TRUM_C(6.283185307179586);
+  a9 = a9 * a0;
+  a9 = a9 * a2;
+  a5 = a5 / a9;
+  if (res[4] != NULL) {
+    res[4][0] = a5;
   }
-}
-
-CASADI_SYMBOL_EXPORT int trum_rotor_coefficients_work(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 16;
-  if (sz_res) *sz_res = 5;
-  if (sz_iw) *sz_iw = 0;
-  if (sz_w) *sz_w = 0;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_rotor_coefficients_work_bytes(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 16*sizeof(const casadi_real*);
-  if (sz_res) *sz_res = 5*sizeof(casadi_real*);
-  if (sz_iw) *sz_iw = 0*sizeof(casadi_int);
-  if (sz_w) *sz_w = 0*sizeof(casadi_real);
   return 0;
 }

@@ -26,244 +26,113 @@
  *
  * 49 operations: 25 mul, 8 div, 7 add, 5 sub, 4 sq
  */
-/* How to prefix internal symbols */
-#ifdef CASADI_CODEGEN_PREFIX
-  #define CASADI_NAMESPACE_CONCAT(NS, ID) _CASADI_NAMESPACE_CONCAT(NS, ID)
-  #define _CASADI_NAMESPACE_CONCAT(NS, ID) NS ## ID
-  #define CASADI_PREFIX(ID) CASADI_NAMESPACE_CONCAT(CODEGEN_PREFIX, ID)
-#else
-  #define CASADI_PREFIX(ID) trum_section_ ## ID
-#endif
+#include <stddef.h>
 
-#include <math.h>
+#include "trum_kernels.h"
 
-#ifndef casadi_real
-#define casadi_real double
-#endif
-
-#ifndef casadi_int
-#define casadi_int long long int
-#endif
-
-/* Add prefix to internal symbols */
-#define casadi_f0 CASADI_PREFIX(f0)
-#define casadi_s0 CASADI_PREFIX(s0)
-#define casadi_sq CASADI_PREFIX(sq)
-
-/* Symbol visibility in DLLs */
-#ifndef CASADI_SYMBOL_EXPORT
-  #if defined(_WIN32) || defined(__WIN32__) || defined(__CYGWIN__)
-    #if defined(STATIC_LINKED)
-      #define CASADI_SYMBOL_EXPORT
-    #else
-      #define CASADI_SYMBOL_EXPORT __declspec(dllexport)
-    #endif
-  #elif defined(__GNUC__) && defined(GCC_HASCLASSVISIBILITY)
-    #define CASADI_SYMBOL_EXPORT __attribute__ ((visibility ("default")))
-  #else
-    #define CASADI_SYMBOL_EXPORT
-  #endif
-#endif
-
-casadi_real casadi_sq(casadi_real x) { return x*x;}
-
-/* Configuration this file was compiled with */
-CASADI_SYMBOL_EXPORT void trum_section_casadi_version(int* major, int* minor, int* patch) {
-  *major = 3;
-  *minor = 8;
-  *patch = 2;
-}
-CASADI_SYMBOL_EXPORT int trum_section_casadi_int_size(void) { return (int) sizeof(casadi_int); }
-CASADI_SYMBOL_EXPORT int trum_section_casadi_real_size(void) { return (int) sizeof(casadi_real); }
-
-static const casadi_int casadi_s0[3] = {1, 1, 1};
-
-/* trum_section:(D,E_e,E_p,G_e,G_p,b_e,b_p,b_s,h_e,h_p,h_t,l_s,n_s,rho_e,rho_p)->(E,rho,I_z,G,A,E_eq) */
-static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
-  (void)iw, (void)w, (void)mem;
-  casadi_real a00, a01, a02, a03, a04, a05, a06, a07, a08, a09, a10, a11;
-  casadi_real a12, a13, a14;
-  a00=arg[2]? arg[2][0] : 0;
-  a01=arg[6]? arg[6][0] : 0;
-  a00=(a00*a01);
-  a02=arg[8]? arg[8][0] : 0;
-  a03=arg[9]? arg[9][0] : 0;
-  a04=(a02+a03);
-  a05=arg[0]? arg[0][0] : 0;
-  a04=(a04-a05);
-  a06=casadi_sq(a04);
-  a04=(a04*a06);
-  a06=(casadi_real)3.;
-  a04=(a04/a06);
-  a07=(a02-a05);
-  a08=casadi_sq(a07);
-  a07=(a07*a08);
-  a07=(a07/a06);
-  a04=(a04-a07);
-  a00=(a00*a04);
-  a08=arg[1]? arg[1][0] : 0;
-  a09=arg[5]? arg[5][0] : 0;
-  a10=(a08*a09);
-  a11=(casadi_real)1.;
-  a12=arg[10]? arg[10][0] : 0;
-  a13=(a12/a02);
-  a13=(a11-a13);
-  a14=casadi_sq(a13);
-  a13=(a13*a14);
-  a10=(a10*a13);
-  a14=casadi_sq(a05);
-  a05=(a05*a14);
-  a05=(a05/a06);
-  a05=(a05+a07);
-  a10=(a10*a05);
-  a00=(a00+a10);
-  a05=(a09*a05);
-  a04=(a01*a04);
-  a05=(a05+a04);
-  a00=(a00/a05);
-  if (res[0]!=0) res[0][0]=a00;
-  a00=(a01*a03);
-  a04=arg[14]? arg[14][0] : 0;
-  a04=(a00*a04);
-  a10=(a09*a02);
-  a07=arg[13]? arg[13][0] : 0;
-  a07=(a10*a07);
-  a06=arg[7]? arg[7][0] : 0;
-  a06=(a06*a12);
-  a12=arg[12]? arg[12][0] : 0;
-  a06=(a06*a12);
-  a12=arg[11]? arg[11][0] : 0;
-  a12=(a02*a12);
-  a06=(a06/a12);
-  a11=(a11-a06);
-  a07=(a07*a11);
-  a04=(a04+a07);
-  a10=(a10+a00);
-  a04=(a04/a10);
-  if (res[1]!=0) res[1][0]=a04;
-  if (res[2]!=0) res[2][0]=a05;
-  a05=arg[4]? arg[4][0] : 0;
-  a05=(a05*a01);
-  a05=(a05*a03);
-  a03=arg[3]? arg[3][0] : 0;
-  a03=(a03*a09);
-  a03=(a03*a02);
-  a03=(a03*a11);
-  a05=(a05+a03);
-  a05=(a05/a10);
-  if (res[3]!=0) res[3][0]=a05;
-  if (res[4]!=0) res[4][0]=a10;
-  a08=(a08*a13);
-  if (res[5]!=0) res[5][0]=a08;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_section(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem){
-  return casadi_f0(arg, res, iw, w, mem);
-}
-
-CASADI_SYMBOL_EXPORT int trum_section_checkout(void) {
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT void trum_section_release(int mem) {
+int trum_section(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem)
+{
+  trum_real a0;
+  trum_real a1;
+  trum_real a2;
+  trum_real a3;
+  trum_real a4;
+  trum_real a5;
+  trum_real a6;
+  trum_real a7;
+  trum_real a8;
+  trum_real a9;
+  trum_real a10;
+  trum_real a11;
+  trum_real a12;
+  trum_real a13;
+  trum_real a14;
+  (void)iw;
+  (void)w;
   (void)mem;
-}
-
-CASADI_SYMBOL_EXPORT void trum_section_incref(void) {
-}
-
-CASADI_SYMBOL_EXPORT void trum_section_decref(void) {
-}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_section_n_in(void) { return 15;}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_section_n_out(void) { return 6;}
-
-CASADI_SYMBOL_EXPORT casadi_real trum_section_default_in(casadi_int i) {
-  switch (i) {
-    default: return 0;
+  a0 = (arg[2] != NULL) ? arg[2][0] : TRUM_C(0.0);
+  a1 = (arg[6] != NULL) ? arg[6][0] : TRUM_C(0.0);
+  a0 = a0 * a1;
+  a2 = (arg[8] != NULL) ? arg[8][0] : TRUM_C(0.0);
+  a3 = (arg[9] != NULL) ? arg[9][0] : TRUM_C(0.0);
+  a4 = a2 + a3;
+  a5 = (arg[0] != NULL) ? arg[0][0] : TRUM_C(0.0);
+  a4 = a4 - a5;
+  a6 = a4 * a4;
+  a4 = a4 * a6;
+  a6 = TRUM_C(3.0);
+  a4 = a4 / a6;
+  a7 = a2 - a5;
+  a8 = a7 * a7;
+  a7 = a7 * a8;
+  a7 = a7 / a6;
+  a4 = a4 - a7;
+  a0 = a0 * a4;
+  a8 = (arg[1] != NULL) ? arg[1][0] : TRUM_C(0.0);
+  a9 = (arg[5] != NULL) ? arg[5][0] : TRUM_C(0.0);
+  a10 = a8 * a9;
+  a11 = TRUM_C(1.0);
+  a12 = (arg[10] != NULL) ? arg[10][0] : TRUM_C(0.0);
+  a13 = a12 / a2;
+  a13 = a11 - a13;
+  a14 = a13 * a13;
+  a13 = a13 * a14;
+  a10 = a10 * a13;
+  a14 = a5 * a5;
+  a5 = a5 * a14;
+  a5 = a5 / a6;
+  a5 = a5 + a7;
+  a10 = a10 * a5;
+  a0 = a0 + a10;
+  a5 = a9 * a5;
+  a4 = a1 * a4;
+  a5 = a5 + a4;
+  a0 = a0 / a5;
+  if (res[0] != NULL) {
+    res[0][0] = a0;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_section_name_in(casadi_int i) {
-  switch (i) {
-    case 0: return "D";
-    case 1: return "E_e";
-    case 2: return "E_p";
-    case 3: return "G_e";
-    case 4: return "G_p";
-    case 5: return "b_e";
-    case 6: return "b_p";
-    case 7: return "b_s";
-    case 8: return "h_e";
-    case 9: return "h_p";
-    case 10: return "h_t";
-    case 11: return "l_s";
-    case 12: return "n_s";
-    case 13: return "rho_e";
-    case 14: return "rho_p";
-    default: return 0;
+  a0 = a1 * a3;
+  a4 = (arg[14] != NULL) ? arg[14][0] : TRUM_C(0.0);
+  a4 = a0 * a4;
+  a10 = a9 * a2;
+  a7 = (arg[13] != NULL) ? arg[13][0] : TRUM_C(0.0);
+  a7 = a10 * a7;
+  a6 = (arg[7] != NULL) ? arg[7][0] : TRUM_C(0.0);
+  a6 = a6 * a12;
+  a12 = (arg[12] != NULL) ? arg[12][0] : TRUM_C(0.0);
+  a6 = a6 * a12;
+  a12 = (arg[11] != NULL) ? arg[11][0] : TRUM_C(0.0);
+  a12 = a2 * a12;
+  a6 = a6 / a12;
+  a11 = a11 - a6;
+  a7 = a7 * a11;
+  a4 = a4 + a7;
+  a10 = a10 + a0;
+  a4 = a4 / a10;
+  if (res[1] != NULL) {
+    res[1][0] = a4;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_section_name_out(casadi_int i) {
-  switch (i) {
-    case 0: return "E";
-    case 1: return "rho";
-    case 2: return "I_z";
-    case 3: return "G";
-    case 4: return "A";
-    case 5: return "E_eq";
-    default: return 0;
+  if (res[2] != NULL) {
+    res[2][0] = a5;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_section_sparsity_in(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    case 4: return casadi_s0;
-    case 5: return casadi_s0;
-    case 6: return casadi_s0;
-    case 7: return casadi_s0;
-    case 8: return casadi_s0;
-    case 9: return casadi_s0;
-    case 10: return casadi_s0;
-    case 11: return casadi_s0;
-    case 12: return casadi_s0;
-    case 13: return casadi_s0;
-    case 14: return casadi_s0;
-    default: return 0;
+  a5 = (arg[4] != NULL) ? arg[4][0] : TRUM_C(0.0);
+  a5 = a5 * a1;
+  a5 = a5 * a3;
+  a3 = (arg[3] != NULL) ? arg[3][0] : TRUM_C(0.0);
+  a3 = a3 * a9;
+  a3 = a3 * a2;
+  a3 = a3 * a11;
+  a5 = a5 + a3;
+  a5 = a5 / a10;
+  if (res[3] != NULL) {
+    res[3][0] = a5;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_section_sparsity_out(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    case 4: return casadi_s0;
-    case 5: return casadi_s0;
-    default: return 0;
+  if (res[4] != NULL) {
+    res[4][0] = a10;
   }
-}
-
-CASADI_SYMBOL_EXPORT int trum_section_work(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 15;
-  if (sz_res) *sz_res = 6;
-  if (sz_iw) *sz_iw = 0;
-  if (sz_w) *sz_w = 0;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_section_work_bytes(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 15*sizeof(const casadi_real*);
-  if (sz_res) *sz_res = 6*sizeof(casadi_real*);
-  if (sz_iw) *sz_iw = 0*sizeof(casadi_int);
-  if (sz_w) *sz_w = 0*sizeof(casadi_real);
+  a8 = a8 * a13;
+  if (res[5] != NULL) {
+    res[5][0] = a8;
+  }
   return 0;
 }

@@ -18,383 +18,269 @@
  *
  * 198 operations: 104 mul, 29 div, 24 add, 16 sub, 5 sin, 4 exp, 4 neg, 4 sq, 3 cos, 2 sqrt, 2 twice, 1 expm1
  */
-/* How to prefix internal symbols */
-#ifdef CASADI_CODEGEN_PREFIX
-  #define CASADI_NAMESPACE_CONCAT(NS, ID) _CASADI_NAMESPACE_CONCAT(NS, ID)
-  #define _CASADI_NAMESPACE_CONCAT(NS, ID) NS ## ID
-  #define CASADI_PREFIX(ID) CASADI_NAMESPACE_CONCAT(CODEGEN_PREFIX, ID)
-#else
-  #define CASADI_PREFIX(ID) trum_start_periodic_ ## ID
-#endif
+#include <stddef.h>
 
-#include <math.h>
+#include "trum_kernels.h"
 
-#ifndef casadi_real
-#define casadi_real double
-#endif
-
-#ifndef casadi_int
-#define casadi_int long long int
-#endif
-
-/* Add prefix to internal symbols */
-#define casadi_expm1 CASADI_PREFIX(expm1)
-#define casadi_f0 CASADI_PREFIX(f0)
-#define casadi_s0 CASADI_PREFIX(s0)
-#define casadi_sq CASADI_PREFIX(sq)
-
-/* Symbol visibility in DLLs */
-#ifndef CASADI_SYMBOL_EXPORT
-  #if defined(_WIN32) || defined(__WIN32__) || defined(__CYGWIN__)
-    #if defined(STATIC_LINKED)
-      #define CASADI_SYMBOL_EXPORT
-    #else
-      #define CASADI_SYMBOL_EXPORT __declspec(dllexport)
-    #endif
-  #elif defined(__GNUC__) && defined(GCC_HASCLASSVISIBILITY)
-    #define CASADI_SYMBOL_EXPORT __attribute__ ((visibility ("default")))
-  #else
-    #define CASADI_SYMBOL_EXPORT
-  #endif
-#endif
-
-casadi_real casadi_sq(casadi_real x) { return x*x;}
-
-casadi_real casadi_expm1(casadi_real x) {
-/* Pre-c99 compatibility */
-#if __STDC_VERSION__ < 199901L
-  return exp(x)-1;
-#else
-  return expm1(x);
-#endif
-}
-
-/* Configuration this file was compiled with */
-CASADI_SYMBOL_EXPORT void trum_start_periodic_casadi_version(int* major, int* minor, int* patch) {
-  *major = 3;
-  *minor = 8;
-  *patch = 2;
-}
-CASADI_SYMBOL_EXPORT int trum_start_periodic_casadi_int_size(void) { return (int) sizeof(casadi_int); }
-CASADI_SYMBOL_EXPORT int trum_start_periodic_casadi_real_size(void) { return (int) sizeof(casadi_real); }
-
-static const casadi_int casadi_s0[3] = {1, 1, 1};
-
-/* trum_start_periodic:(Delta_omega,W,m,n,omega_n,psi,s,xi)->(a_A,b_A,a_B,b_B,repetition) */
-static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
-  (void)iw, (void)w, (void)mem;
-  casadi_real a00, a01, a02, a03, a04, a05, a06, a07, a08, a09, a10, a11;
-  casadi_real a12, a13, a14, a15, a16, a17, a18, a19, a20, a21, a22, a23;
-  casadi_real a24, a25, a26, a27, a28;
-  a00=(casadi_real)-6.2831853071795862e+00;
-  a01=arg[4]? arg[4][0] : 0;
-  a02=(a00*a01);
-  a03=arg[7]? arg[7][0] : 0;
-  a02=(a02*a03);
-  a04=arg[3]? arg[3][0] : 0;
-  a05=((casadi_real)2.*a04);
-  a06=arg[2]? arg[2][0] : 0;
-  a05=(a05-a06);
-  a07=(a02*a05);
-  a08=arg[0]? arg[0][0] : 0;
-  a09=(a08+a01);
-  a07=(a07/a09);
-  a07=exp(a07);
-  a00=(a00*a06);
-  a00=(a00*a01);
-  a00=(a00*a03);
-  a00=(a00/a09);
-  a10=exp(a00);
-  a11=((casadi_real)2.*a10);
-  a12=(casadi_real)3.1415926535897931e+00;
-  a12=(a12*a06);
-  a13=casadi_sq(a03);
-  a14=(a01*a13);
-  a15=(casadi_real)1.;
-  a13=(a15-a13);
-  a13=sqrt(a13);
-  a15=(a15+a13);
-  a14=(a14/a15);
-  a08=(a08+a14);
-  a12=(a12*a08);
-  a12=(a12/a09);
-  a12=(-a12);
-  a12=sin(a12);
-  a12=casadi_sq(a12);
-  a11=(a11*a12);
-  a00=casadi_expm1(a00);
-  a11=(a11-a00);
-  a00=(a07*a11);
-  a04=(a06-a04);
-  a02=(a02*a04);
-  a02=(a02/a09);
-  a02=exp(a02);
-  a12=(casadi_real)6.2831853071795862e+00;
-  a14=(a12*a01);
-  a05=(a14*a05);
-  a05=(a05*a13);
-  a05=(a05/a09);
-  a15=cos(a05);
-  a16=(a02*a15);
-  a14=(a14*a04);
-  a14=(a14*a13);
-  a14=(a14/a09);
-  a04=cos(a14);
-  a17=arg[1]? arg[1][0] : 0;
-  a18=arg[5]? arg[5][0] : 0;
-  a19=cos(a18);
-  a20=(a17*a19);
-  a21=(a20*a04);
-  a22=(a17*a01);
-  a23=(a22*a03);
-  a23=(a23*a19);
-  a18=sin(a18);
-  a24=(a17*a18);
-  a24=(a24*a09);
-  a23=(a23-a24);
-  a14=sin(a14);
-  a23=(a23*a14);
-  a25=(a01*a13);
-  a23=(a23/a25);
-  a21=(a21+a23);
-  a21=(a02*a21);
-  a21=(a21-a20);
-  a20=(a04*a21);
-  a23=(a24*a04);
-  a26=(a22*a19);
-  a27=(a17*a03);
-  a27=(a27*a18);
-  a27=(a27*a09);
-  a26=(a26-a27);
-  a26=(a26*a14);
-  a26=(a26/a13);
-  a23=(a23+a26);
-  a23=(a02*a23);
-  a24=(a24-a23);
-  a23=(a01*a03);
-  a26=(a23*a21);
-  a26=(a24+a26);
-  a26=(a14*a26);
-  a26=(a26/a25);
-  a20=(a20+a26);
-  a26=(a16*a20);
-  a05=sin(a05);
-  a27=(a23*a02);
-  a27=(a27*a20);
-  a28=(a04*a24);
-  a21=(a01*a21);
-  a24=(a03*a24);
-  a21=(a21+a24);
-  a21=(a14*a21);
-  a21=(a21/a13);
-  a28=(a28-a21);
-  a21=(a02*a28);
-  a27=(a27+a21);
-  a27=(a05*a27);
-  a27=(a27/a25);
-  a26=(a26+a27);
-  a27=(a00*a26);
-  a12=(a12*a06);
-  a12=(a12*a08);
-  a12=(a12/a09);
-  a12=(-a12);
-  a12=sin(a12);
-  a08=(a10*a12);
-  a16=(a16*a28);
-  a21=(a01*a02);
-  a21=(a21*a20);
-  a20=(a03*a02);
-  a20=(a20*a28);
-  a21=(a21+a20);
-  a21=(a05*a21);
-  a21=(a21/a13);
-  a16=(a16-a21);
-  a16=(a07*a16);
-  a21=(a23*a07);
-  a20=(a21*a26);
-  a16=(a16+a20);
-  a20=(a08*a16);
-  a20=(a20/a25);
-  a27=(a27+a20);
-  a20=(casadi_real)-1.2566370614359172e+01;
-  a20=(a20*a06);
-  a20=(a20*a01);
-  a20=(a20*a03);
-  a20=(a20/a09);
-  a20=exp(a20);
-  a06=casadi_sq(a12);
-  a20=(a20*a06);
-  a06=casadi_sq(a11);
-  a20=(a20+a06);
-  a06=(a27/a20);
-  if (res[0]!=0) res[0][0]=a06;
-  a27=(a23*a27);
-  a27=(a27/a20);
-  a10=(a10*a07);
-  a10=(a10*a12);
-  a26=(a10*a26);
-  a16=(a11*a16);
-  a16=(a16/a25);
-  a26=(a26-a16);
-  a26=(a25*a26);
-  a26=(a26/a20);
-  a27=(a27+a26);
-  a27=(-a27);
-  if (res[1]!=0) res[1][0]=a27;
-  a27=arg[6]? arg[6][0] : 0;
-  a17=(a17*a27);
-  a26=(a17*a18);
-  a22=(a22*a27);
-  a27=(a22*a03);
-  a27=(a27*a18);
-  a16=(a17*a19);
-  a16=(a16*a09);
-  a27=(a27+a16);
-  a27=(a27*a14);
-  a27=(a27/a25);
-  a12=(a26*a04);
-  a27=(a27+a12);
-  a27=(a02*a27);
-  a26=(a26-a27);
-  a27=(a15*a26);
-  a04=(a16*a04);
-  a22=(a22*a18);
-  a17=(a17*a03);
-  a17=(a17*a19);
-  a17=(a17*a09);
-  a22=(a22+a17);
-  a22=(a22*a14);
-  a22=(a22/a13);
-  a04=(a04-a22);
-  a02=(a02*a04);
-  a16=(a16-a02);
-  a02=(a23*a26);
-  a02=(a16+a02);
-  a02=(a05*a02);
-  a02=(a02/a25);
-  a27=(a27+a02);
-  a00=(a00*a27);
-  a21=(a21*a27);
-  a15=(a15*a16);
-  a01=(a01*a26);
-  a03=(a03*a16);
-  a01=(a01+a03);
-  a05=(a05*a01);
-  a05=(a05/a13);
-  a15=(a15-a05);
-  a07=(a07*a15);
-  a21=(a21+a07);
-  a08=(a08*a21);
-  a08=(a08/a25);
-  a00=(a00+a08);
-  a08=(a00/a20);
-  if (res[2]!=0) res[2][0]=a08;
-  a23=(a23*a00);
-  a23=(a23/a20);
-  a10=(a10*a27);
-  a11=(a11*a21);
-  a11=(a11/a25);
-  a10=(a10-a11);
-  a25=(a25*a10);
-  a25=(a25/a20);
-  a23=(a23+a25);
-  a23=(-a23);
-  if (res[3]!=0) res[3][0]=a23;
-  a20=sqrt(a20);
-  if (res[4]!=0) res[4][0]=a20;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_start_periodic(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem){
-  return casadi_f0(arg, res, iw, w, mem);
-}
-
-CASADI_SYMBOL_EXPORT int trum_start_periodic_checkout(void) {
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT void trum_start_periodic_release(int mem) {
+int trum_start_periodic(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem)
+{
+  trum_real a0;
+  trum_real a1;
+  trum_real a2;
+  trum_real a3;
+  trum_real a4;
+  trum_real a5;
+  trum_real a6;
+  trum_real a7;
+  trum_real a8;
+  trum_real a9;
+  trum_real a10;
+  trum_real a11;
+  trum_real a12;
+  trum_real a13;
+  trum_real a14;
+  trum_real a15;
+  trum_real a16;
+  trum_real a17;
+  trum_real a18;
+  trum_real a19;
+  trum_real a20;
+  trum_real a21;
+  trum_real a22;
+  trum_real a23;
+  trum_real a24;
+  trum_real a25;
+  trum_real a26;
+  trum_real a27;
+  trum_real a28;
+  (void)iw;
+  (void)w;
   (void)mem;
-}
-
-CASADI_SYMBOL_EXPORT void trum_start_periodic_incref(void) {
-}
-
-CASADI_SYMBOL_EXPORT void trum_start_periodic_decref(void) {
-}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_start_periodic_n_in(void) { return 8;}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_start_periodic_n_out(void) { return 5;}
-
-CASADI_SYMBOL_EXPORT casadi_real trum_start_periodic_default_in(casadi_int i) {
-  switch (i) {
-    default: return 0;
+  a0 = TRUM_C(-6.283185307179586);
+  a1 = (arg[4] != NULL) ? arg[4][0] : TRUM_C(0.0);
+  a2 = a0 * a1;
+  a3 = (arg[7] != NULL) ? arg[7][0] : TRUM_C(0.0);
+  a2 = a2 * a3;
+  a4 = (arg[3] != NULL) ? arg[3][0] : TRUM_C(0.0);
+  a5 = TRUM_C(2.0) * a4;
+  a6 = (arg[2] != NULL) ? arg[2][0] : TRUM_C(0.0);
+  a5 = a5 - a6;
+  a7 = a2 * a5;
+  a8 = (arg[0] != NULL) ? arg[0][0] : TRUM_C(0.0);
+  a9 = a8 + a1;
+  a7 = a7 / a9;
+  a7 = trum_exp(a7);
+  a0 = a0 * a6;
+  a0 = a0 * a1;
+  a0 = a0 * a3;
+  a0 = a0 / a9;
+  a10 = trum_exp(a0);
+  a11 = TRUM_C(2.0) * a10;
+  a12 = TRUM_C(3.141592653589793);
+  a12 = a12 * a6;
+  a13 = a3 * a3;
+  a14 = a1 * a13;
+  a15 = TRUM_C(1.0);
+  a13 = a15 - a13;
+  a13 = trum_sqrt(a13);
+  a15 = a15 + a13;
+  a14 = a14 / a15;
+  a8 = a8 + a14;
+  a12 = a12 * a8;
+  a12 = a12 / a9;
+  a12 = -a12;
+  a12 = trum_sin(a12);
+  a12 = a12 * a12;
+  a11 = a11 * a12;
+  a0 = trum_expm1(a0);
+  a11 = a11 - a0;
+  a0 = a7 * a11;
+  a4 = a6 - a4;
+  a2 = a2 * a4;
+  a2 = a2 / a9;
+  a2 = trum_exp(a2);
+  a12 = TRUM_C(6.283185307179586);
+  a14 = a12 * a1;
+  a5 = a14 * a5;
+  a5 = a5 * a13;
+  a5 = a5 / a9;
+  a15 = trum_cos(a5);
+  a16 = a2 * a15;
+  a14 = a14 * a4;
+  a14 = a14 * a13;
+  a14 = a14 / a9;
+  a4 = trum_cos(a14);
+  a17 = (arg[1] != NULL) ? arg[1][0] : TRUM_C(0.0);
+  a18 = (arg[5] != NULL) ? arg[5][0] : TRUM_C(0.0);
+  a19 = trum_cos(a18);
+  a20 = a17 * a19;
+  a21 = a20 * a4;
+  a22 = a17 * a1;
+  a23 = a22 * a3;
+  a23 = a23 * a19;
+  a18 = trum_sin(a18);
+  a24 = a17 * a18;
+  a24 = a24 * a9;
+  a23 = a23 - a24;
+  a14 = trum_sin(a14);
+  a23 = a23 * a14;
+  a25 = a1 * a13;
+  a23 = a23 / a25;
+  a21 = a21 + a23;
+  a21 = a2 * a21;
+  a21 = a21 - a20;
+  a20 = a4 * a21;
+  a23 = a24 * a4;
+  a26 = a22 * a19;
+  a27 = a17 * a3;
+  a27 = a27 * a18;
+  a27 = a27 * a9;
+  a26 = a26 - a27;
+  a26 = a26 * a14;
+  a26 = a26 / a13;
+  a23 = a23 + a26;
+  a23 = a2 * a23;
+  a24 = a24 - a23;
+  a23 = a1 * a3;
+  a26 = a23 * a21;
+  a26 = a24 + a26;
+  a26 = a14 * a26;
+  a26 = a26 / a25;
+  a20 = a20 + a26;
+  a26 = a16 * a20;
+  a5 = trum_sin(a5);
+  a27 = a23 * a2;
+  a27 = a27 * a20;
+  a28 = a4 * a24;
+  a21 = a1 * a21;
+  a24 = a3 * a24;
+  a21 = a21 + a24;
+  a21 = a14 * a21;
+  a21 = a21 / a13;
+  a28 = a28 - a21;
+  a21 = a2 * a28;
+  a27 = a27 + a21;
+  a27 = a5 * a27;
+  a27 = a27 / a25;
+  a26 = a26 + a27;
+  a27 = a0 * a26;
+  a12 = a12 * a6;
+  a12 = a12 * a8;
+  a12 = a12 / a9;
+  a12 = -a12;
+  a12 = trum_sin(a12);
+  a8 = a10 * a12;
+  a16 = a16 * a28;
+  a21 = a1 * a2;
+  a21 = a21 * a20;
+  a20 = a3 * a2;
+  a20 = a20 * a28;
+  a21 = a21 + a20;
+  a21 = a5 * a21;
+  a21 = a21 / a13;
+  a16 = a16 - a21;
+  a16 = a7 * a16;
+  a21 = a23 * a7;
+  a20 = a21 * a26;
+  a16 = a16 + a20;
+  a20 = a8 * a16;
+  a20 = a20 / a25;
+  a27 = a27 + a20;
+  a20 = TRUM_C(-12.566370614359172);
+  a20 = a20 * a6;
+  a20 = a20 * a1;
+  a20 = a20 * a3;
+  a20 = a20 / a9;
+  a20 = trum_exp(a20);
+  a6 = a12 * a12;
+  a20 = a20 * a6;
+  a6 = a11 * a11;
+  a20 = a20 + a6;
+  a6 = a27 / a20;
+  if (res[0] != NULL) {
+    res[0][0] = a6;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_start_periodic_name_in(casadi_int i) {
-  switch (i) {
-    case 0: return "Delta_omega";
-    case 1: return "W";
-    case 2: return "m";
-    case 3: return "n";
-    case 4: return "omega_n";
-    case 5: return "psi";
-    case 6: return "s";
-    case 7: return "xi";
-    default: return 0;
+  a27 = a23 * a27;
+  a27 = a27 / a20;
+  a10 = a10 * a7;
+  a10 = a10 * a12;
+  a26 = a10 * a26;
+  a16 = a11 * a16;
+  a16 = a16 / a25;
+  a26 = a26 - a16;
+  a26 = a25 * a26;
+  a26 = a26 / a20;
+  a27 = a27 + a26;
+  a27 = -a27;
+  if (res[1] != NULL) {
+    res[1][0] = a27;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_start_periodic_name_out(casadi_int i) {
-  switch (i) {
-    case 0: return "a_A";
-    case 1: return "b_A";
-    case 2: return "a_B";
-    case 3: return "b_B";
-    case 4: return "repetition";
-    default: return 0;
+  a27 = (arg[6] != NULL) ? arg[6][0] : TRUM_C(0.0);
+  a17 = a17 * a27;
+  a26 = a17 * a18;
+  a22 = a22 * a27;
+  a27 = a22 * a3;
+  a27 = a27 * a18;
+  a16 = a17 * a19;
+  a16 = a16 * a9;
+  a27 = a27 + a16;
+  a27 = a27 * a14;
+  a27 = a27 / a25;
+  a12 = a26 * a4;
+  a27 = a27 + a12;
+  a27 = a2 * a27;
+  a26 = a26 - a27;
+  a27 = a15 * a26;
+  a4 = a16 * a4;
+  a22 = a22 * a18;
+  a17 = a17 * a3;
+  a17 = a17 * a19;
+  a17 = a17 * a9;
+  a22 = a22 + a17;
+  a22 = a22 * a14;
+  a22 = a22 / a13;
+  a4 = a4 - a22;
+  a2 = a2 * a4;
+  a16 = a16 - a2;
+  a2 = a23 * a26;
+  a2 = a16 + a2;
+  a2 = a5 * a2;
+  a2 = a2 / a25;
+  a27 = a27 + a2;
+  a0 = a0 * a27;
+  a21 = a21 * a27;
+  a15 = a15 * a16;
+  a1 = a1 * a26;
+  a3 = a3 * a16;
+  a1 = a1 + a3;
+  a5 = a5 * a1;
+  a5 = a5 / a13;
+  a15 = a15 - a5;
+  a7 = a7 * a15;
+  a21 = a21 + a7;
+  a8 = a8 * a21;
+  a8 = a8 / a25;
+  a0 = a0 + a8;
+  a8 = a0 / a20;
+  if (res[2] != NULL) {
+    res[2][0] = a8;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_start_periodic_sparsity_in(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    case 4: return casadi_s0;
-    case 5: return casadi_s0;
-    case 6: return casadi_s0;
-    case 7: return casadi_s0;
-    default: return 0;
+  a23 = a23 * a0;
+  a23 = a23 / a20;
+  a10 = a10 * a27;
+  a11 = a11 * a21;
+  a11 = a11 / a25;
+  a10 = a10 - a11;
+  a25 = a25 * a10;
+  a25 = a25 / a20;
+  a23 = a23 + a25;
+  a23 = -a23;
+  if (res[3] != NULL) {
+    res[3][0] = a23;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_start_periodic_sparsity_out(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    case 4: return casadi_s0;
-    default: return 0;
+  a20 = trum_sqrt(a20);
+  if (res[4] != NULL) {
+    res[4][0] = a20;
   }
-}
-
-CASADI_SYMBOL_EXPORT int trum_start_periodic_work(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 8;
-  if (sz_res) *sz_res = 5;
-  if (sz_iw) *sz_iw = 0;
-  if (sz_w) *sz_w = 0;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_start_periodic_work_bytes(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 8*sizeof(const casadi_real*);
-  if (sz_res) *sz_res = 5*sizeof(casadi_real*);
-  if (sz_iw) *sz_iw = 0*sizeof(casadi_int);
-  if (sz_w) *sz_w = 0*sizeof(casadi_real);
   return 0;
 }

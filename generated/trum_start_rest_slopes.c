@@ -18,169 +18,52 @@
  *
  * 5 operations: 3 mul, 1 cos, 1 sin
  */
-/* How to prefix internal symbols */
-#ifdef CASADI_CODEGEN_PREFIX
-  #define CASADI_NAMESPACE_CONCAT(NS, ID) _CASADI_NAMESPACE_CONCAT(NS, ID)
-  #define _CASADI_NAMESPACE_CONCAT(NS, ID) NS ## ID
-  #define CASADI_PREFIX(ID) CASADI_NAMESPACE_CONCAT(CODEGEN_PREFIX, ID)
-#else
-  #define CASADI_PREFIX(ID) trum_start_rest_slopes_ ## ID
-#endif
+#include <stddef.h>
 
-#include <math.h>
+#include "trum_kernels.h"
 
-#ifndef casadi_real
-#define casadi_real double
-#endif
-
-#ifndef casadi_int
-#define casadi_int long long int
-#endif
-
-/* Add prefix to internal symbols */
-#define casadi_f0 CASADI_PREFIX(f0)
-#define casadi_s0 CASADI_PREFIX(s0)
-
-/* Symbol visibility in DLLs */
-#ifndef CASADI_SYMBOL_EXPORT
-  #if defined(_WIN32) || defined(__WIN32__) || defined(__CYGWIN__)
-    #if defined(STATIC_LINKED)
-      #define CASADI_SYMBOL_EXPORT
-    #else
-      #define CASADI_SYMBOL_EXPORT __declspec(dllexport)
-    #endif
-  #elif defined(__GNUC__) && defined(GCC_HASCLASSVISIBILITY)
-    #define CASADI_SYMBOL_EXPORT __attribute__ ((visibility ("default")))
-  #else
-    #define CASADI_SYMBOL_EXPORT
-  #endif
-#endif
-
-/* Configuration this file was compiled with */
-CASADI_SYMBOL_EXPORT void trum_start_rest_slopes_casadi_version(int* major, int* minor, int* patch) {
-  *major = 3;
-  *minor = 8;
-  *patch = 2;
-}
-CASADI_SYMBOL_EXPORT int trum_start_rest_slopes_casadi_int_size(void) { return (int) sizeof(casadi_int); }
-CASADI_SYMBOL_EXPORT int trum_start_rest_slopes_casadi_real_size(void) { return (int) sizeof(casadi_real); }
-
-static const casadi_int casadi_s0[3] = {1, 1, 1};
-
-/* trum_start_rest_slopes:(Delta_omega,W,omega_n,psi,s)->(a_A_omega_n,b_A_omega_n,a_B_omega_n,b_B_omega_n,a_A_Delta_omega,b_A_Delta_omega,a_B_Delta_omega,b_B_Delta_omega) */
-static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
-  (void)iw, (void)w, (void)mem;
-  casadi_real a0, a1, a2, a3, a4;
-  a0=(casadi_real)0.;
-  if (res[0]!=0) res[0][0]=a0;
-  a1=arg[1]? arg[1][0] : 0;
-  a2=arg[3]? arg[3][0] : 0;
-  a3=sin(a2);
-  a3=(a1*a3);
-  if (res[1]!=0) res[1][0]=a3;
-  if (res[2]!=0) res[2][0]=a0;
-  a4=arg[4]? arg[4][0] : 0;
-  a1=(a1*a4);
-  a2=cos(a2);
-  a1=(a1*a2);
-  if (res[3]!=0) res[3][0]=a1;
-  if (res[4]!=0) res[4][0]=a0;
-  if (res[5]!=0) res[5][0]=a3;
-  if (res[6]!=0) res[6][0]=a0;
-  if (res[7]!=0) res[7][0]=a1;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_start_rest_slopes(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem){
-  return casadi_f0(arg, res, iw, w, mem);
-}
-
-CASADI_SYMBOL_EXPORT int trum_start_rest_slopes_checkout(void) {
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT void trum_start_rest_slopes_release(int mem) {
+int trum_start_rest_slopes(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem)
+{
+  trum_real a0;
+  trum_real a1;
+  trum_real a2;
+  trum_real a3;
+  trum_real a4;
+  (void)iw;
+  (void)w;
   (void)mem;
-}
-
-CASADI_SYMBOL_EXPORT void trum_start_rest_slopes_incref(void) {
-}
-
-CASADI_SYMBOL_EXPORT void trum_start_rest_slopes_decref(void) {
-}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_start_rest_slopes_n_in(void) { return 5;}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_start_rest_slopes_n_out(void) { return 8;}
-
-CASADI_SYMBOL_EXPORT casadi_real trum_start_rest_slopes_default_in(casadi_int i) {
-  switch (i) {
-    default: return 0;
+  a0 = TRUM_C(0.0);
+  if (res[0] != NULL) {
+    res[0][0] = a0;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_start_rest_slopes_name_in(casadi_int i) {
-  switch (i) {
-    case 0: return "Delta_omega";
-    case 1: return "W";
-    case 2: return "omega_n";
-    case 3: return "psi";
-    case 4: return "s";
-    default: return 0;
+  a1 = (arg[1] != NULL) ? arg[1][0] : TRUM_C(0.0);
+  a2 = (arg[3] != NULL) ? arg[3][0] : TRUM_C(0.0);
+  a3 = trum_sin(a2);
+  a3 = a1 * a3;
+  if (res[1] != NULL) {
+    res[1][0] = a3;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_start_rest_slopes_name_out(casadi_int i) {
-  switch (i) {
-    case 0: return "a_A_omega_n";
-    case 1: return "b_A_omega_n";
-    case 2: return "a_B_omega_n";
-    case 3: return "b_B_omega_n";
-    case 4: return "a_A_Delta_omega";
-    case 5: return "b_A_Delta_omega";
-    case 6: return "a_B_Delta_omega";
-    case 7: return "b_B_Delta_omega";
-    default: return 0;
+  if (res[2] != NULL) {
+    res[2][0] = a0;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_start_rest_slopes_sparsity_in(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    case 4: return casadi_s0;
-    default: return 0;
+  a4 = (arg[4] != NULL) ? arg[4][0] : TRUM_C(0.0);
+  a1 = a1 * a4;
+  a2 = trum_cos(a2);
+  a1 = a1 * a2;
+  if (res[3] != NULL) {
+    res[3][0] = a1;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_start_rest_slopes_sparsity_out(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    case 4: return casadi_s0;
-    case 5: return casadi_s0;
-    case 6: return casadi_s0;
-    case 7: return casadi_s0;
-    default: return 0;
+  if (res[4] != NULL) {
+    res[4][0] = a0;
   }
-}
-
-CASADI_SYMBOL_EXPORT int trum_start_rest_slopes_work(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 5;
-  if (sz_res) *sz_res = 8;
-  if (sz_iw) *sz_iw = 0;
-  if (sz_w) *sz_w = 0;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_start_rest_slopes_work_bytes(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 5*sizeof(const casadi_real*);
-  if (sz_res) *sz_res = 8*sizeof(casadi_real*);
-  if (sz_iw) *sz_iw = 0*sizeof(casadi_int);
-  if (sz_w) *sz_w = 0*sizeof(casadi_real);
+  if (res[5] != NULL) {
+    res[5][0] = a3;
+  }
+  if (res[6] != NULL) {
+    res[6][0] = a0;
+  }
+  if (res[7] != NULL) {
+    res[7][0] = a1;
+  }
   return 0;
 }

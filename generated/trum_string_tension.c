@@ -14,177 +14,44 @@
  *
  * 13 operations: 7 mul, 3 add, 2 div, 1 fabs
  */
-/* How to prefix internal symbols */
-#ifdef CASADI_CODEGEN_PREFIX
-  #define CASADI_NAMESPACE_CONCAT(NS, ID) _CASADI_NAMESPACE_CONCAT(NS, ID)
-  #define _CASADI_NAMESPACE_CONCAT(NS, ID) NS ## ID
-  #define CASADI_PREFIX(ID) CASADI_NAMESPACE_CONCAT(CODEGEN_PREFIX, ID)
-#else
-  #define CASADI_PREFIX(ID) trum_string_tension_ ## ID
-#endif
+#include <stddef.h>
 
-#include <math.h>
+#include "trum_kernels.h"
 
-#ifndef casadi_real
-#define casadi_real double
-#endif
-
-#ifndef casadi_int
-#define casadi_int long long int
-#endif
-
-/* Add prefix to internal symbols */
-#define casadi_f0 CASADI_PREFIX(f0)
-#define casadi_fabs CASADI_PREFIX(fabs)
-#define casadi_s0 CASADI_PREFIX(s0)
-
-/* Symbol visibility in DLLs */
-#ifndef CASADI_SYMBOL_EXPORT
-  #if defined(_WIN32) || defined(__WIN32__) || defined(__CYGWIN__)
-    #if defined(STATIC_LINKED)
-      #define CASADI_SYMBOL_EXPORT
-    #else
-      #define CASADI_SYMBOL_EXPORT __declspec(dllexport)
-    #endif
-  #elif defined(__GNUC__) && defined(GCC_HASCLASSVISIBILITY)
-    #define CASADI_SYMBOL_EXPORT __attribute__ ((visibility ("default")))
-  #else
-    #define CASADI_SYMBOL_EXPORT
-  #endif
-#endif
-
-casadi_real casadi_fabs(casadi_real x) {
-/* Pre-c99 compatibility */
-#if __STDC_VERSION__ < 199901L
-  return x>0 ? x : -x;
-#else
-  return fabs(x);
-#endif
-}
-
-/* Configuration this file was compiled with */
-CASADI_SYMBOL_EXPORT void trum_string_tension_casadi_version(int* major, int* minor, int* patch) {
-  *major = 3;
-  *minor = 8;
-  *patch = 2;
-}
-CASADI_SYMBOL_EXPORT int trum_string_tension_casadi_int_size(void) { return (int) sizeof(casadi_int); }
-CASADI_SYMBOL_EXPORT int trum_string_tension_casadi_real_size(void) { return (int) sizeof(casadi_real); }
-
-static const casadi_int casadi_s0[3] = {1, 1, 1};
-
-/* trum_string_tension:(F_c,J,J_load,T_load,f,mu,r_c,r_s)->(tension) */
-static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
-  (void)iw, (void)w, (void)mem;
-  casadi_real a0, a1, a2, a3, a4;
-  a0=(casadi_real)9.8066499999999994e+00;
-  a1=arg[1]? arg[1][0] : 0;
-  a2=arg[2]? arg[2][0] : 0;
-  a1=(a1+a2);
-  a2=(a0*a1);
-  a3=arg[0]? arg[0][0] : 0;
-  a4=arg[4]? arg[4][0] : 0;
-  a3=(a3*a4);
-  a4=arg[5]? arg[5][0] : 0;
-  a3=(a3*a4);
-  a4=arg[6]? arg[6][0] : 0;
-  a3=(a3*a4);
-  a4=arg[7]? arg[7][0] : 0;
-  a3=(a3*a4);
-  a2=(a2+a3);
-  a3=arg[3]? arg[3][0] : 0;
-  a3=casadi_fabs(a3);
-  a4=(a4*a3);
-  a4=(a4/a0);
-  a1=(a1+a4);
-  a0=(a0*a1);
-  a2=(a2/a0);
-  if (res[0]!=0) res[0][0]=a2;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_string_tension(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem){
-  return casadi_f0(arg, res, iw, w, mem);
-}
-
-CASADI_SYMBOL_EXPORT int trum_string_tension_checkout(void) {
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT void trum_string_tension_release(int mem) {
+int trum_string_tension(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem)
+{
+  trum_real a0;
+  trum_real a1;
+  trum_real a2;
+  trum_real a3;
+  trum_real a4;
+  (void)iw;
+  (void)w;
   (void)mem;
-}
-
-CASADI_SYMBOL_EXPORT void trum_string_tension_incref(void) {
-}
-
-CASADI_SYMBOL_EXPORT void trum_string_tension_decref(void) {
-}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_string_tension_n_in(void) { return 8;}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_string_tension_n_out(void) { return 1;}
-
-CASADI_SYMBOL_EXPORT casadi_real trum_string_tension_default_in(casadi_int i) {
-  switch (i) {
-    default: return 0;
+  a0 = TRUM_C(9.80665);
+  a1 = (arg[1] != NULL) ? arg[1][0] : TRUM_C(0.0);
+  a2 = (arg[2] != NULL) ? arg[2][0] : TRUM_C(0.0);
+  a1 = a1 + a2;
+  a2 = a0 * a1;
+  a3 = (arg[0] != NULL) ? arg[0][0] : TRUM_C(0.0);
+  a4 = (arg[4] != NULL) ? arg[4][0] : TRUM_C(0.0);
+  a3 = a3 * a4;
+  a4 = (arg[5] != NULL) ? arg[5][0] : TRUM_C(0.0);
+  a3 = a3 * a4;
+  a4 = (arg[6] != NULL) ? arg[6][0] : TRUM_C(0.0);
+  a3 = a3 * a4;
+  a4 = (arg[7] != NULL) ? arg[7][0] : TRUM_C(0.0);
+  a3 = a3 * a4;
+  a2 = a2 + a3;
+  a3 = (arg[3] != NULL) ? arg[3][0] : TRUM_C(0.0);
+  a3 = trum_fabs(a3);
+  a4 = a4 * a3;
+  a4 = a4 / a0;
+  a1 = a1 + a4;
+  a0 = a0 * a1;
+  a2 = a2 / a0;
+  if (res[0] != NULL) {
+    res[0][0] = a2;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_string_tension_name_in(casadi_int i) {
-  switch (i) {
-    case 0: return "F_c";
-    case 1: return "J";
-    case 2: return "J_load";
-    case 3: return "T_load";
-    case 4: return "f";
-    case 5: return "mu";
-    case 6: return "r_c";
-    case 7: return "r_s";
-    default: return 0;
-  }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_string_tension_name_out(casadi_int i) {
-  switch (i) {
-    case 0: return "tension";
-    default: return 0;
-  }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_string_tension_sparsity_in(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    case 4: return casadi_s0;
-    case 5: return casadi_s0;
-    case 6: return casadi_s0;
-    case 7: return casadi_s0;
-    default: return 0;
-  }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_string_tension_sparsity_out(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    default: return 0;
-  }
-}
-
-CASADI_SYMBOL_EXPORT int trum_string_tension_work(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 8;
-  if (sz_res) *sz_res = 1;
-  if (sz_iw) *sz_iw = 0;
-  if (sz_w) *sz_w = 0;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_string_tension_work_bytes(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 8*sizeof(const casadi_real*);
-  if (sz_res) *sz_res = 1*sizeof(casadi_real*);
-  if (sz_iw) *sz_iw = 0*sizeof(casadi_int);
-  if (sz_w) *sz_w = 0*sizeof(casadi_real);
   return 0;
 }

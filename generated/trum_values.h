@@ -267,265 +267,265 @@ enum {
 static inline void trum_call_neutral_axis(trum_real* v) {
   const trum_real* arg[trum_neutral_axis_n_arg] = {v + trum_at_E_e, v + trum_at_E_p, v + trum_at_b_e, v + trum_at_b_p, v + trum_at_h_e, v + trum_at_h_p, v + trum_at_h_t};
   trum_real* res[trum_neutral_axis_n_res] = {v + trum_at_D};
-  trum_neutral_axis(arg, res, 0, 0, 0);
+  (void)trum_neutral_axis(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_section(trum_real* v) {
   const trum_real* arg[trum_section_n_arg] = {v + trum_at_D, v + trum_at_E_e, v + trum_at_E_p, v + trum_at_G_e, v + trum_at_G_p, v + trum_at_b_e, v + trum_at_b_p, v + trum_at_b_s, v + trum_at_h_e, v + trum_at_h_p, v + trum_at_h_t, v + trum_at_l_s, v + trum_at_n_s, v + trum_at_rho_e, v + trum_at_rho_p};
   trum_real* res[trum_section_n_res] = {v + trum_at_E, v + trum_at_rho, v + trum_at_I_z, v + trum_at_G, v + trum_at_A, v + trum_at_E_eq};
-  trum_section(arg, res, 0, 0, 0);
+  (void)trum_section(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_wavenumber(trum_real* v) {
   const trum_real* arg[trum_wavenumber_n_arg] = {v + trum_at_R, v + trum_at_n_j};
   trum_real* res[trum_wavenumber_n_res] = {v + trum_at_k_c};
-  trum_wavenumber(arg, res, 0, 0, 0);
+  (void)trum_wavenumber(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_resonance(trum_real* v) {
   const trum_real* arg[trum_resonance_n_arg] = {v + trum_at_A, v + trum_at_E, v + trum_at_G, v + trum_at_I_z, v + trum_at_k_c, v + trum_at_k_dx, v + trum_at_k_f, v + trum_at_kappa, v + trum_at_rho};
   trum_real* res[trum_resonance_n_res] = {v + trum_at_euler, v + trum_at_printed, v + trum_at_eq6, v + trum_at_quartic, v + trum_at_beta};
-  trum_resonance(arg, res, 0, 0, 0);
+  (void)trum_resonance(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_amplitude_measured(trum_real* v) {
   const trum_real* arg[trum_amplitude_measured_n_arg] = {v + trum_at_C_f, v + trum_at_F_c, v + trum_at_W_max, v + trum_at_varsigma};
   trum_real* res[trum_amplitude_measured_n_res] = {v + trum_at_W};
-  trum_amplitude_measured(arg, res, 0, 0, 0);
+  (void)trum_amplitude_measured(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_amplitude_forced(trum_real* v) {
   const trum_real* arg[trum_amplitude_forced_n_arg] = {v + trum_at_A, v + trum_at_C_f, v + trum_at_D, v + trum_at_F_c, v + trum_at_I_z, v + trum_at_U_s, v + trum_at_b_p, v + trum_at_beta, v + trum_at_d_31, v + trum_at_h_e, v + trum_at_h_p, v + trum_at_k_c, v + trum_at_omega_n, v + trum_at_omega_q, v + trum_at_rho, v + trum_at_s_11E, v + trum_at_varsigma, v + trum_at_xi};
   trum_real* res[trum_amplitude_forced_n_res] = {v + trum_at_W};
-  trum_amplitude_forced(arg, res, 0, 0, 0);
+  (void)trum_amplitude_forced(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_layer_stiffness(trum_real* v) {
   const trum_real* arg[trum_layer_stiffness_n_arg] = {v + trum_at_E_m, v + trum_at_b_m, v + trum_at_h_m};
   trum_real* res[trum_layer_stiffness_n_res] = {v + trum_at_k_N};
-  trum_layer_stiffness(arg, res, 0, 0, 0);
+  (void)trum_layer_stiffness(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_winkler_balance(trum_real* v) {
   const trum_real* arg[trum_winkler_balance_n_arg] = {v + trum_at_F_c, v + trum_at_W, v + trum_at_k_N, v + trum_at_k_c, v + trum_at_n_j, v + trum_at_theta};
   trum_real* res[trum_winkler_balance_n_res] = {v + trum_at_residual, v + trum_at_slope};
-  trum_winkler_balance(arg, res, 0, 0, 0);
+  (void)trum_winkler_balance(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_hertz_half_angle(trum_real* v) {
   const trum_real* arg[trum_hertz_half_angle_n_arg] = {v + trum_at_E_eq, v + trum_at_E_m, v + trum_at_F_c, v + trum_at_W, v + trum_at_b_m, v + trum_at_k_c, v + trum_at_mu_e, v + trum_at_mu_m, v + trum_at_n_j, v + trum_at_r_t};
   trum_real* res[trum_hertz_half_angle_n_res] = {v + trum_at_theta};
-  trum_hertz_half_angle(arg, res, 0, 0, 0);
+  (void)trum_hertz_half_angle(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_foundation(trum_real* v) {
   const trum_real* arg[trum_foundation_n_arg] = {v + trum_at_k_N, v + trum_at_k_c, v + trum_at_n_j, v + trum_at_theta};
   trum_real* res[trum_foundation_n_res] = {v + trum_at_harmonic, v + trum_at_smeared, v + trum_at_printed};
-  trum_foundation(arg, res, 0, 0, 0);
+  (void)trum_foundation(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_contact_stiffness(trum_real* v) {
   const trum_real* arg[trum_contact_stiffness_n_arg] = {v + trum_at_E_e, v + trum_at_E_f, v + trum_at_b_e, v + trum_at_b_s, v + trum_at_h_f, v + trum_at_h_t, v + trum_at_k_N, v + trum_at_k_c, v + trum_at_l_f, v + trum_at_l_s, v + trum_at_mu_f, v + trum_at_n_s};
   trum_real* res[trum_contact_stiffness_n_res] = {v + trum_at_k_tooth, v + trum_at_k_flange, v + trum_at_k_con};
-  trum_contact_stiffness(arg, res, 0, 0, 0);
+  (void)trum_contact_stiffness(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_tangential_stiffness(trum_real* v) {
   const trum_real* arg[trum_tangential_stiffness_n_arg] = {v + trum_at_E_m, v + trum_at_b_m, v + trum_at_h_m, v + trum_at_mu_m};
   trum_real* res[trum_tangential_stiffness_n_res] = {v + trum_at_k_T};
-  trum_tangential_stiffness(arg, res, 0, 0, 0);
+  (void)trum_tangential_stiffness(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_brush_coefficient(trum_real* v) {
   const trum_real* arg[trum_brush_coefficient_n_arg] = {v + trum_at_D, v + trum_at_W, v + trum_at_k_N, v + trum_at_k_T, v + trum_at_k_c, v + trum_at_mu, v + trum_at_omega_q};
   trum_real* res[trum_brush_coefficient_n_res] = {v + trum_at_grip, v + trum_at_R_v};
-  trum_brush_coefficient(arg, res, 0, 0, 0);
+  (void)trum_brush_coefficient(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_brush_passage(trum_real* v) {
   const trum_real* arg[trum_brush_passage_n_arg] = {v + trum_at_grip, v + trum_at_ratio, v + trum_at_t_0, v + trum_at_theta, v + trum_at_u, v + trum_at_u_0};
   trum_real* res[trum_brush_passage_n_res] = {v + trum_at_stress, v + trum_at_limit, v + trum_at_stuck, v + trum_at_slid};
-  trum_brush_passage(arg, res, 0, 0, 0);
+  (void)trum_brush_passage(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_brush_turns(trum_real* v) {
   const trum_real* arg[trum_brush_turns_n_arg] = {v + trum_at_grip, v + trum_at_ratio};
   trum_real* res[trum_brush_turns_n_res] = {v + trum_at_delay, v + trum_at_span};
-  trum_brush_turns(arg, res, 0, 0, 0);
+  (void)trum_brush_turns(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_drive(trum_real* v) {
   const trum_real* arg[trum_drive_n_arg] = {v + trum_at_Delta_omega, v + trum_at_m, v + trum_at_omega_n};
   trum_real* res[trum_drive_n_res] = {v + trum_at_omega_q, v + trum_at_T};
-  trum_drive(arg, res, 0, 0, 0);
+  (void)trum_drive(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_start_periodic(trum_real* v) {
   const trum_real* arg[trum_start_periodic_n_arg] = {v + trum_at_Delta_omega, v + trum_at_W, v + trum_at_m, v + trum_at_n, v + trum_at_omega_n, v + trum_at_psi, v + trum_at_s, v + trum_at_xi};
   trum_real* res[trum_start_periodic_n_res] = {v + trum_at_a_A, v + trum_at_b_A, v + trum_at_a_B, v + trum_at_b_B, v + trum_at_repetition};
-  trum_start_periodic(arg, res, 0, 0, 0);
+  (void)trum_start_periodic(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_start_rest(trum_real* v) {
   const trum_real* arg[trum_start_rest_n_arg] = {v + trum_at_Delta_omega, v + trum_at_W, v + trum_at_omega_n, v + trum_at_psi, v + trum_at_s};
   trum_real* res[trum_start_rest_n_res] = {v + trum_at_a_A, v + trum_at_b_A, v + trum_at_a_B, v + trum_at_b_B};
-  trum_start_rest(arg, res, 0, 0, 0);
+  (void)trum_start_rest(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_regions(trum_real* v) {
   const trum_real* arg[trum_regions_n_arg] = {v + trum_at_Delta_omega, v + trum_at_W, v + trum_at_a_A, v + trum_at_a_B, v + trum_at_b_A, v + trum_at_b_B, v + trum_at_m, v + trum_at_n, v + trum_at_omega_n, v + trum_at_psi, v + trum_at_s, v + trum_at_xi};
   trum_real* res[trum_regions_n_res] = {v + trum_at_time_redu, v + trum_at_time_addredu, v + trum_at_time_add, v + trum_at_a_A_redu, v + trum_at_b_A_redu, v + trum_at_a_B_redu, v + trum_at_b_B_redu, v + trum_at_a_A_addredu, v + trum_at_b_A_addredu, v + trum_at_a_B_addredu, v + trum_at_b_B_addredu, v + trum_at_a_A_add, v + trum_at_b_A_add, v + trum_at_a_B_add, v + trum_at_b_B_add, v + trum_at_a_A_end, v + trum_at_b_A_end, v + trum_at_a_B_end, v + trum_at_b_B_end};
-  trum_regions(arg, res, 0, 0, 0);
+  (void)trum_regions(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_region_phasors(trum_real* v) {
   const trum_real* arg[trum_region_phasors_n_arg] = {v + trum_at_Delta_omega, v + trum_at_W, v + trum_at_a_A, v + trum_at_a_B, v + trum_at_b_A, v + trum_at_b_B, v + trum_at_m, v + trum_at_n, v + trum_at_omega_n, v + trum_at_psi, v + trum_at_s, v + trum_at_xi};
   trum_real* res[trum_region_phasors_n_res] = {v + trum_at_re_A_redu, v + trum_at_im_A_redu, v + trum_at_re_A_addredu, v + trum_at_im_A_addredu, v + trum_at_re_A_add, v + trum_at_im_A_add, v + trum_at_re_B_redu, v + trum_at_im_B_redu, v + trum_at_re_B_addredu, v + trum_at_im_B_addredu, v + trum_at_re_B_add, v + trum_at_im_B_add};
-  trum_region_phasors(arg, res, 0, 0, 0);
+  (void)trum_region_phasors(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_response(trum_real* v) {
   const trum_real* arg[trum_response_n_arg] = {v + trum_at_D, v + trum_at_Delta_omega, v + trum_at_W, v + trum_at_a_A, v + trum_at_a_B, v + trum_at_b_A, v + trum_at_b_B, v + trum_at_g_A, v + trum_at_g_B, v + trum_at_k_c, v + trum_at_omega_n, v + trum_at_psi, v + trum_at_s, v + trum_at_tau, v + trum_at_xi};
   trum_real* res[trum_response_n_res] = {v + trum_at_w_A, v + trum_at_w_B, v + trum_at_v_A, v + trum_at_v_B, v + trum_at_Q, v + trum_at_Q_rate};
-  trum_response(arg, res, 0, 0, 0);
+  (void)trum_response(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_measures(trum_real* v) {
   const trum_real* arg[trum_measures_n_arg] = {v + trum_at_T, v + trum_at_p_minus, v + trum_at_p_plus, v + trum_at_q_minus, v + trum_at_q_plus};
   trum_real* res[trum_measures_n_res] = {v + trum_at_q_ratio, v + trum_at_q_square_ratio, v + trum_at_q_average, v + trum_at_q_volatility};
-  trum_measures(arg, res, 0, 0, 0);
+  (void)trum_measures(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_phasor(trum_real* v) {
   const trum_real* arg[trum_phasor_n_arg] = {v + trum_at_a, v + trum_at_b, v + trum_at_omega_n, v + trum_at_xi};
   trum_real* res[trum_phasor_n_res] = {v + trum_at_re, v + trum_at_im};
-  trum_phasor(arg, res, 0, 0, 0);
+  (void)trum_phasor(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_rotation(trum_real* v) {
   const trum_real* arg[trum_rotation_n_arg] = {v + trum_at_Delta_omega, v + trum_at_omega_n, v + trum_at_tau, v + trum_at_xi};
   trum_real* res[trum_rotation_n_res] = {v + trum_at_e_re, v + trum_at_e_im, v + trum_at_d_re, v + trum_at_d_im};
-  trum_rotation(arg, res, 0, 0, 0);
+  (void)trum_rotation(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_rotor_coefficients(trum_real* v) {
   const trum_real* arg[trum_rotor_coefficients_n_arg] = {v + trum_at_E_eq, v + trum_at_E_m, v + trum_at_F_c, v + trum_at_J, v + trum_at_J_load, v + trum_at_T_load, v + trum_at_b_m, v + trum_at_k_N, v + trum_at_k_c, v + trum_at_mu, v + trum_at_mu_e, v + trum_at_mu_m, v + trum_at_n_j, v + trum_at_r_c, v + trum_at_r_s, v + trum_at_r_t};
   trum_real* res[trum_rotor_coefficients_n_res] = {v + trum_at_engagement_per_height, v + trum_at_push, v + trum_at_drag, v + trum_at_W_full_hertz, v + trum_at_W_full_winkler};
-  trum_rotor_coefficients(arg, res, 0, 0, 0);
+  (void)trum_rotor_coefficients(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_wave(trum_real* v) {
   const trum_real* arg[trum_wave_n_arg] = {v + trum_at_D, v + trum_at_Delta_omega, v + trum_at_W, v + trum_at_d_im, v + trum_at_d_re, v + trum_at_e_im, v + trum_at_e_re, v + trum_at_f_A_im, v + trum_at_f_A_re, v + trum_at_f_B_im, v + trum_at_f_B_re, v + trum_at_g_A, v + trum_at_g_B, v + trum_at_k_c, v + trum_at_omega_n, v + trum_at_p_im, v + trum_at_p_re, v + trum_at_s, v + trum_at_xi};
   trum_real* res[trum_wave_n_res] = {v + trum_at_W_c, v + trum_at_R_v, v + trum_at_phi, v + trum_at_cos_phi, v + trum_at_sin_phi};
-  trum_wave(arg, res, 0, 0, 0);
+  (void)trum_wave(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_filling(trum_real* v) {
   const trum_real* arg[trum_filling_n_arg] = {v + trum_at_W_c, v + trum_at_engagement_per_height};
   trum_real* res[trum_filling_n_res] = {v + trum_at_engagement, v + trum_at_fullness};
-  trum_filling(arg, res, 0, 0, 0);
+  (void)trum_filling(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_contact_winkler(trum_real* v) {
   const trum_real* arg[trum_contact_winkler_n_arg] = {v + trum_at_fullness, v + trum_at_fullness_root};
   trum_real* res[trum_contact_winkler_n_res] = {v + trum_at_theta, v + trum_at_sin_theta, v + trum_at_share};
-  trum_contact_winkler(arg, res, 0, 0, 0);
+  (void)trum_contact_winkler(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_contact_hertz(trum_real* v) {
   const trum_real* arg[trum_contact_hertz_n_arg] = {v + trum_at_W_c, v + trum_at_W_full};
   trum_real* res[trum_contact_hertz_n_res] = {v + trum_at_theta, v + trum_at_sin_theta, v + trum_at_share, v + trum_at_engagement};
-  trum_contact_hertz(arg, res, 0, 0, 0);
+  (void)trum_contact_hertz(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_peak_pressure(trum_real* v) {
   const trum_real* arg[trum_peak_pressure_n_arg] = {v + trum_at_F_c, v + trum_at_b_m, v + trum_at_engagement, v + trum_at_k_c, v + trum_at_n_j, v + trum_at_share};
   trum_real* res[trum_peak_pressure_n_res] = {v + trum_at_pressure};
-  trum_peak_pressure(arg, res, 0, 0, 0);
+  (void)trum_peak_pressure(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_stall_torque(trum_real* v) {
   const trum_real* arg[trum_stall_torque_n_arg] = {v + trum_at_F_c, v + trum_at_f, v + trum_at_mu, v + trum_at_r_c};
   trum_real* res[trum_stall_torque_n_res] = {v + trum_at_torque};
-  trum_stall_torque(arg, res, 0, 0, 0);
+  (void)trum_stall_torque(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_total_inertia(trum_real* v) {
   const trum_real* arg[trum_total_inertia_n_arg] = {v + trum_at_J, v + trum_at_J_load, v + trum_at_T_load, v + trum_at_r_s};
   trum_real* res[trum_total_inertia_n_res] = {v + trum_at_J_total};
-  trum_total_inertia(arg, res, 0, 0, 0);
+  (void)trum_total_inertia(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_string_tension(trum_real* v) {
   const trum_real* arg[trum_string_tension_n_arg] = {v + trum_at_F_c, v + trum_at_J, v + trum_at_J_load, v + trum_at_T_load, v + trum_at_f, v + trum_at_mu, v + trum_at_r_c, v + trum_at_r_s};
   trum_real* res[trum_string_tension_n_res] = {v + trum_at_tension};
-  trum_string_tension(arg, res, 0, 0, 0);
+  (void)trum_string_tension(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_friction(trum_real* v) {
   const trum_real* arg[trum_friction_n_arg] = {v + trum_at_R_v, v + trum_at_cos_phi, v + trum_at_engagement, v + trum_at_phi, v + trum_at_share, v + trum_at_sin_phi, v + trum_at_sin_theta, v + trum_at_theta, v + trum_at_v};
   trum_real* res[trum_friction_n_res] = {v + trum_at_f, v + trum_at_f_v, v + trum_at_p_1, v + trum_at_p_2};
-  trum_friction(arg, res, 0, 0, 0);
+  (void)trum_friction(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_start_periodic_slopes(trum_real* v) {
   const trum_real* arg[trum_start_periodic_slopes_n_arg] = {v + trum_at_Delta_omega, v + trum_at_W, v + trum_at_m, v + trum_at_n, v + trum_at_omega_n, v + trum_at_psi, v + trum_at_s, v + trum_at_xi};
   trum_real* res[trum_start_periodic_slopes_n_res] = {v + trum_at_a_A_omega_n, v + trum_at_b_A_omega_n, v + trum_at_a_B_omega_n, v + trum_at_b_B_omega_n, v + trum_at_a_A_Delta_omega, v + trum_at_b_A_Delta_omega, v + trum_at_a_B_Delta_omega, v + trum_at_b_B_Delta_omega};
-  trum_start_periodic_slopes(arg, res, 0, 0, 0);
+  (void)trum_start_periodic_slopes(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_start_rest_slopes(trum_real* v) {
   const trum_real* arg[trum_start_rest_slopes_n_arg] = {v + trum_at_Delta_omega, v + trum_at_W, v + trum_at_omega_n, v + trum_at_psi, v + trum_at_s};
   trum_real* res[trum_start_rest_slopes_n_res] = {v + trum_at_a_A_omega_n, v + trum_at_b_A_omega_n, v + trum_at_a_B_omega_n, v + trum_at_b_B_omega_n, v + trum_at_a_A_Delta_omega, v + trum_at_b_A_Delta_omega, v + trum_at_a_B_Delta_omega, v + trum_at_b_B_Delta_omega};
-  trum_start_rest_slopes(arg, res, 0, 0, 0);
+  (void)trum_start_rest_slopes(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_regions_slopes(trum_real* v) {
   const trum_real* arg[trum_regions_slopes_n_arg] = {v + trum_at_Delta_omega, v + trum_at_W, v + trum_at_a_A, v + trum_at_a_A_Delta_omega, v + trum_at_a_A_omega_n, v + trum_at_a_B, v + trum_at_a_B_Delta_omega, v + trum_at_a_B_omega_n, v + trum_at_b_A, v + trum_at_b_A_Delta_omega, v + trum_at_b_A_omega_n, v + trum_at_b_B, v + trum_at_b_B_Delta_omega, v + trum_at_b_B_omega_n, v + trum_at_m, v + trum_at_n, v + trum_at_omega_n, v + trum_at_psi, v + trum_at_s, v + trum_at_xi};
   trum_real* res[trum_regions_slopes_n_res] = {v + trum_at_re_A_redu_omega_n, v + trum_at_im_A_redu_omega_n, v + trum_at_re_A_addredu_omega_n, v + trum_at_im_A_addredu_omega_n, v + trum_at_re_A_add_omega_n, v + trum_at_im_A_add_omega_n, v + trum_at_re_B_redu_omega_n, v + trum_at_im_B_redu_omega_n, v + trum_at_re_B_addredu_omega_n, v + trum_at_im_B_addredu_omega_n, v + trum_at_re_B_add_omega_n, v + trum_at_im_B_add_omega_n, v + trum_at_re_A_redu_Delta_omega, v + trum_at_im_A_redu_Delta_omega, v + trum_at_re_A_addredu_Delta_omega, v + trum_at_im_A_addredu_Delta_omega, v + trum_at_re_A_add_Delta_omega, v + trum_at_im_A_add_Delta_omega, v + trum_at_re_B_redu_Delta_omega, v + trum_at_im_B_redu_Delta_omega, v + trum_at_re_B_addredu_Delta_omega, v + trum_at_im_B_addredu_Delta_omega, v + trum_at_re_B_add_Delta_omega, v + trum_at_im_B_add_Delta_omega};
-  trum_regions_slopes(arg, res, 0, 0, 0);
+  (void)trum_regions_slopes(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_wave_slopes(trum_real* v) {
   const trum_real* arg[trum_wave_slopes_n_arg] = {v + trum_at_D, v + trum_at_Delta_omega, v + trum_at_W, v + trum_at_f_A_im, v + trum_at_f_A_im_Delta_omega, v + trum_at_f_A_im_omega_n, v + trum_at_f_A_re, v + trum_at_f_A_re_Delta_omega, v + trum_at_f_A_re_omega_n, v + trum_at_f_B_im, v + trum_at_f_B_im_Delta_omega, v + trum_at_f_B_im_omega_n, v + trum_at_f_B_re, v + trum_at_f_B_re_Delta_omega, v + trum_at_f_B_re_omega_n, v + trum_at_g_A, v + trum_at_g_B, v + trum_at_k_c, v + trum_at_omega_n, v + trum_at_p_im, v + trum_at_p_re, v + trum_at_s, v + trum_at_tau, v + trum_at_xi};
   trum_real* res[trum_wave_slopes_n_res] = {v + trum_at_W_c_omega_n, v + trum_at_R_v_omega_n, v + trum_at_phi_omega_n, v + trum_at_W_c_Delta_omega, v + trum_at_R_v_Delta_omega, v + trum_at_phi_Delta_omega, v + trum_at_W_c_tau, v + trum_at_R_v_tau, v + trum_at_phi_tau};
-  trum_wave_slopes(arg, res, 0, 0, 0);
+  (void)trum_wave_slopes(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_friction_slopes(trum_real* v) {
   const trum_real* arg[trum_friction_slopes_n_arg] = {v + trum_at_R_v, v + trum_at_cos_phi, v + trum_at_engagement, v + trum_at_phi, v + trum_at_share, v + trum_at_sin_phi, v + trum_at_sin_theta, v + trum_at_theta, v + trum_at_v};
   trum_real* res[trum_friction_slopes_n_res] = {v + trum_at_f_phi, v + trum_at_f_E, v + trum_at_theta_E, v + trum_at_E_height};
-  trum_friction_slopes(arg, res, 0, 0, 0);
+  (void)trum_friction_slopes(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_friction_limit(trum_real* v) {
   const trum_real* arg[trum_friction_limit_n_arg] = {v + trum_at_R_v, v + trum_at_R_v_rate, v + trum_at_p_larger, v + trum_at_p_smaller, v + trum_at_step, v + trum_at_v, v + trum_at_v_rate};
   trum_real* res[trum_friction_limit_n_res] = {v + trum_at_T_f_v};
-  trum_friction_limit(arg, res, 0, 0, 0);
+  (void)trum_friction_limit(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_contact_limit(trum_real* v) {
   const trum_real* arg[trum_contact_limit_n_arg] = {v + trum_at_W_c_rate, v + trum_at_W_full, v + trum_at_step};
   trum_real* res[trum_contact_limit_n_res] = {v + trum_at_T_theta_E};
-  trum_contact_limit(arg, res, 0, 0, 0);
+  (void)trum_contact_limit(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_particle(trum_real* v) {
   const trum_real* arg[trum_particle_n_arg] = {v + trum_at_D, v + trum_at_Delta_omega, v + trum_at_W, v + trum_at_a_A, v + trum_at_a_B, v + trum_at_b_A, v + trum_at_b_B, v + trum_at_g_A, v + trum_at_g_B, v + trum_at_k_c, v + trum_at_omega_n, v + trum_at_psi, v + trum_at_s, v + trum_at_tau, v + trum_at_x, v + trum_at_xi};
   trum_real* res[trum_particle_n_res] = {v + trum_at_zeta_z, v + trum_at_zeta_x, v + trum_at_v_x, v + trum_at_A_Q, v + trum_at_x_max};
-  trum_particle(arg, res, 0, 0, 0);
+  (void)trum_particle(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_displacement(trum_real* v) {
   const trum_real* arg[trum_displacement_n_arg] = {v + trum_at_D, v + trum_at_k_c, v + trum_at_w_A, v + trum_at_w_B, v + trum_at_x};
   trum_real* res[trum_displacement_n_res] = {v + trum_at_zeta_z, v + trum_at_zeta_x};
-  trum_displacement(arg, res, 0, 0, 0);
+  (void)trum_displacement(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_interface(trum_real* v) {
   const trum_real* arg[trum_interface_n_arg] = {v + trum_at_F_c, v + trum_at_R_v, v + trum_at_cos_phi, v + trum_at_engagement, v + trum_at_k_c, v + trum_at_mu, v + trum_at_n_j, v + trum_at_share, v + trum_at_sin_phi, v + trum_at_v, v + trum_at_x, v + trum_at_x_max};
   trum_real* res[trum_interface_n_res] = {v + trum_at_v_x, v + trum_at_v_x_slope, v + trum_at_p, v + trum_at_traction};
-  trum_interface(arg, res, 0, 0, 0);
+  (void)trum_interface(arg, res, 0, 0, 0);
 }
 
 #endif

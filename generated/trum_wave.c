@@ -29,293 +29,163 @@
  *
  * 89 operations: 44 mul, 15 add, 14 sub, 7 sq, 4 sqrt, 2 div, 2 neg, 1 atan2
  */
-/* How to prefix internal symbols */
-#ifdef CASADI_CODEGEN_PREFIX
-  #define CASADI_NAMESPACE_CONCAT(NS, ID) _CASADI_NAMESPACE_CONCAT(NS, ID)
-  #define _CASADI_NAMESPACE_CONCAT(NS, ID) NS ## ID
-  #define CASADI_PREFIX(ID) CASADI_NAMESPACE_CONCAT(CODEGEN_PREFIX, ID)
-#else
-  #define CASADI_PREFIX(ID) trum_wave_ ## ID
-#endif
+#include <stddef.h>
 
-#include <math.h>
+#include "trum_kernels.h"
 
-#ifndef casadi_real
-#define casadi_real double
-#endif
-
-#ifndef casadi_int
-#define casadi_int long long int
-#endif
-
-/* Add prefix to internal symbols */
-#define casadi_f0 CASADI_PREFIX(f0)
-#define casadi_s0 CASADI_PREFIX(s0)
-#define casadi_sq CASADI_PREFIX(sq)
-
-/* Symbol visibility in DLLs */
-#ifndef CASADI_SYMBOL_EXPORT
-  #if defined(_WIN32) || defined(__WIN32__) || defined(__CYGWIN__)
-    #if defined(STATIC_LINKED)
-      #define CASADI_SYMBOL_EXPORT
-    #else
-      #define CASADI_SYMBOL_EXPORT __declspec(dllexport)
-    #endif
-  #elif defined(__GNUC__) && defined(GCC_HASCLASSVISIBILITY)
-    #define CASADI_SYMBOL_EXPORT __attribute__ ((visibility ("default")))
-  #else
-    #define CASADI_SYMBOL_EXPORT
-  #endif
-#endif
-
-casadi_real casadi_sq(casadi_real x) { return x*x;}
-
-/* Configuration this file was compiled with */
-CASADI_SYMBOL_EXPORT void trum_wave_casadi_version(int* major, int* minor, int* patch) {
-  *major = 3;
-  *minor = 8;
-  *patch = 2;
-}
-CASADI_SYMBOL_EXPORT int trum_wave_casadi_int_size(void) { return (int) sizeof(casadi_int); }
-CASADI_SYMBOL_EXPORT int trum_wave_casadi_real_size(void) { return (int) sizeof(casadi_real); }
-
-static const casadi_int casadi_s0[3] = {1, 1, 1};
-
-/* trum_wave:(D,Delta_omega,W,d_im,d_re,e_im,e_re,f_A_im,f_A_re,f_B_im,f_B_re,g_A,g_B,k_c,omega_n,p_im,p_re,s,xi)->(W_c,R_v,phi,cos_phi,sin_phi) */
-static int casadi_f0(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem) {
-  (void)iw, (void)w, (void)mem;
-  casadi_real a00, a01, a02, a03, a04, a05, a06, a07, a08, a09, a10, a11;
-  casadi_real a12, a13, a14, a15, a16, a17, a18, a19, a20, a21, a22, a23;
-  a00=arg[6]? arg[6][0] : 0;
-  a01=arg[8]? arg[8][0] : 0;
-  a02=(a00*a01);
-  a03=arg[2]? arg[2][0] : 0;
-  a04=arg[11]? arg[11][0] : 0;
-  a04=(a03*a04);
-  a05=arg[4]? arg[4][0] : 0;
-  a06=arg[16]? arg[16][0] : 0;
-  a07=(a05*a06);
-  a08=arg[3]? arg[3][0] : 0;
-  a09=arg[15]? arg[15][0] : 0;
-  a10=(a08*a09);
-  a07=(a07-a10);
-  a10=(a04*a07);
-  a02=(a02+a10);
-  a10=arg[5]? arg[5][0] : 0;
-  a11=arg[7]? arg[7][0] : 0;
-  a12=(a10*a11);
-  a02=(a02-a12);
-  a12=casadi_sq(a02);
-  a13=arg[10]? arg[10][0] : 0;
-  a14=(a00*a13);
-  a15=arg[9]? arg[9][0] : 0;
-  a16=(a10*a15);
-  a14=(a14-a16);
-  a16=arg[12]? arg[12][0] : 0;
-  a03=(a03*a16);
-  a16=arg[17]? arg[17][0] : 0;
-  a17=(a03*a16);
-  a18=(a08*a06);
-  a19=(a05*a09);
-  a18=(a18+a19);
-  a19=(a17*a18);
-  a14=(a14-a19);
-  a19=casadi_sq(a14);
-  a12=(a12+a19);
-  a12=sqrt(a12);
-  if (res[0]!=0) res[0][0]=a12;
-  a12=arg[0]? arg[0][0] : 0;
-  a19=arg[13]? arg[13][0] : 0;
-  a12=(a12*a19);
-  a19=arg[14]? arg[14][0] : 0;
-  a20=arg[18]? arg[18][0] : 0;
-  a21=(a19*a20);
-  a05=(a05+a00);
-  a22=(a06*a05);
-  a08=(a08+a10);
-  a23=(a09*a08);
-  a22=(a22-a23);
-  a23=(a21*a22);
-  a09=(a09*a05);
-  a06=(a06*a08);
-  a09=(a09+a06);
-  a06=(casadi_real)1.;
-  a08=casadi_sq(a20);
-  a06=(a06-a08);
-  a06=sqrt(a06);
-  a06=(a19*a06);
-  a08=arg[1]? arg[1][0] : 0;
-  a08=(a06-a08);
-  a08=(a08-a19);
-  a05=(a09*a08);
-  a23=(a23+a05);
-  a23=(a04*a23);
-  a05=(a21*a02);
-  a23=(a23-a05);
-  a01=(a10*a01);
-  a11=(a00*a11);
-  a01=(a01+a11);
-  a04=(a04*a18);
-  a01=(a01+a04);
-  a01=(a06*a01);
-  a23=(a23-a01);
-  a01=casadi_sq(a23);
-  a22=(a16*a22);
-  a22=(a22*a08);
-  a19=(a19*a16);
-  a19=(a19*a20);
-  a19=(a19*a09);
-  a22=(a22-a19);
-  a03=(a03*a22);
-  a21=(a21*a14);
-  a03=(a03-a21);
-  a10=(a10*a13);
-  a00=(a00*a15);
-  a10=(a10+a00);
-  a17=(a17*a07);
-  a10=(a10+a17);
-  a06=(a06*a10);
-  a03=(a03-a06);
-  a06=casadi_sq(a03);
-  a01=(a01+a06);
-  a01=sqrt(a01);
-  a12=(a12*a01);
-  if (res[1]!=0) res[1][0]=a12;
-  a12=(a02*a23);
-  a01=(a14*a03);
-  a12=(a12+a01);
-  a01=(-a12);
-  a14=(a14*a23);
-  a02=(a02*a03);
-  a14=(a14-a02);
-  a01=atan2(a01,a14);
-  if (res[2]!=0) res[2][0]=a01;
-  a01=(casadi_real)1.0000000000000001e-37;
-  a02=casadi_sq(a12);
-  a03=casadi_sq(a14);
-  a02=(a02+a03);
-  a02=sqrt(a02);
-  a01=(a01+a02);
-  a14=(a14/a01);
-  if (res[3]!=0) res[3][0]=a14;
-  a12=(a12/a01);
-  a12=(-a12);
-  if (res[4]!=0) res[4][0]=a12;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_wave(const casadi_real** arg, casadi_real** res, casadi_int* iw, casadi_real* w, int mem){
-  return casadi_f0(arg, res, iw, w, mem);
-}
-
-CASADI_SYMBOL_EXPORT int trum_wave_checkout(void) {
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT void trum_wave_release(int mem) {
+int trum_wave(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem)
+{
+  trum_real a0;
+  trum_real a1;
+  trum_real a2;
+  trum_real a3;
+  trum_real a4;
+  trum_real a5;
+  trum_real a6;
+  trum_real a7;
+  trum_real a8;
+  trum_real a9;
+  trum_real a10;
+  trum_real a11;
+  trum_real a12;
+  trum_real a13;
+  trum_real a14;
+  trum_real a15;
+  trum_real a16;
+  trum_real a17;
+  trum_real a18;
+  trum_real a19;
+  trum_real a20;
+  trum_real a21;
+  trum_real a22;
+  trum_real a23;
+  (void)iw;
+  (void)w;
   (void)mem;
-}
-
-CASADI_SYMBOL_EXPORT void trum_wave_incref(void) {
-}
-
-CASADI_SYMBOL_EXPORT void trum_wave_decref(void) {
-}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_wave_n_in(void) { return 19;}
-
-CASADI_SYMBOL_EXPORT casadi_int trum_wave_n_out(void) { return 5;}
-
-CASADI_SYMBOL_EXPORT casadi_real trum_wave_default_in(casadi_int i) {
-  switch (i) {
-    default: return 0;
+  a0 = (arg[6] != NULL) ? arg[6][0] : TRUM_C(0.0);
+  a1 = (arg[8] != NULL) ? arg[8][0] : TRUM_C(0.0);
+  a2 = a0 * a1;
+  a3 = (arg[2] != NULL) ? arg[2][0] : TRUM_C(0.0);
+  a4 = (arg[11] != NULL) ? arg[11][0] : TRUM_C(0.0);
+  a4 = a3 * a4;
+  a5 = (arg[4] != NULL) ? arg[4][0] : TRUM_C(0.0);
+  a6 = (arg[16] != NULL) ? arg[16][0] : TRUM_C(0.0);
+  a7 = a5 * a6;
+  a8 = (arg[3] != NULL) ? arg[3][0] : TRUM_C(0.0);
+  a9 = (arg[15] != NULL) ? arg[15][0] : TRUM_C(0.0);
+  a10 = a8 * a9;
+  a7 = a7 - a10;
+  a10 = a4 * a7;
+  a2 = a2 + a10;
+  a10 = (arg[5] != NULL) ? arg[5][0] : TRUM_C(0.0);
+  a11 = (arg[7] != NULL) ? arg[7][0] : TRUM_C(0.0);
+  a12 = a10 * a11;
+  a2 = a2 - a12;
+  a12 = a2 * a2;
+  a13 = (arg[10] != NULL) ? arg[10][0] : TRUM_C(0.0);
+  a14 = a0 * a13;
+  a15 = (arg[9] != NULL) ? arg[9][0] : TRUM_C(0.0);
+  a16 = a10 * a15;
+  a14 = a14 - a16;
+  a16 = (arg[12] != NULL) ? arg[12][0] : TRUM_C(0.0);
+  a3 = a3 * a16;
+  a16 = (arg[17] != NULL) ? arg[17][0] : TRUM_C(0.0);
+  a17 = a3 * a16;
+  a18 = a8 * a6;
+  a19 = a5 * a9;
+  a18 = a18 + a19;
+  a19 = a17 * a18;
+  a14 = a14 - a19;
+  a19 = a14 * a14;
+  a12 = a12 + a19;
+  a12 = trum_sqrt(a12);
+  if (res[0] != NULL) {
+    res[0][0] = a12;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_wave_name_in(casadi_int i) {
-  switch (i) {
-    case 0: return "D";
-    case 1: return "Delta_omega";
-    case 2: return "W";
-    case 3: return "d_im";
-    case 4: return "d_re";
-    case 5: return "e_im";
-    case 6: return "e_re";
-    case 7: return "f_A_im";
-    case 8: return "f_A_re";
-    case 9: return "f_B_im";
-    case 10: return "f_B_re";
-    case 11: return "g_A";
-    case 12: return "g_B";
-    case 13: return "k_c";
-    case 14: return "omega_n";
-    case 15: return "p_im";
-    case 16: return "p_re";
-    case 17: return "s";
-    case 18: return "xi";
-    default: return 0;
+  a12 = (arg[0] != NULL) ? arg[0][0] : TRUM_C(0.0);
+  a19 = (arg[13] != NULL) ? arg[13][0] : TRUM_C(0.0);
+  a12 = a12 * a19;
+  a19 = (arg[14] != NULL) ? arg[14][0] : TRUM_C(0.0);
+  a20 = (arg[18] != NULL) ? arg[18][0] : TRUM_C(0.0);
+  a21 = a19 * a20;
+  a5 = a5 + a0;
+  a22 = a6 * a5;
+  a8 = a8 + a10;
+  a23 = a9 * a8;
+  a22 = a22 - a23;
+  a23 = a21 * a22;
+  a9 = a9 * a5;
+  a6 = a6 * a8;
+  a9 = a9 + a6;
+  a6 = TRUM_C(1.0);
+  a8 = a20 * a20;
+  a6 = a6 - a8;
+  a6 = trum_sqrt(a6);
+  a6 = a19 * a6;
+  a8 = (arg[1] != NULL) ? arg[1][0] : TRUM_C(0.0);
+  a8 = a6 - a8;
+  a8 = a8 - a19;
+  a5 = a9 * a8;
+  a23 = a23 + a5;
+  a23 = a4 * a23;
+  a5 = a21 * a2;
+  a23 = a23 - a5;
+  a1 = a10 * a1;
+  a11 = a0 * a11;
+  a1 = a1 + a11;
+  a4 = a4 * a18;
+  a1 = a1 + a4;
+  a1 = a6 * a1;
+  a23 = a23 - a1;
+  a1 = a23 * a23;
+  a22 = a16 * a22;
+  a22 = a22 * a8;
+  a19 = a19 * a16;
+  a19 = a19 * a20;
+  a19 = a19 * a9;
+  a22 = a22 - a19;
+  a3 = a3 * a22;
+  a21 = a21 * a14;
+  a3 = a3 - a21;
+  a10 = a10 * a13;
+  a0 = a0 * a15;
+  a10 = a10 + a0;
+  a17 = a17 * a7;
+  a10 = a10 + a17;
+  a6 = a6 * a10;
+  a3 = a3 - a6;
+  a6 = a3 * a3;
+  a1 = a1 + a6;
+  a1 = trum_sqrt(a1);
+  a12 = a12 * a1;
+  if (res[1] != NULL) {
+    res[1][0] = a12;
   }
-}
-
-CASADI_SYMBOL_EXPORT const char* trum_wave_name_out(casadi_int i) {
-  switch (i) {
-    case 0: return "W_c";
-    case 1: return "R_v";
-    case 2: return "phi";
-    case 3: return "cos_phi";
-    case 4: return "sin_phi";
-    default: return 0;
+  a12 = a2 * a23;
+  a1 = a14 * a3;
+  a12 = a12 + a1;
+  a1 = -a12;
+  a14 = a14 * a23;
+  a2 = a2 * a3;
+  a14 = a14 - a2;
+  a1 = trum_atan2(a1, a14);
+  if (res[2] != NULL) {
+    res[2][0] = a1;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_wave_sparsity_in(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    case 4: return casadi_s0;
-    case 5: return casadi_s0;
-    case 6: return casadi_s0;
-    case 7: return casadi_s0;
-    case 8: return casadi_s0;
-    case 9: return casadi_s0;
-    case 10: return casadi_s0;
-    case 11: return casadi_s0;
-    case 12: return casadi_s0;
-    case 13: return casadi_s0;
-    case 14: return casadi_s0;
-    case 15: return casadi_s0;
-    case 16: return casadi_s0;
-    case 17: return casadi_s0;
-    case 18: return casadi_s0;
-    default: return 0;
+  a1 = TRUM_C(1e-37);
+  a2 = a12 * a12;
+  a3 = a14 * a14;
+  a2 = a2 + a3;
+  a2 = trum_sqrt(a2);
+  a1 = a1 + a2;
+  a14 = a14 / a1;
+  if (res[3] != NULL) {
+    res[3][0] = a14;
   }
-}
-
-CASADI_SYMBOL_EXPORT const casadi_int* trum_wave_sparsity_out(casadi_int i) {
-  switch (i) {
-    case 0: return casadi_s0;
-    case 1: return casadi_s0;
-    case 2: return casadi_s0;
-    case 3: return casadi_s0;
-    case 4: return casadi_s0;
-    default: return 0;
+  a12 = a12 / a1;
+  a12 = -a12;
+  if (res[4] != NULL) {
+    res[4][0] = a12;
   }
-}
-
-CASADI_SYMBOL_EXPORT int trum_wave_work(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 19;
-  if (sz_res) *sz_res = 5;
-  if (sz_iw) *sz_iw = 0;
-  if (sz_w) *sz_w = 0;
-  return 0;
-}
-
-CASADI_SYMBOL_EXPORT int trum_wave_work_bytes(casadi_int *sz_arg, casadi_int* sz_res, casadi_int *sz_iw, casadi_int *sz_w) {
-  if (sz_arg) *sz_arg = 19*sizeof(const casadi_real*);
-  if (sz_res) *sz_res = 5*sizeof(casadi_real*);
-  if (sz_iw) *sz_iw = 0*sizeof(casadi_int);
-  if (sz_w) *sz_w = 0*sizeof(casadi_real);
   return 0;
 }

@@ -40,8 +40,7 @@ EXTENSION = {
 
 # warning, where, why it stays
 EXCEPTIONS = (
-    ("-Wmissing-prototypes", "generated/trum_*.c", "CasADi's functions beside each kernel, which nothing calls"),
-    ("-W*enum-float-conversion", "trum_sym/_driver/orbit/*.h", "flags are small whole numbers, kept as doubles"),
+    ("-W*enum-float-conversion", "trum_sym/_driver/orbit/*.h", "flags are small whole numbers, kept as numbers"),
 )
 _WARNING = re.compile(r"^([^\s:]+):(\d+):\d+: (?:warning|error): (.*?)(?: \[(-W[\w+-]+)\])?$", re.M)
 LIBRARY = '#define TRUM_IMPLEMENTATION\n#include "trum.h"\n#include "trum60.h"\n'

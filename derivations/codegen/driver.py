@@ -189,7 +189,7 @@ def called(call: Call, kernel: Kernel, structs: Sequence[Struct], prefix: str, n
         lines.append(f"  for (k = 0; k < {kernel.name}_n_res; ++k) res[k] = &results[k];")
     else:
         lines += _wrapped(f"{number}* res[{kernel.name}_n_res] = {{{', '.join(results)}}};")
-    return [*lines, f"  {function.format(kernel.name)}(arg, res, 0, 0, 0);", "}"]
+    return [*lines, f"  (void){function.format(kernel.name)}(arg, res, 0, 0, 0);", "}"]
 
 
 def _calls(
@@ -322,18 +322,18 @@ def orbit_fields() -> dict[str, list[dict[str, str]]]:
 
 def _fields() -> list[str]:
     lines = ["/* What goes into the orbit's driver and comes out, each list once. */", "#ifndef TRUM_ORBIT_FIELDS_H"]
-    lines += ["#define TRUM_ORBIT_FIELDS_H", "", "/* name, SI unit */"]
+    lines += ["#define TRUM_ORBIT_FIELDS_H", "", '#include "trum_math.h"', "", "/* name, SI unit */"]
     for name, (meaning, fields) in _LISTS.items():
         rows = " \\\n".join(f'  X({field.name}, "{field.unit}")' for field in fields)
         lines += [f"/* {meaning} */", f"#define {name}(X) \\", rows, ""]
     for name in _STRUCTS:
         meaning, fields = _LISTS[name]
-        members = [f"  double {field.name}; /* {field.unit}: {field.meaning} */" for field in fields]
+        members = [f"  trum_real {field.name}; /* {field.unit}: {field.meaning} */" for field in fields]
         lines += [f"/* {meaning} */", "typedef struct {", *members, f"}} {name.lower()};", ""]
     for prefix, name in (("OF", "TRUM_SLOPE_FIGURES"), ("BY", "TRUM_SLOPE_PARAMETERS")):
         names = [f"  TRUM_{prefix}_{field.name},".upper() for field in _LISTS[name][1]]
         lines += [f"/* {_LISTS[name][0]} */", "enum {", *names, f"  {name}_COUNT", "};", ""]
-    slopes = "double of[TRUM_SLOPE_FIGURES_COUNT][TRUM_SLOPE_PARAMETERS_COUNT];"
+    slopes = "trum_real of[TRUM_SLOPE_FIGURES_COUNT][TRUM_SLOPE_PARAMETERS_COUNT];"
     lines += ["typedef struct {", f"  {slopes}", "} trum_slopes_out;"]
     bits = ", ".join(f"trum_{name} = {1 << bit}" for bit, name in enumerate(_FLAGS))
     lines += ["", "/* bits of an orbit's flags, and their names */", f"enum {{ {bits} }};"]

@@ -6,7 +6,6 @@ import difflib
 import hashlib
 import json
 import os
-import re
 from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
@@ -92,10 +91,26 @@ def operations(function: ca.Function) -> dict[str, int]:
     return dict(sorted(kept.items(), key=lambda item: (-item[1], item[0])))
 
 
+# What an operation is in C, by the names of trum_math.h
+_FUNCTIONS = ("sqrt", "sin", "cos", "exp", "expm1", "sinh", "cosh", "atan", "fabs")
+_FUNCTIONS_OF_TWO = ("atan2", "fmin", "fmax", "pow")
+_FORMS = {
+    "add": "{} + {}",
+    "sub": "{} - {}",
+    "mul": "{} * {}",
+    "div": "{} / {}",
+    "neg": "-{}",
+    "inv": "TRUM_C(1.0) / {}",
+    "sq": "{0} * {0}",
+    "twice": "TRUM_C(2.0) * {}",
+    "lt": "TRUM_LESS({}, {})",
+    **{name: f"trum_{name}({{}})" for name in _FUNCTIONS},
+    **{name: f"trum_{name}({{}}, {{}})" for name in _FUNCTIONS_OF_TWO},
+}
+_SIGNATURE = "const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem"
+
+
 def _c_file(kernel: Kernel, function: ca.Function) -> str:
-    generator = ca.CodeGenerator(f"{kernel.name}.c", {"with_header": False})
-    generator.add(function)
-    code = _quiet(generator.dump())
     counts = operations(function)
     lines = [
         _NOTE,
@@ -107,19 +122,42 @@ def _c_file(kernel: Kernel, function: ca.Function) -> str:
         "",
         f"{sum(counts.values())} operations: " + ", ".join(f"{count} {name}" for name, count in counts.items()),
     ]
-    header = "/* " + "\n".join(f" * {line}".rstrip() for line in lines)[3:] + "\n */\n"
-    return header + code.rstrip() + "\n"
+    header = "/* " + "\n".join(f" * {line}".rstrip() for line in lines)[3:] + "\n */"
+    body = "\n".join(f"  {line}" for line in statements(function))
+    includes = '#include <stddef.h>\n\n#include "trum_kernels.h"'
+    return f"{header}\n{includes}\n\nint {kernel.name}({_SIGNATURE})\n{{\n{body}\n  return 0;\n}}\n"
 
 
-def _quiet(code: str) -> str:
-    """CasADi's text without its two kinds of warnings.
+def statements(function: ca.Function) -> list[str]:
+    """CasADi's instructions on its working variables, in its order.
 
-    Parameters that its signature has and the kernel needs not are cast to void; a number in an expression takes
-    the type of its surroundings, so that the same text is single precision throughout with casadi_real = float.
+    Where compilers fuse a product into a sum, which of two products it is follows that order: another one is as right,
+    and has other last digits.
+
+    Raises
+    ------
+    NotImplementedError
+        For an operation that no kernel has needed so far.
     """
-    code = re.sub(r"(casadi_int\* iw, casadi_real\* w, int mem\) \{\n)", r"\1  (void)iw, (void)w, (void)mem;\n", code)
-    code = re.sub(r"(_release\(int mem\) \{\n)", r"\1  (void)mem;\n", code)
-    return re.sub(r"(?<=[=(/*+-])(-?\d+\.\d*(?:e[+-]\d+)?)(?=[;)/*+-])", r"(casadi_real)\1", code)
+    lines = ["(void)iw;", "(void)w;", "(void)mem;"]
+    used: set[int] = set()
+    for index in range(function.n_instructions()):
+        operation = _OPERATIONS[function.instruction_id(index)]
+        inputs, outputs = function.instruction_input(index), function.instruction_output(index)
+        if operation == "output":
+            lines += [f"if (res[{outputs[0]}] != NULL) {{", f"  res[{outputs[0]}][0] = a{inputs[0]};", "}"]
+            continue
+        if operation == "const":
+            value = f"TRUM_C({float(function.instruction_constant(index))!r})"
+        elif operation == "input":
+            value = f"(arg[{inputs[0]}] != NULL) ? arg[{inputs[0]}][0] : TRUM_C(0.0)"
+        elif operation in _FORMS:
+            value = _FORMS[operation].format(*(f"a{place}" for place in inputs))
+        else:
+            raise NotImplementedError(f"no C for CasADi's operation {operation}")
+        used |= set(outputs)
+        lines.append(f"a{outputs[0]} = {value};")
+    return [*(f"trum_real a{place};" for place in sorted(used)), *lines]
 
 
 def _source_hash(kernel: Kernel) -> str:
@@ -131,24 +169,18 @@ def _source_hash(kernel: Kernel) -> str:
 
 def _header() -> str:
     """Prototypes, the position of every argument and result by name, one list of all kernels, the gates."""
-    signature = "const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem"
     lines = [f"/* {_NOTE} */", "#ifndef TRUM_KERNELS_H", "#define TRUM_KERNELS_H", "", *EXACT_ARITHMETIC, ""]
-    lines += ["/* the numbers of kernels outside lanes: double, or casadi_real where the compiler is told one */"]
-    lines += [
-        "#ifdef casadi_real",
-        "typedef casadi_real trum_real;",
-        "#else",
-        "typedef double trum_real;",
-        "#endif",
-        "",
-    ]
+    lines += ['#include "trum_math.h"', ""]
+    hashes = "".join(f"{kernel.name} {_source_hash(kernel)}\n" for kernel in kernels())
+    lines += ["/* SHA-256 of the expressions that the kernels are written from */"]
+    lines += [f'#define TRUM_DERIVATIONS "{hashlib.sha256(hashes.encode()).hexdigest()}"', ""]
     lines += ["#ifdef __cplusplus", 'extern "C" {', "#endif", ""]
     rows = []
     for kernel in kernels():
         inputs = [symbol.name for symbol in kernel.inputs]
         outputs = list(kernel.results)
         lines.append(f"/* {kernel.title} */")
-        lines.append(f"int {kernel.name}({signature});")
+        lines.append(f"int {kernel.name}({_SIGNATURE});")
         lines.append(f"enum {{ {', '.join(f'{kernel.name}_in_{name}' for name in inputs)}, {kernel.name}_n_arg }};")
         lines.append(f"enum {{ {', '.join(f'{kernel.name}_out_{name}' for name in outputs)}, {kernel.name}_n_res }};")
         lines.append("")
@@ -182,14 +214,10 @@ LANE_KERNELS = (
 )
 
 
-def _lanes(files: dict[str, str]) -> str:
-    """Includes the C files as C++ over a lane class, and clears their macros after each."""
-    lines = [f"/* {_NOTE} */", "/* Include with casadi_real defined as a class of lanes. */"]
-    for name in LANE_KERNELS:
-        macros = re.findall(r"^ *#define (\w+)", files[f"{name}.c"], re.MULTILINE)
-        cleared = [macro for macro in dict.fromkeys(macros) if macro not in ("casadi_real", "casadi_int")]
-        lines += [f'#include "{name}.c"', *(f"#undef {macro}" for macro in cleared if macro != "CASADI_SYMBOL_EXPORT")]
-    return "\n".join([*lines, ""])
+def _lanes() -> str:
+    """Includes the C files as C++ over a lane class."""
+    lines = [f"/* {_NOTE} */", "/* Include with trum_real defined as a class of lanes, and TRUM_LESS for it. */"]
+    return "\n".join([*lines, *(f'#include "{name}.c"' for name in LANE_KERNELS), ""])
 
 
 def _quadrature() -> str:
@@ -202,8 +230,8 @@ def _quadrature() -> str:
             f"/* {_NOTE} */",
             "/* Gauss-Legendre quadrature on [-1, 1]. */",
             f"#define TRUM_GAUSS_POINTS {len(nodes)}",
-            "#define TRUM_GAUSS_NODES {" + ", ".join(str(node) for node in nodes) + "}",
-            "#define TRUM_GAUSS_WEIGHTS {" + ", ".join(str(weight) for weight in weights) + "}",
+            "#define TRUM_GAUSS_NODES {" + ", ".join(f"TRUM_C({node})" for node in nodes) + "}",
+            "#define TRUM_GAUSS_WEIGHTS {" + ", ".join(f"TRUM_C({weight})" for weight in weights) + "}",
             "",
         ]
     )
@@ -213,7 +241,7 @@ def _collocation() -> str:
     """The rule of the rotor's time steps, to 20 digits."""
 
     def row(values: Iterable[sp.Expr]) -> str:
-        return "{" + ", ".join(str(sp.N(value, 20)) for value in values) + "}"
+        return "{" + ", ".join(f"TRUM_C({sp.N(value, 20)})" for value in values) + "}"
 
     def table(matrix: sp.Matrix) -> str:
         return "{" + ", ".join(row(matrix.row(i)) for i in range(matrix.rows)) + "}"
@@ -299,7 +327,7 @@ def render() -> dict[str, str]:
     files["trum_kernels.h"] = _header()
     files.update(headers(kernels(), _NOTE))
     files.update(driver.headers(kernels(), _NOTE))
-    files["trum_lanes.h"] = _lanes(files)
+    files["trum_lanes.h"] = _lanes()
     files["trum_quadrature.h"] = _quadrature()
     files["trum_elementary.h"] = _elementary()
     files["trum_collocation.h"] = _collocation()

@@ -6,37 +6,14 @@ import math
 from collections.abc import Iterable
 
 from derivations.codegen.kernels import Kernel
+from trum_sym.c_library.numbers import CHOICES, DRIVE_SYMBOLS, motor_header
 from trum_sym.inputs.domain import Domain
-from trum_sym.inputs.drive import DRIVE_DOMAINS, LEAD, LOADS, STARTS, Drive
+from trum_sym.inputs.drive import DRIVE_DOMAINS, LEAD, Drive
 from trum_sym.inputs.motor import SPECS
 from trum_sym.inputs.motor_file import load_motor
-from trum_sym.model.levels import AMPLITUDES, COMPLIANCES, CONTACTS, FOUNDATIONS, RESONANCES, TANGENTIALS
 from trum_sym.quantities import ERRORS, QUANTITIES
 
 __all__ = ["headers"]
-
-_CHOICES = {
-    "start": STARTS,
-    "load": LOADS,
-    "contact": CONTACTS,
-    "resonance": RESONANCES,
-    "foundation": FOUNDATIONS,
-    "amplitude": AMPLITUDES,
-    "compliance": COMPLIANCES,
-    "tangential": TANGENTIALS,
-}
-# Fields of the drive by the symbols of the equations; the frequency difference becomes Delta_omega
-_DRIVE_SYMBOLS = {
-    "prepressure": "F_c",
-    "frequency_difference": "Delta_f",
-    "periods": "m",
-    "on_periods": "n",
-    "load_torque": "T_load",
-    "load_inertia": "J_load",
-    "load_radius": "r_s",
-    "switching_phase": "psi",
-    "phase_lead": "s",
-}
 
 
 def headers(kernels: Iterable[Kernel], note: str) -> dict[str, str]:
@@ -47,8 +24,8 @@ def headers(kernels: Iterable[Kernel], note: str) -> dict[str, str]:
 
 def _number(value: float) -> str:
     if math.isinf(value):
-        return "HUGE_VAL" if value > 0 else "-HUGE_VAL"
-    return repr(float(value))
+        return "TRUM_HUGE" if value > 0 else "-TRUM_HUGE"
+    return f"TRUM_C({float(value)!r})"
 
 
 def _field(name: str, symbol: str, unit: str, domain: Domain, required: bool) -> str:
@@ -64,9 +41,9 @@ def _listed(name: str, rows: Iterable[str]) -> list[str]:
 def _fields() -> list[str]:
     motor = [_field(name, spec.symbol, spec.unit, spec.domain, spec.required) for name, spec in SPECS.items()]
     domains = {**DRIVE_DOMAINS, "phase_lead": (LEAD, "1")}
-    drive = [_field(name, _DRIVE_SYMBOLS[name], unit, domain, True) for name, (domain, unit) in domains.items()]
+    drive = [_field(name, DRIVE_SYMBOLS[name], unit, domain, True) for name, (domain, unit) in domains.items()]
     outputs = [f'  X({name}, "{output.unit}")' for name, output in {**QUANTITIES, **ERRORS}.items()]
-    lines = ["#ifndef TRUM_FIELDS_H", "#define TRUM_FIELDS_H", ""]
+    lines = ["#ifndef TRUM_FIELDS_H", "#define TRUM_FIELDS_H", "", '#include "trum_math.h"', ""]
     lines += [
         "/* field, symbol, SI unit, lowest, highest, is the lowest excluded, the highest, must it be an integer,",
         " * must it be given: where not, 0 stands for a value that the model is to find */",
@@ -75,16 +52,21 @@ def _fields() -> list[str]:
         "/* figure, SI unit */",
         *_listed("TRUM_FIGURES", outputs),
         "/* choice, number of words, the words in the order of their numbers */",
-        *_listed("TRUM_CHOICES", (f'  X({n}, {len(words)}, "{" ".join(words)}")' for n, words in _CHOICES.items())),
+        *_listed("TRUM_CHOICES", (f'  X({n}, {len(words)}, "{" ".join(words)}")' for n, words in CHOICES.items())),
     ]
-    for name, words in _CHOICES.items():
+    for name, words in CHOICES.items():
         lines.append(f"enum {{ {', '.join(f'TRUM_{name}_{word}'.upper() for word in words)} }};")
+    lines += ["", "/* a drive's choice; one that a build has fixed, -DTRUM_FIXED_CONTACT=0 and so on, is a constant */"]
+    for name in CHOICES:
+        fixed = f"TRUM_FIXED_{name}".upper()
+        lines += [f"#ifdef {fixed}", f"#define TRUM_LEVEL_{name}(drive) ((void)(drive), {fixed})"]
+        lines += ["#else", f"#define TRUM_LEVEL_{name}(drive) ((drive)->{name})", "#endif"]
     return [*lines, "", "#endif"]
 
 
 def _values(kernels: tuple[Kernel, ...]) -> list[str]:
     """One position for every symbol, and every kernel called on a table of them."""
-    symbols = {spec.symbol for spec in SPECS.values()} | set(_DRIVE_SYMBOLS.values())
+    symbols = {spec.symbol for spec in SPECS.values()} | set(DRIVE_SYMBOLS.values())
     for kernel in kernels:
         symbols |= {symbol.name for symbol in kernel.inputs} | set(kernel.results)
     lines = ["#ifndef TRUM_VALUES_H", "#define TRUM_VALUES_H", '#include "trum_kernels.h"', ""]
@@ -98,7 +80,7 @@ def _values(kernels: tuple[Kernel, ...]) -> list[str]:
             f"static inline void trum_call_{kernel.name.removeprefix('trum_')}(trum_real* v) {{",
             f"  const trum_real* arg[{kernel.name}_n_arg] = {{{inputs}}};",
             f"  trum_real* res[{kernel.name}_n_res] = {{{outputs}}};",
-            f"  {kernel.name}(arg, res, 0, 0, 0);",
+            f"  (void){kernel.name}(arg, res, 0, 0, 0);",
             "}",
             "",
         ]
@@ -107,22 +89,4 @@ def _values(kernels: tuple[Kernel, ...]) -> list[str]:
 
 def _trum60() -> list[str]:
     """The motor that the package ships, and the paper's Table 3: the defaults of ``Drive``."""
-    motor, drive = load_motor("trum60"), Drive()
-    given = dict(motor.parameters())
-    lines = ["/* Include after trum.h. */", "#ifndef TRUM60_H", "#define TRUM60_H", ""]
-    lines += [f'#define TRUM60_NAME "{motor.name}"', "", "static const struct trum_motor trum60 = {"]
-    for name, spec in SPECS.items():
-        value = float(given[name].value) if name in given else 0.0
-        source = given[name].source if name in given else "not measured"
-        lines.append(f"  (trum_real){value!r}, /* {name}, {spec.unit}: {source} */")
-    lines += ["};", "", "/* the paper's Table 3 */", "static const struct trum_drive trum_table3 = {"]
-    for name in _DRIVE_SYMBOLS:
-        lines.append(f"  (trum_real){float(getattr(drive, name))!r}, /* {name} */")
-    lines += [f"  TRUM_{name}_{words[0]},".upper() for name, words in _CHOICES.items()]
-    return [
-        *lines,
-        "  (trum_real)(TRUM_FINEST_TOLERANCE > 1e-6 ? TRUM_FINEST_TOLERANCE : 1e-6), /* tolerance */",
-        "};",
-        "",
-        "#endif",
-    ]
+    return motor_header(load_motor("trum60"), Drive(), {}, ("TRUM60_H", "TRUM60_NAME", "trum60", "trum_table3"))

@@ -39,6 +39,7 @@ static int set(struct trum_motor* motor, struct trum_drive* drive, const char* t
   TRUM_DRIVE_FIELDS(DRIVE_NUMBER)
   TRUM_CHOICES(CHOICE)
   NUMBER(drive, tolerance)
+  if (!*end && NAMED(max_steps) && number >= -1 && number < 2147483647.0) return drive->max_steps = (int_least32_t)number, 1;
   return 0;
 }
 
@@ -64,9 +65,12 @@ int main(int count, char** arguments) {
     return 2;
   }
   status = trum_evaluate(&motor, &drive, &point);
-  if (point.field >= 0) fprintf(stderr, "trum: %s is outside its domain\n", trum_field_name(point.field));
+  if (point.field >= 0 && strcmp(trum_field_name(point.field), "tolerance") == 0)
+    fprintf(stderr, "trum: tolerance is outside its domain: this build keeps %g to %g\n", (double)TRUM_FINEST_TOLERANCE,
+            (double)TRUM_COARSEST_TOLERANCE);
+  else if (point.field >= 0) fprintf(stderr, "trum: %s is outside its domain\n", trum_field_name(point.field));
   else if (status != TRUM_OK) fprintf(stderr, "trum: %s\n", trum_status_text((int)status));
-  if (status != TRUM_OK && status != TRUM_RUNAWAY && status != TRUM_NOT_CONVERGED && status != TRUM_NO_BRUSH) return 2;
+  if (status != TRUM_OK && status != TRUM_RUNAWAY && status != TRUM_NOT_CONVERGED && status != TRUM_OUT_OF_STEPS && status != TRUM_NO_BRUSH) return 2;
 
   printf("{\n  \"motor\": \"%s\",\n", TRUM60_NAME);
 #define PRINT_WORD(name, count, words) if (strcmp(#name, "start") == 0 || strcmp(#name, "contact") == 0) \

@@ -1,13 +1,11 @@
 /* The operating point of a travelling-wave motor: generated/ and this header are a C99 library (and C++).
  *
  * Define TRUM_IMPLEMENTATION before including it in exactly one C file, and compile generated/trum_*.c beside that.
- * No allocation, no globals, re-entrant.  SI units; trum_real is double, or float with -Dcasadi_real=float
- * -include tgmath.h for all files.  docs/c-library.md says more. */
+ * No allocation, no globals, re-entrant.  SI units; trum_real is double, or float with -DTRUM_REAL_BITS=32
+ * for all files.  docs/c-library.md says more. */
 #ifndef TRUM_H
 #define TRUM_H
 
-#include <float.h>
-#include <math.h>
 #include <string.h>
 
 #include "trum_fields.h"
@@ -26,17 +24,20 @@ struct trum_motor {
   TRUM_MOTOR_FIELDS(TRUM_NUMBER_FIELD)
 };
 
-/* TRUM_DRIVE_FIELDS and TRUM_CHOICES; the tolerance is of the bounds of errors, of speeds relative to the largest. */
+/* TRUM_DRIVE_FIELDS and TRUM_CHOICES; the tolerance is of the bounds of errors, of speeds relative to the largest, from
+ * TRUM_FINEST_TOLERANCE to TRUM_COARSEST_TOLERANCE. */
 struct trum_drive {
   TRUM_DRIVE_FIELDS(TRUM_NUMBER_FIELD)
   TRUM_CHOICES(TRUM_CHOICE_FIELD)
   trum_real tolerance;
+  int_least32_t max_steps; /* attempts at steps of the rotor's motion that a call may take; 0: 2^31 - 1 */
 };
 
 /* TRUM_FIGURES; without meaning: NaN, and infinite ratios where the determinant never turns back. */
 struct trum_point {
   TRUM_FIGURES(TRUM_FIGURE_FIELD)
   int converged;    /* do the bounds of the errors meet the tolerance? */
+  int_least32_t steps; /* attempts at steps of the rotor's motion that the call has taken */
   int full_contact; /* is the whole wave in contact at times? */
   int taut;         /* no string, or one that friction cannot make slack whatever it does? */
   int outside_fit;  /* is the prepressure outside those at which the amplitude was measured? */
@@ -55,20 +56,22 @@ enum trum_status {
   TRUM_NOT_SETTLED,   /* forced amplitude and resonance do not settle */
   TRUM_RUNAWAY,       /* no speed balances the load: speeds are NaN, the rest is right */
   TRUM_NOT_CONVERGED, /* speeds are the best found, and miss the tolerance */
+  TRUM_OUT_OF_STEPS,  /* max_steps are taken: speeds are the best found, or NaN; what needs no steps is right */
   TRUM_NO_BRUSH,      /* the whole wave touches a brush: speeds and stall torque are NaN, the rest is right */
   TRUM_STATUSES
 };
 
-/* The finest tolerance: what the steps of an orbit reach in the precision of trum_real. */
-#define TRUM_FINEST_TOLERANCE (sizeof(trum_real) < sizeof(double) ? 1e-3 : 1e-9)
-
 /* Every figure of the operating point; those that do not follow are NaN. */
 enum trum_status trum_evaluate(const struct trum_motor* motor, const struct trum_drive* drive, struct trum_point* point);
 
-/* The same, with the rotor's speed (rad/s) and its angle since t1 (rad) at count equal times of a cycle, the last at
+/* The same without the orbit, which takes most of the time and of the code: speeds, stall torque and contact are NaN. */
+enum trum_status trum_evaluate_determinants(const struct trum_motor* motor, const struct trum_drive* drive,
+                                            struct trum_point* point);
+
+/* As trum_evaluate, with the rotor's speed (rad/s) and its angle since t1 (rad) at count equal times of a cycle, the last at
  * its end; both are NaN unless the status is TRUM_OK. */
 enum trum_status trum_simulate(const struct trum_motor* motor, const struct trum_drive* drive, struct trum_point* point,
-                               double* speed, double* angle, long count);
+                               trum_real* speed, trum_real* angle, long count);
 
 /* The name of a field by its number in point->field: the motor's, then the drive's; 0 if it is none. */
 const char* trum_field_name(int field);

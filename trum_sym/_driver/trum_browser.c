@@ -77,6 +77,7 @@ static void browser_take(struct trum_motor* motor, struct trum_drive* drive) {
 #undef TRUM_TAKE_DRIVE
 #undef TRUM_TAKE_CHOICE
   drive->tolerance = (trum_real)settings[trum_drive_tolerance];
+  drive->max_steps = 0;
 }
 
 /* Wave height and contact half-angle where the phases are in c: the wave's kernel takes them as free motions, which
@@ -99,7 +100,7 @@ static void browser_touch(const trum_orbit_in* in, const trum_cycle* c, trum_rea
     trum_call_contact_hertz(v);
   } else {
     trum_call_filling(v);
-    v[trum_at_fullness_root] = cbrt(v[trum_at_fullness]);
+    v[trum_at_fullness_root] = trum_cbrt(v[trum_at_fullness]);
     trum_call_contact_winkler(v);
   }
 }
@@ -143,7 +144,7 @@ BROWSER_EXPORT(solve) int browser_solve(int count) {
   int i, k;
   if (count < 1 || count > BROWSER_MOST_SAMPLES) return -1;
   browser_take(&motor, &drive);
-  status = trum_solve_point(&motor, &drive, &point, &in, &out);
+  status = trum_solve_point(&motor, &drive, &point, &in, &out, 0);
   for (i = 0; i < BROWSER_HISTORY_COUNT; ++i)
     for (k = 0; k <= count; ++k) histories[i][k] = NAN;
 #define TRUM_STORE(name, unit) figures[browser_figure_##name] = point.name;
@@ -157,7 +158,7 @@ BROWSER_EXPORT(solve) int browser_solve(int count) {
     return status;
   browser_vibrate(&in, count);
   if (status == TRUM_RUNAWAY || status == TRUM_NO_BRUSH) return status;
-  trum_ride(&drive, &point, &in, &out, speed + 1, distance, count);
+  trum_ride(&drive, &point, &in, &out, speed + 1, distance, count, 0);
   for (i = 1; i <= count; ++i) speed[i] /= (double)motor.contact_radius;
   speed[0] = speed[count]; /* the orbit repeats itself */
   return status;

@@ -5,12 +5,10 @@
 #ifndef TRUM_BRUSH_H
 #define TRUM_BRUSH_H
 
-#include <math.h>
-
 #include "trum_kernels.h"
 #include "trum_plain_calls.h"
 
-#define TRUM_BRUSH_PI ((trum_real)3.14159265358979323846)
+#define TRUM_BRUSH_PI TRUM_C(3.14159265358979323846)
 
 /* Friction's limit less the stress of a bristle that sticks, in one sense of sliding or the other. */
 static inline trum_real trum_brush_gap(const trum_bristle* b, int sense, trum_real u) {
@@ -58,15 +56,15 @@ static inline trum_real trum_brush_friction(trum_real theta, trum_real grip, tru
   trum_passage p;
   trum_real sum = 0, all, end;
   int sense = 0, k;
-  if (!(theta > 0 && theta < TRUM_BRUSH_PI && grip > 0 && ratio - ratio == 0)) return (trum_real)NAN;
+  if (!(theta > 0 && theta < TRUM_BRUSH_PI && grip > 0 && ratio - ratio == 0)) return TRUM_NAN;
   b.theta = theta, b.grip = grip, b.ratio = ratio, b.u_0 = -theta, b.t_0 = 0;
   trum_plain_brush_passage(&b, &p, theta);
   all = p.slid;
   trum_plain_brush_turns(&b, &turns);
   if (!(turns.span > 0)) return -1;
   if (!(turns.span < TRUM_BRUSH_PI)) return 1;
-  if (cos(turns.delay + theta) > cos(turns.span)) sense = 1;
-  else if (cos(turns.delay - theta) < cos(turns.span)) sense = -1;
+  if (trum_cos(turns.delay + theta) > trum_cos(turns.span)) sense = 1;
+  else if (trum_cos(turns.delay - theta) < trum_cos(turns.span)) sense = -1;
   for (k = 0; k < 16 && b.u_0 < theta; ++k) {
     if (sense == 0) {
       end = trum_brush_slides(&b, &turns, &sense);
@@ -85,13 +83,13 @@ static inline trum_real trum_brush_friction(trum_real theta, trum_real grip, tru
 }
 
 /* The least speed over the surface's greatest from which on no bristle sticks. */
-static inline trum_real trum_brush_fastest(trum_real grip) { return (trum_real)sqrt(1 + 1 / (grip * grip)); }
+static inline trum_real trum_brush_fastest(trum_real grip) { return trum_sqrt(1 + 1 / (grip * grip)); }
 
 /* Speed of the rotor over the surface's greatest at which a brush carries a friction fraction between -1 and 1. */
 static inline trum_real trum_brush_speed(trum_real theta, trum_real grip, trum_real fraction) {
   const trum_real most = trum_brush_fastest(grip);
   trum_real low = -most, high = most;
-  if (!(fraction > -1 && fraction < 1) || !(trum_brush_friction(theta, grip, 0) <= 1)) return (trum_real)NAN;
+  if (!(fraction > -1 && fraction < 1) || !(trum_brush_friction(theta, grip, 0) <= 1)) return TRUM_NAN;
   for (;;) {
     const trum_real middle = low + (high - low) / 2;
     if (!(middle > low && middle < high)) return middle;
@@ -102,8 +100,8 @@ static inline trum_real trum_brush_speed(trum_real theta, trum_real grip, trum_r
 
 /* Bound of what rounding does to a friction fraction: the more the grip, the shorter the ways on which bristles stick. */
 static inline trum_real trum_brush_rounding(trum_real grip) {
-  const trum_real unit = sizeof(trum_real) < sizeof(double) ? (trum_real)1.2e-7 : (trum_real)2.2e-16;
-  return 500 * unit * (trum_real)sqrt(1 + grip);
+  const trum_real unit = TRUM_EITHER(2.2e-16, 1.2e-7);
+  return 500 * unit * trum_sqrt(1 + grip);
 }
 
 /* And to that speed: how far it moves where the fraction does by as much. */

@@ -2,8 +2,6 @@
 #ifndef TRUM_CHECK_H
 #define TRUM_CHECK_H
 
-#include <math.h>
-
 #include "trum_values.h"
 
 #ifdef __cplusplus
@@ -13,7 +11,7 @@ extern "C" {
 #define TRUM_FIELD_NAME(name, symbol, unit, low, high, low_open, high_open, integer, required) #name,
 #define TRUM_CHOICE_NAME(name, count, words) #name,
 static const char* const trum_field_names[] = {TRUM_MOTOR_FIELDS(TRUM_FIELD_NAME) TRUM_DRIVE_FIELDS(TRUM_FIELD_NAME)
-                                                   TRUM_CHOICES(TRUM_CHOICE_NAME) "tolerance"};
+                                                   TRUM_CHOICES(TRUM_CHOICE_NAME) "tolerance", "max_steps"};
 #undef TRUM_FIELD_NAME
 #undef TRUM_CHOICE_NAME
 
@@ -26,6 +24,7 @@ enum { TRUM_MOTOR_FIELDS(TRUM_FIELD_NUMBER) TRUM_MOTOR_COUNT };
 enum {
   trum_before_drive = TRUM_MOTOR_COUNT - 1,
   TRUM_DRIVE_FIELDS(TRUM_FIELD_NUMBER) TRUM_CHOICES(TRUM_CHOICE_NUMBER) trum_drive_tolerance,
+  trum_drive_max_steps,
   TRUM_FIELD_COUNT
 };
 #undef TRUM_FIELD_NUMBER
@@ -42,21 +41,22 @@ const char* trum_status_text(int status) {
       "forced amplitude and resonance do not settle",
       "no speed balances the load: it exceeds what friction can transmit",
       "the bounds of the errors miss the tolerance",
+      "the steps that were allowed are taken before the orbit was found",
       "the whole wave touches: no bristle of the layer leaves the contact"};
   return status < 0 || status >= TRUM_STATUSES ? 0 : texts[status];
 }
 
-static inline int trum_inside(double x, double low, double high, int low_open, int high_open, int integer) {
-  if (!(x - x == 0.0)) return 0; /* NaN or infinite */
+static inline int trum_inside(trum_real x, trum_real low, trum_real high, int low_open, int high_open, int integer) {
+  if (!(x - x == 0)) return 0; /* NaN or infinite */
   if (low_open ? x <= low : x < low) return 0;
   if (high_open ? x >= high : x > high) return 0;
-  return !integer || floor(x) == x;
+  return !integer || trum_floor(x) == x;
 }
 
 /* A level that does not go with another, the motor or the drive; -1 if all is well. */
 static inline int trum_unlike_levels(const struct trum_motor* motor, const struct trum_drive* drive) {
-  const int hertz = drive->contact == TRUM_CONTACT_HERTZ;
-  if (drive->compliance == TRUM_COMPLIANCE_FLANGE) {
+  const int hertz = TRUM_LEVEL_contact(drive) == TRUM_CONTACT_HERTZ;
+  if (TRUM_LEVEL_compliance(drive) == TRUM_COMPLIANCE_FLANGE) {
     if (hertz) return trum_drive_compliance;
     if (!(motor->contact_stiffness > 0)) {
       if (!(motor->flange_thickness > 0)) return trum_motor_flange_thickness;
@@ -65,8 +65,8 @@ static inline int trum_unlike_levels(const struct trum_motor* motor, const struc
       if (!(motor->flange_poisson_ratio > 0)) return trum_motor_flange_poisson_ratio;
     }
   }
-  if (drive->tangential == TRUM_TANGENTIAL_BRUSH) {
-    if (hertz || drive->start == TRUM_START_REST) return trum_drive_tangential;
+  if (TRUM_LEVEL_tangential(drive) == TRUM_TANGENTIAL_BRUSH) {
+    if (hertz || TRUM_LEVEL_start(drive) == TRUM_START_REST) return trum_drive_tangential;
     if (drive->on_periods < drive->periods) return trum_drive_tangential;
     if (!(motor->friction_coefficient > 0)) return trum_motor_friction_coefficient;
   }
@@ -77,7 +77,7 @@ static inline int trum_unlike_levels(const struct trum_motor* motor, const struc
 static inline int trum_wrong_field(const struct trum_motor* motor, const struct trum_drive* drive) {
   int field = 0;
 #define TRUM_CHECK(of, x, low, high, low_open, high_open, integer, required)                                      \
-  if ((required || (double)of->x != 0.0) && !trum_inside((double)of->x, low, high, low_open, high_open, integer)) \
+  if ((required || of->x != 0) && !trum_inside(of->x, low, high, low_open, high_open, integer)) \
     return field;                                                                                                 \
   ++field;
 #define TRUM_CHECK_MOTOR(name, symbol, unit, low, high, low_open, high_open, integer, required) \
@@ -85,7 +85,7 @@ static inline int trum_wrong_field(const struct trum_motor* motor, const struct 
 #define TRUM_CHECK_DRIVE(name, symbol, unit, low, high, low_open, high_open, integer, required) \
   TRUM_CHECK(drive, name, low, high, low_open, high_open, integer, required)
 #define TRUM_CHECK_CHOICE(name, count, words)                 \
-  if (drive->name < 0 || drive->name >= (count)) return field; \
+  if (drive->name < 0 || drive->name >= (count) || drive->name != TRUM_LEVEL_##name(drive)) return field; \
   ++field;
   TRUM_MOTOR_FIELDS(TRUM_CHECK_MOTOR)
   TRUM_DRIVE_FIELDS(TRUM_CHECK_DRIVE)
@@ -94,15 +94,17 @@ static inline int trum_wrong_field(const struct trum_motor* motor, const struct 
 #undef TRUM_CHECK_MOTOR
 #undef TRUM_CHECK_DRIVE
 #undef TRUM_CHECK_CHOICE
-  if (!trum_inside((double)drive->tolerance, TRUM_FINEST_TOLERANCE * (1.0 - 1e-7), 1e-2 * (1.0 + 1e-7), 0, 0, 0))
+  if (!trum_inside(drive->tolerance, TRUM_FINEST_TOLERANCE * (1 - TRUM_C(1e-7)),
+                   TRUM_COARSEST_TOLERANCE * (1 + TRUM_C(1e-7)), 0, 0, 0))
     return field;
+  if (drive->max_steps < 0) return trum_drive_max_steps;
   if (motor->tooth_height >= motor->beam_thickness) return trum_motor_tooth_height;
   if (motor->flange_thickness >= motor->beam_thickness) return trum_motor_flange_thickness;
   if (motor->flange_length >= motor->radius) return trum_motor_flange_length;
   if (motor->fit_prepressure_min >= motor->fit_prepressure_max) return trum_motor_fit_prepressure_min;
   if (motor->tooth_count * motor->slot_width >= motor->perimeter) return trum_motor_slot_width;
   if (2 * drive->on_periods < drive->periods || drive->on_periods > drive->periods) return trum_drive_on_periods;
-  if ((drive->load == TRUM_LOAD_WEIGHT) != (drive->load_radius > 0)) return trum_drive_load_radius;
+  if ((TRUM_LEVEL_load(drive) == TRUM_LOAD_WEIGHT) != (drive->load_radius > 0)) return trum_drive_load_radius;
   if (!(drive->phase_lead * drive->phase_lead > 0)) return trum_drive_phase_lead;
   return trum_unlike_levels(motor, drive);
 }

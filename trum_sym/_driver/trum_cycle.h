@@ -5,8 +5,6 @@
 #ifndef TRUM_CYCLE_H
 #define TRUM_CYCLE_H
 
-#include <math.h>
-
 #include "trum_kernels.h"
 #include "trum_plain_calls.h"
 #include "trum_quadrature.h"
@@ -22,8 +20,8 @@ static inline trum_real trum_bracketed_root(trum_curve f, void* of, trum_real lo
   int i, rising;
   f(of, low, &value, &slope);
   rising = value < 0;
-  smallest = (trum_real)1e-16 * (high - low);
-  x = (trum_real)0.5 * (low + high), width_before = high - low;
+  smallest = TRUM_EITHER(1e-16, 6e-8) * (high - low);
+  x = TRUM_C(0.5) * (low + high), width_before = high - low;
   for (i = 0; i < 200; ++i) {
     trum_real width, next, change;
     int usable;
@@ -32,11 +30,11 @@ static inline trum_real trum_bracketed_root(trum_curve f, void* of, trum_real lo
     else high = x;
     width = high - low;
     next = x - value / slope;
-    usable = next > low && next < high && (i % 3 != 2 || width < (trum_real)0.5 * width_before);
+    usable = next > low && next < high && (i % 3 != 2 || width < TRUM_C(0.5) * width_before);
     if (i % 3 == 2) width_before = width;
-    if (!usable) next = (trum_real)0.5 * (low + high);
+    if (!usable) next = TRUM_C(0.5) * (low + high);
     change = next > x ? next - x : x - next;
-    if (width <= smallest || change <= (trum_real)2e-16 * next) return next;
+    if (width <= smallest || change <= TRUM_EITHER(2e-16, 1.2e-7) * next) return next;
     x = next;
   }
   return x;
@@ -50,7 +48,7 @@ static inline void trum_balance_at(void* of, trum_real theta, trum_real* value, 
 
 /* Half-angle in (0, pi] at which the Winkler layer carries the prepressure; pi: the whole wave is in contact. */
 static inline trum_real trum_half_angle(trum_real F_c, trum_real k_N, trum_real W, trum_real k_c, trum_real n_j) {
-  const trum_real pi = (trum_real)3.14159265358979323846;
+  const trum_real pi = TRUM_C(3.14159265358979323846);
   trum_balance b;
   trum_real residual, slope;
   b.F_c = F_c, b.k_N = k_N, b.W = W, b.k_c = k_c, b.n_j = n_j;
@@ -122,8 +120,8 @@ static inline void trum_add(trum_sums* sums, trum_real integral, trum_real squar
 /* Gauss-Legendre over [from, to], where Q keeps its sign, taken off what the panel has left. */
 static inline void trum_piece(trum_cycle* c, trum_sums* sums, trum_real from, trum_real to, trum_real* integral_left,
                               trum_real* square_left) {
-  static const double nodes[] = TRUM_GAUSS_NODES, weights[] = TRUM_GAUSS_WEIGHTS;
-  const trum_real half = (trum_real)0.5 * (to - from), middle = (trum_real)0.5 * (to + from);
+  static const trum_real nodes[] = TRUM_GAUSS_NODES, weights[] = TRUM_GAUSS_WEIGHTS;
+  const trum_real half = TRUM_C(0.5) * (to - from), middle = TRUM_C(0.5) * (to + from);
   trum_real integral = 0, square = 0;
   int i;
   for (i = 0; i < TRUM_GAUSS_POINTS; ++i) {
@@ -141,7 +139,7 @@ static inline trum_sample trum_extremum(trum_cycle* c, const trum_sample* p, con
   trum_sample here = *p;
   int i;
   for (i = 0; i < 40; ++i) {
-    here = trum_sample_at(c, (trum_real)0.5 * (low + high));
+    here = trum_sample_at(c, TRUM_C(0.5) * (low + high));
     if ((here.Q >= 0) != (p->Q >= 0)) break;
     if ((here.rate < 0) == (p->rate < 0)) low = here.tau;
     else high = here.tau;
@@ -165,8 +163,8 @@ static inline int trum_may_dip(const trum_sample* p, const trum_sample* q) {
  * every crossing, so that each piece is smooth and of one sign. */
 static inline void trum_panel(trum_cycle* c, trum_sums* sums, const trum_sample* left, const trum_sample* right,
                               trum_real from, trum_real to) {
-  static const double nodes[] = TRUM_GAUSS_NODES, weights[] = TRUM_GAUSS_WEIGHTS;
-  const trum_real half = (trum_real)0.5 * (to - from), middle = (trum_real)0.5 * (to + from);
+  static const trum_real nodes[] = TRUM_GAUSS_NODES, weights[] = TRUM_GAUSS_WEIGHTS;
+  const trum_real half = TRUM_C(0.5) * (to - from), middle = TRUM_C(0.5) * (to + from);
   trum_sample s[TRUM_GAUSS_POINTS + 2];
   trum_real integral = 0, square = 0, start = from;
   int i, k, count;
@@ -202,8 +200,8 @@ static inline void trum_panel(trum_cycle* c, trum_sums* sums, const trum_sample*
 static inline trum_real trum_panel_count(const trum_cycle* c, int region, trum_real panels_per_period) {
   const trum_real omega_n = c->constants.omega_n, driven = omega_n + c->constants.Delta_omega;
   const trum_real fastest = omega_n < driven ? driven : omega_n;
-  const trum_real turns = panels_per_period * c->duration[region] * fastest / (trum_real)6.283185307179586;
-  return (trum_real)ceil((double)turns - 1e-9);
+  const trum_real turns = panels_per_period * c->duration[region] * fastest / TRUM_C(6.283185307179586);
+  return trum_ceil(turns - TRUM_EITHER(1e-9, 1e-4));
 }
 
 /* The sums of a cycle whose constants and motion before t1 are set, on so many panels in a period. */

@@ -18,21 +18,21 @@ static inline int trum_is_size(trum_real x) { return x - x == 0 && x > 0; }
 static inline void trum_resonate(const struct trum_motor* motor, const struct trum_drive* drive, trum_real* v) {
   static const int foundations[] = {trum_at_harmonic, trum_at_smeared, trum_at_printed};
   static const int resonances[] = {trum_at_quartic, trum_at_eq6, trum_at_printed, trum_at_euler};
-  const trum_real pi = (trum_real)3.14159265358979323846;
+  const trum_real pi = TRUM_C(3.14159265358979323846);
   v[trum_at_k_f] = 0;
-  if (drive->foundation != TRUM_FOUNDATION_NONE) {
-    if (drive->contact == TRUM_CONTACT_WINKLER) {
+  if (TRUM_LEVEL_foundation(drive) != TRUM_FOUNDATION_NONE) {
+    if (TRUM_LEVEL_contact(drive) == TRUM_CONTACT_WINKLER) {
       v[trum_at_theta] = trum_half_angle(v[trum_at_F_c], v[trum_at_k_N], v[trum_at_W], v[trum_at_k_c], v[trum_at_n_j]);
     } else {
       trum_call_hertz_half_angle(v);
       if (v[trum_at_theta] > pi) v[trum_at_theta] = pi;
     }
     trum_call_foundation(v);
-    v[trum_at_k_f] = v[foundations[drive->foundation]];
+    v[trum_at_k_f] = v[foundations[TRUM_LEVEL_foundation(drive)]];
   }
   v[trum_at_k_dx] = v[trum_at_k_f]; /* "printed" takes the number as it stands */
   trum_call_resonance(v);
-  v[trum_at_omega_n] = v[resonances[drive->resonance]];
+  v[trum_at_omega_n] = v[resonances[TRUM_LEVEL_resonance(drive)]];
   if (motor->resonance_frequency > 0) v[trum_at_omega_n] = 2 * pi * motor->resonance_frequency;
   v[trum_at_omega_q] = v[trum_at_omega_n] + v[trum_at_Delta_omega];
 }
@@ -40,7 +40,7 @@ static inline void trum_resonate(const struct trum_motor* motor, const struct tr
 /* Let k_N be the stiffness of the whole contact, as measured or in series; 0 if it has no size. */
 static inline int trum_contact_of(const struct trum_motor* motor, const struct trum_drive* drive, trum_real* v) {
   if (!(motor->contact_stiffness > 0)) {
-    if (drive->compliance != TRUM_COMPLIANCE_FLANGE) return 1;
+    if (TRUM_LEVEL_compliance(drive) != TRUM_COMPLIANCE_FLANGE) return 1;
     trum_call_contact_stiffness(v);
   }
   v[trum_at_k_N] = v[trum_at_k_con];
@@ -52,7 +52,7 @@ static inline enum trum_status trum_stator(const struct trum_motor* motor, const
                                            struct trum_point* point, trum_real* v) {
   const int modelled = !(motor->amplitude > 0);
   /* two amplitudes in turn that differ in the last digits only have settled */
-  const double settled = sizeof(trum_real) < sizeof(double) ? 4.0 * (double)FLT_EPSILON : 1e-13;
+  const trum_real settled = TRUM_EITHER(1e-13, 4 * FLT_EPSILON);
   int i;
   if (!(motor->neutral_axis > 0)) trum_call_neutral_axis(v);
   if (!(motor->wavenumber > 0)) trum_call_wavenumber(v);
@@ -67,14 +67,14 @@ static inline enum trum_status trum_stator(const struct trum_motor* motor, const
     trum_real before = v[trum_at_W], change;
     trum_resonate(motor, drive, v);
     if (!trum_is_size(v[trum_at_omega_n])) return TRUM_NO_SIZE;
-    if (!(v[trum_at_omega_q] >= (trum_real)0.1 * v[trum_at_omega_n])) {
+    if (!(v[trum_at_omega_q] >= TRUM_C(0.1) * v[trum_at_omega_n])) {
       point->field = trum_drive_frequency_difference;
       return TRUM_BAD_INPUT;
     }
-    if (!modelled || drive->amplitude == TRUM_AMPLITUDE_MEASURED) break;
+    if (!modelled || TRUM_LEVEL_amplitude(drive) == TRUM_AMPLITUDE_MEASURED) break;
     trum_call_amplitude_forced(v);
     change = v[trum_at_W] > before ? v[trum_at_W] - before : before - v[trum_at_W];
-    if ((double)change <= settled * (double)v[trum_at_W]) {
+    if (change <= settled * v[trum_at_W]) {
       v[trum_at_W] = before; /* that of the resonance */
       break;
     }
@@ -88,10 +88,10 @@ static inline enum trum_status trum_stator(const struct trum_motor* motor, const
 static inline enum trum_status trum_begin_cycle(const struct trum_drive* drive, trum_real* v) {
   v[trum_at_W] = 1;
   v[trum_at_a_A] = v[trum_at_b_A] = v[trum_at_a_B] = v[trum_at_b_B] = 0;
-  if (drive->start == TRUM_START_REST) trum_call_start_rest(v);
-  if (drive->start == TRUM_START_PERIODIC) {
+  if (TRUM_LEVEL_start(drive) == TRUM_START_REST) trum_call_start_rest(v);
+  if (TRUM_LEVEL_start(drive) == TRUM_START_PERIODIC) {
     trum_call_start_periodic(v);
-    if (v[trum_at_repetition] < (trum_real)1e-9) return TRUM_UNDAMPED;
+    if (v[trum_at_repetition] < TRUM_EITHER(1e-9, 1e-6)) return TRUM_UNDAMPED;
   }
   return TRUM_OK;
 }
@@ -113,26 +113,26 @@ static inline void trum_determinants(trum_real* v) {
 }
 
 static inline void trum_orbit_of(const struct trum_drive* drive, trum_real* v, trum_orbit_in* in) {
-  const int hertz = drive->contact == TRUM_CONTACT_HERTZ;
-  const double W = (double)v[trum_at_W];
+  const int hertz = TRUM_LEVEL_contact(drive) == TRUM_CONTACT_HERTZ;
+  const trum_real W = v[trum_at_W];
   trum_call_rotor_coefficients(v);
   memset(in, 0, sizeof *in);
-  in->omega_n = (double)v[trum_at_omega_n], in->Delta_omega = (double)v[trum_at_Delta_omega];
-  in->xi = (double)v[trum_at_xi], in->psi = (double)v[trum_at_psi], in->s = (double)v[trum_at_s];
-  in->m = (double)v[trum_at_m], in->n = (double)v[trum_at_n], in->W = W;
-  in->a_A = (double)v[trum_at_a_A] * W, in->b_A = (double)v[trum_at_b_A] * W;
-  in->a_B = (double)v[trum_at_a_B] * W, in->b_B = (double)v[trum_at_b_B] * W;
-  in->D = (double)v[trum_at_D], in->k_c = (double)v[trum_at_k_c];
-  in->engagement_per_height = (double)v[trum_at_engagement_per_height];
-  in->W_full = (double)v[hertz ? trum_at_W_full_hertz : trum_at_W_full_winkler], in->hertz = hertz;
-  in->push = (double)v[trum_at_push], in->drag = (double)v[trum_at_drag];
-  in->tolerance = (double)drive->tolerance, in->held = 1.0;
+  in->omega_n = v[trum_at_omega_n], in->Delta_omega = v[trum_at_Delta_omega];
+  in->xi = v[trum_at_xi], in->psi = v[trum_at_psi], in->s = v[trum_at_s];
+  in->m = v[trum_at_m], in->n = v[trum_at_n], in->W = W;
+  in->a_A = v[trum_at_a_A] * W, in->b_A = v[trum_at_b_A] * W;
+  in->a_B = v[trum_at_a_B] * W, in->b_B = v[trum_at_b_B] * W;
+  in->D = v[trum_at_D], in->k_c = v[trum_at_k_c];
+  in->engagement_per_height = v[trum_at_engagement_per_height];
+  in->W_full = v[hertz ? trum_at_W_full_hertz : trum_at_W_full_winkler], in->hertz = (trum_real)hertz;
+  in->push = v[trum_at_push], in->drag = v[trum_at_drag];
+  in->tolerance = drive->tolerance, in->held = 1;
 }
 
 /* The steady speed over a brush: what trum_orbits finds of a rigid layer; theta pi leaves it NaN. */
 static inline void trum_brush_orbit(const struct trum_motor* motor, const struct trum_drive* drive, trum_real* v,
                                     trum_orbit_out* out) {
-  const double side = (double)drive->phase_lead;
+  const trum_real side = drive->phase_lead;
   trum_real ratio, error, most, wanted;
   memset(out, 0, sizeof *out);
   v[trum_at_theta] = trum_half_angle(v[trum_at_F_c], v[trum_at_k_N], v[trum_at_W], v[trum_at_k_c], v[trum_at_n_j]);
@@ -144,47 +144,47 @@ static inline void trum_brush_orbit(const struct trum_motor* motor, const struct
   wanted = drive->phase_lead * drive->load_torque / most;
   ratio = trum_brush_speed(v[trum_at_theta], v[trum_at_grip], wanted);
   error = trum_brush_speed_error(v[trum_at_theta], v[trum_at_grip], wanted, ratio);
-  out->mean = out->low = out->high = out->start = side * (double)(ratio * v[trum_at_R_v]);
-  out->mean_error = out->low_error = out->high_error = (double)(error * v[trum_at_R_v]);
-  out->contact = (double)v[trum_at_theta] / 3.14159265358979323846;
-  out->held = side * (double)trum_brush_friction(v[trum_at_theta], v[trum_at_grip], 0);
-  out->error = (double)error, out->contact_error = out->held_error = (double)trum_brush_rounding(v[trum_at_grip]);
+  out->mean = out->low = out->high = out->start = side * ratio * v[trum_at_R_v];
+  out->mean_error = out->low_error = out->high_error = error * v[trum_at_R_v];
+  out->contact = v[trum_at_theta] / TRUM_C(3.14159265358979323846);
+  out->held = side * trum_brush_friction(v[trum_at_theta], v[trum_at_grip], 0);
+  out->error = error, out->contact_error = out->held_error = trum_brush_rounding(v[trum_at_grip]);
   if (!(out->mean - out->mean == 0)) {
-    out->variance = out->deviation_error = (double)NAN;
+    out->variance = out->deviation_error = TRUM_NAN;
     if (out->contact < 1) out->flags = trum_runaway; /* else no bristle leaves the contact */
-  } else if ((double)error <= (double)drive->tolerance) {
+  } else if (error <= drive->tolerance) {
     out->flags = trum_converged;
   }
 }
 
-/* Speed and way of the rim at count equal times of a cycle, the last at its end. */
-static inline void trum_ride(const struct trum_drive* drive, const struct trum_point* point, const trum_orbit_in* in,
-                             const trum_orbit_out* out, double* speed, double* distance, long count) {
+/* Speed and way of the rim at count equal times of a cycle, the last at its end; 0 for want of attempts. */
+static inline int trum_ride(const struct trum_drive* drive, const struct trum_point* point, const trum_orbit_in* in,
+                             const trum_orbit_out* out, trum_real* speed, trum_real* distance, long count,
+                             int_least32_t* attempts) {
   long i;
-  if (drive->tangential != TRUM_TANGENTIAL_BRUSH) {
-    trum_history(in, out, speed, distance, count);
-    return;
-  }
+  if (TRUM_LEVEL_tangential(drive) != TRUM_TANGENTIAL_BRUSH)
+    return trum_history(in, out, speed, distance, count, attempts);
   for (i = 0; i < count; ++i) {
     speed[i] = out->mean;
-    distance[i] = out->mean * (double)point->cycle_time * (double)(i + 1) / (double)count;
+    distance[i] = out->mean * point->cycle_time * (trum_real)(i + 1) / (trum_real)count;
   }
+  return 1;
 }
 
-static inline enum trum_status trum_solve_point(const struct trum_motor* motor, const struct trum_drive* drive,
-                                                struct trum_point* point, trum_orbit_in* in, trum_orbit_out* out) {
-  const trum_real turn = (trum_real)6.283185307179586;
-  trum_real v[TRUM_VALUES], W;
-  double least;
+/* Everything but the orbit; the values of all symbols are left in v. */
+static inline enum trum_status trum_solve_determinants(const struct trum_motor* motor, const struct trum_drive* drive,
+                                                       struct trum_point* point, trum_real* v) {
+  const trum_real turn = TRUM_C(6.283185307179586);
+  trum_real W;
   enum trum_status status;
-  int flags;
-#define TRUM_UNKNOWN(name, unit) point->name = (trum_real)NAN;
+#define TRUM_UNKNOWN(name, unit) point->name = TRUM_NAN;
   TRUM_FIGURES(TRUM_UNKNOWN)
 #undef TRUM_UNKNOWN
   point->converged = point->full_contact = point->outside_fit = point->taut = 0;
+  point->steps = 0;
   point->field = trum_wrong_field(motor, drive);
   if (point->field >= 0) return TRUM_BAD_INPUT;
-  memset(v, 0, sizeof v);
+  memset(v, 0, TRUM_VALUES * sizeof *v);
 #define TRUM_LOAD_MOTOR(name, symbol, unit, low, high, low_open, high_open, integer, required) \
   v[trum_at_##symbol] = motor->name;
 #define TRUM_LOAD_DRIVE(name, symbol, unit, low, high, low_open, high_open, integer, required) \
@@ -211,54 +211,83 @@ static inline enum trum_status trum_solve_point(const struct trum_motor* motor, 
 
   v[trum_at_f] = -1; /* all friction lowers the weight */
   trum_call_string_tension(v);
-  point->taut = drive->load == TRUM_LOAD_TORQUE || v[trum_at_tension] >= 0;
+  point->taut = TRUM_LEVEL_load(drive) == TRUM_LOAD_TORQUE || v[trum_at_tension] >= 0;
   v[trum_at_W] = W;
+  return TRUM_OK;
+}
+
+static inline enum trum_status trum_solve_point(const struct trum_motor* motor, const struct trum_drive* drive,
+                                                struct trum_point* point, trum_orbit_in* in, trum_orbit_out* out,
+                                                int_least32_t* attempts) {
+  trum_real v[TRUM_VALUES], least;
+  const enum trum_status status = trum_solve_determinants(motor, drive, point, v);
+  int flags, done = 1;
+  if (status != TRUM_OK) return status;
   trum_orbit_of(drive, v, in);
-  if (drive->tangential == TRUM_TANGENTIAL_BRUSH) {
+  if (TRUM_LEVEL_tangential(drive) == TRUM_TANGENTIAL_BRUSH) {
     trum_brush_orbit(motor, drive, v, out);
   } else {
-    trum_orbits(in, out, 0, 0, 1);
+    done = trum_orbits(in, out, 0, 0, 1, attempts);
   }
   flags = (int)out->flags;
-  v[trum_at_f] = (trum_real)out->held;
+  v[trum_at_f] = out->held;
   trum_call_stall_torque(v);
-  point->stall_torque = v[trum_at_torque], point->contact_fraction = (trum_real)out->contact;
-  point->mean_speed = (trum_real)out->mean / motor->contact_radius;
-  point->min_speed = (trum_real)out->low / motor->contact_radius;
-  point->max_speed = (trum_real)out->high / motor->contact_radius;
-  point->speed_volatility = (trum_real)(sqrt(out->variance) / fabs(out->mean));
-  v[trum_at_f] = (trum_real)out->held_error;
+  point->stall_torque = v[trum_at_torque], point->contact_fraction = out->contact;
+  point->mean_speed = out->mean / motor->contact_radius;
+  point->min_speed = out->low / motor->contact_radius;
+  point->max_speed = out->high / motor->contact_radius;
+  point->speed_volatility = trum_sqrt(out->variance) / trum_fabs(out->mean);
+  v[trum_at_f] = out->held_error;
   trum_call_stall_torque(v);
   point->stall_torque_error = v[trum_at_torque];
-  point->mean_speed_error = (trum_real)out->mean_error / motor->contact_radius;
-  point->min_speed_error = (trum_real)out->low_error / motor->contact_radius;
-  point->max_speed_error = (trum_real)out->high_error / motor->contact_radius;
-  least = fabs(out->mean) - out->mean_error;
+  point->mean_speed_error = out->mean_error / motor->contact_radius;
+  point->min_speed_error = out->low_error / motor->contact_radius;
+  point->max_speed_error = out->high_error / motor->contact_radius;
+  least = trum_fabs(out->mean) - out->mean_error;
   point->speed_volatility_error = (trum_real)(
-      least <= 0 ? HUGE_VAL
-                 : (out->deviation_error + sqrt(out->variance) / fabs(out->mean) * out->mean_error) / least);
+      least <= 0 ? TRUM_HUGE
+                 : (out->deviation_error + trum_sqrt(out->variance) / trum_fabs(out->mean) * out->mean_error) / least);
   point->converged = (flags & trum_converged) > 0, point->full_contact = (flags & trum_full_contact) > 0;
-  if (drive->tangential == TRUM_TANGENTIAL_BRUSH && !(out->contact < 1)) return TRUM_NO_BRUSH;
+  if (TRUM_LEVEL_tangential(drive) == TRUM_TANGENTIAL_BRUSH && !(out->contact < 1)) return TRUM_NO_BRUSH;
+  if (!done) return TRUM_OUT_OF_STEPS;
   return flags & trum_runaway ? TRUM_RUNAWAY : point->converged ? TRUM_OK : TRUM_NOT_CONVERGED;
+}
+
+enum trum_status trum_evaluate_determinants(const struct trum_motor* motor, const struct trum_drive* drive,
+                                            struct trum_point* point) {
+  trum_real v[TRUM_VALUES];
+  return trum_solve_determinants(motor, drive, point, v);
+}
+
+static inline int_least32_t trum_allowed_steps(const struct trum_drive* drive) {
+  return drive->max_steps > 0 ? drive->max_steps : INT_LEAST32_MAX;
 }
 
 enum trum_status trum_evaluate(const struct trum_motor* motor, const struct trum_drive* drive,
                                struct trum_point* point) {
   trum_orbit_in in;
   trum_orbit_out out;
-  return trum_solve_point(motor, drive, point, &in, &out);
+  const int_least32_t allowed = trum_allowed_steps(drive);
+  int_least32_t attempts = allowed;
+  const enum trum_status status = trum_solve_point(motor, drive, point, &in, &out, &attempts);
+  point->steps = allowed - attempts;
+  return status;
 }
 
 enum trum_status trum_simulate(const struct trum_motor* motor, const struct trum_drive* drive, struct trum_point* point,
-                               double* speed, double* angle, long count) {
+                               trum_real* speed, trum_real* angle, long count) {
   trum_orbit_in in;
   trum_orbit_out out;
-  const enum trum_status status = trum_solve_point(motor, drive, point, &in, &out);
+  const int_least32_t allowed = trum_allowed_steps(drive);
+  int_least32_t attempts = allowed;
+  enum trum_status status = trum_solve_point(motor, drive, point, &in, &out, &attempts);
   long i;
-  if (status == TRUM_OK && count > 0) trum_ride(drive, point, &in, &out, speed, angle, count);
+  if (status == TRUM_OK && count > 0 && !trum_ride(drive, point, &in, &out, speed, angle, count, &attempts))
+    status = TRUM_OUT_OF_STEPS;
+  point->steps = allowed - attempts;
   for (i = 0; i < count; ++i) {
-    speed[i] = status == TRUM_OK ? speed[i] / (double)motor->contact_radius : (double)NAN;
-    angle[i] = status == TRUM_OK ? angle[i] / (double)motor->contact_radius : (double)NAN;
+    speed[i] = status == TRUM_OK ? speed[i] / motor->contact_radius : TRUM_NAN;
+    angle[i] = status == TRUM_OK ? angle[i] / motor->contact_radius : TRUM_NAN;
   }
   return status;
 }

@@ -6,10 +6,12 @@ from typing import Any
 
 import click
 
+from trum_sym.console.c_library import c_library
 from trum_sym.console.calibrate import calibrate
 from trum_sym.console.characteristics import characteristics
 from trum_sym.console.equations import equations
 from trum_sym.console.evaluate import evaluate
+from trum_sym.console.fmu import fmu
 from trum_sym.console.motor import motor
 from trum_sym.console.optimize import optimize
 from trum_sym.console.pareto import pareto
@@ -68,6 +70,8 @@ for _command in (
     robust,
     speed_table,
     calibrate,
+    c_library,
+    fmu,
     motor,
     equations,
     report,

@@ -53,6 +53,8 @@ def as_csv(about: Sequence[str], columns: Mapping[str, str], segments: Sequence[
 def as_c(name: str, about: Sequence[str], columns: Mapping[str, str], segments: Sequence[Rows]) -> str:
     """A header for C99 and C++ without dependencies: the entries, and a function that interpolates them.
 
+    Its numbers are double, or float where it is compiled with ``-DTRUM_REAL_BITS=32``, as the C library's are.
+
     Parameters
     ----------
     name : str
@@ -67,6 +69,10 @@ def as_c(name: str, about: Sequence[str], columns: Mapping[str, str], segments: 
     speeds = [value for segment in segments for value in segment.speed]
     rows = [row for segment in segments for row in zip(*segment.values, strict=True)]
     comment = "\n".join(f" * {as_comment(line)}" for line in about)
+
+    def number(value: float) -> str:
+        return f"{upper}_C({float(value)!r})"
+
     places = (f"#define {upper}_{column.upper()} {k} /* {unit} */" for k, (column, unit) in enumerate(columns.items()))
     return _C_TEXT.format(
         about=comment,
@@ -78,8 +84,8 @@ def as_c(name: str, about: Sequence[str], columns: Mapping[str, str], segments: 
         segments=len(segments),
         entries=len(speeds),
         begins=", ".join(str(int(begin)) for begin in begins),
-        speeds=",\n    ".join(repr(float(speed)) for speed in speeds),
-        rows=",\n    ".join("{" + ", ".join(repr(float(value)) for value in row) + "}" for row in rows),
+        speeds=",\n    ".join(number(speed) for speed in speeds),
+        rows=",\n    ".join("{" + ", ".join(number(value) for value in row) + "}" for row in rows),
     )
 
 
@@ -90,7 +96,24 @@ _C_TEXT = """\
 #ifndef {upper}_H
 #define {upper}_H
 
+#include <float.h>
+#include <limits.h>
+
 {exact}
+
+/* The table's numbers: double, or float with -DTRUM_REAL_BITS=32. */
+#ifndef TRUM_REAL_BITS
+#define TRUM_REAL_BITS 64
+#endif
+#if TRUM_REAL_BITS == 32 && FLT_MANT_DIG == 24
+typedef float {name}_real;
+#elif TRUM_REAL_BITS == 64 && DBL_MANT_DIG == 53
+typedef double {name}_real;
+#else
+#error "trum: TRUM_REAL_BITS is 64 or 32, and double or float has to have as many bits"
+#endif
+typedef char {name}_real_has_other_bits[sizeof({name}_real) * CHAR_BIT == TRUM_REAL_BITS ? 1 : -1];
+#define {upper}_C(x) (({name}_real)(x))
 
 {places}
 #define {upper}_COLUMNS {columns}
@@ -99,24 +122,24 @@ _C_TEXT = """\
 
 /* The drive for a mean speed in rad/s, between entries on the line through them.
  * Returns 1, or 0 for a speed that lies in a gap or beyond the table; then drive stays as it is. */
-static inline int {name}_drive(double speed, double drive[{upper}_COLUMNS])
+static inline int {name}_drive({name}_real speed, {name}_real drive[{upper}_COLUMNS])
 {{
-  static const double speeds[{upper}_ENTRIES] = {{
+  static const {name}_real speeds[{upper}_ENTRIES] = {{
     {speeds}}};
-  static const double entries[{upper}_ENTRIES][{upper}_COLUMNS] = {{
+  static const {name}_real entries[{upper}_ENTRIES][{upper}_COLUMNS] = {{
     {rows}}};
   static const int begins[{upper}_SEGMENTS + 1] = {{{begins}}};
   int segment, column;
   for (segment = 0; segment < {upper}_SEGMENTS; ++segment) {{
     int low = begins[segment], high = begins[segment + 1] - 1;
-    double share;
+    {name}_real share;
     if (!(speed >= speeds[low] && speed <= speeds[high])) continue;
     while (high - low > 1) {{
       const int middle = low + (high - low) / 2;
       if (speed < speeds[middle]) high = middle;
       else low = middle;
     }}
-    share = high > low ? (speed - speeds[low]) / (speeds[high] - speeds[low]) : 0.0;
+    share = high > low ? (speed - speeds[low]) / (speeds[high] - speeds[low]) : {upper}_C(0.0);
     for (column = 0; column < {upper}_COLUMNS; ++column)
       drive[column] = entries[low][column] + share * (entries[high][column] - entries[low][column]);
     return 1;

@@ -9,7 +9,7 @@
  * sources come from trum_sensitivity_source.  Adds to the lap's sums where the step is accepted. */
 static void trum_accept_sensitivities(trum_lanes* lanes, const trum_trial_step* trial, const real* T_f_v, const real* K,
                                       const trum_factors* equations, mask accepted, real (*d)[NODES]) {
-  static const double A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS;
+  static const trum_real A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS;
   /* derivative of the logarithm of the drive period by either frequency */
   const real per_frequency = REAL(-1) / (lanes->constants.omega_n + lanes->constants.Delta_omega);
   trum_lap* lap = &lanes->lap;
@@ -57,7 +57,7 @@ static void trum_accept_sensitivities(trum_lanes* lanes, const trum_trial_step* 
 /* Moves the accepted lanes to the end of their step and adds the step to their laps. */
 static void trum_accept_step(trum_lanes* lanes, const trum_trial_step* trial, mask accepted,
                              const trum_defect* defect) {
-  static const double A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS;
+  static const trum_real A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS;
   const mask held = at_most(lanes->equation.push, REAL(0));
   trum_lap* lap = &lanes->lap;
   trum_factors equations;
@@ -80,8 +80,9 @@ static void trum_accept_step(trum_lanes* lanes, const trum_trial_step* trial, ma
     sum_x = sum_x + b * trial->x[j], sum_SS = sum_SS + b * (S[j] * S[j]);
     sum_S = sum_S + b * S[j], sum_xS = sum_xS + b * (trial->x[j] * S[j]);
   }
-  if (lanes->slopes) trum_accept_sensitivities(lanes, trial, T_f_v, K, &equations, accepted, d);
-  trum_update_extremes(rate, trial->x, S, d, lanes->slopes, accepted & mask_not(held), trial->damped, defect, lap);
+  if (with_slopes(lanes)) trum_accept_sensitivities(lanes, trial, T_f_v, K, &equations, accepted, d);
+  trum_update_extremes(rate, trial->x, S, d, with_slopes(lanes), accepted & mask_not(held), trial->damped, defect,
+                       lap);
   for (j = 1; j < NODES; ++j) {
     lap->fastest = where(accepted, maximum(lap->fastest, trial->at[j].R_v), lap->fastest);
     lap->full_contact =
@@ -116,7 +117,7 @@ static real trum_distance_to_root(const trum_lanes* lanes, const trum_trial_step
   int j;
   for (j = 0; j < 3; ++j) {
     const real slope = trum_cubic_slope(&c, root);
-    const mask falling = less_than(slope, REAL(-1e-200));
+    const mask falling = less_than(slope, REAL(-trum_no_slope));
     root = where(falling, root - trum_cubic_at(&c, root) * reciprocal(where(falling, slope, REAL(1))), REAL(2));
     root = maximum(REAL(0), minimum(REAL(2), root));
   }
@@ -168,16 +169,19 @@ static mask trum_advance_step(trum_lanes* lanes) {
   lanes->step.free_h = where(shrink, next.h, lanes->step.free_h);
   next.target_event = where(shrink, REAL(-1), next.target_event);
   next.curvature = where(shrink & less_than(REAL(0), next.curvature), REAL(0), next.curvature);
-  if (lanes->slopes) accepted = accepted & mask_not(trum_extend_to_root(lanes, &trial, accepted, shrink, &next));
+  if (with_slopes(lanes)) accepted = accepted & mask_not(trum_extend_to_root(lanes, &trial, accepted, shrink, &next));
   lanes->step.retries = where(next.retry, lanes->step.retries + REAL(1), where(accepted, REAL(0), lanes->step.retries));
   if (any_lane(accepted)) {
     const real grown = minimum(longest, lanes->step.h * factor);
-    const mask finished = accepted & at_most(lanes->step.time_left, lanes->step.h * REAL(1.0000001));
+    const mask finished = accepted & at_most(lanes->step.time_left, lanes->step.h * REAL(TRUM_EITHER(1.0000001, 1.000001)));
     const mask cut_short = finished | at_most(REAL(0), lanes->step.target_event);
     trum_accept_step(lanes, &trial, accepted, &defect);
     /* a step cut short by an event or a region's end does not make the next one shorter */
     lanes->step.free_h = where(accepted, where(cut_short, minimum(longest, maximum(lanes->step.free_h, grown)), grown),
                                lanes->step.free_h);
+#if TRUM_REAL_BITS == 32 /* where errors are mostly rounding, they are no reason to go on ever more slowly */
+    lanes->step.free_h = maximum(lanes->step.free_h, REAL(trum_min_step) * lanes->equation.period);
+#endif
     lanes->step.tau = where(accepted, lanes->step.tau + lanes->step.h, lanes->step.tau);
     lanes->step.time_left =
         where(accepted, where(finished, REAL(0), lanes->step.time_left - lanes->step.h), lanes->step.time_left);

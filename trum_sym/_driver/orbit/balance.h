@@ -8,21 +8,21 @@
 
 /* The angle a from the crest within which the pressure engagement cos u + share adds up to `within`, of theta, and the
  * pressure at a. */
-static double trum_angle_within(double engagement, double share, double theta, double within, double* pressure) {
-  double a = theta, low = 0.0, high = theta;
+static trum_real trum_angle_within(trum_real engagement, trum_real share, trum_real theta, trum_real within, trum_real* pressure) {
+  trum_real a = theta, low = 0, high = theta;
   int k;
   for (k = 0; k < 200; ++k) { /* Newton in a bracket */
-    const double excess = engagement * sin(a) + share * a - within;
-    double next;
-    *pressure = engagement * cos(a) + share;
-    if (excess > 0.0) high = a;
+    const trum_real excess = engagement * trum_sin(a) + share * a - within;
+    trum_real next;
+    *pressure = engagement * trum_cos(a) + share;
+    if (excess > 0) high = a;
     else low = a;
-    next = *pressure > 0.0 ? a - excess / *pressure : -1.0;
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
-    if (fabs(next - a) <= 1e-16 * theta || high - low <= 2e-16 * theta) break;
+    next = *pressure > 0 ? a - excess / *pressure : -1;
+    if (!(next > low && next < high)) next = TRUM_C(0.5) * (low + high);
+    if (trum_fabs(next - a) <= TRUM_EITHER(1e-16, 6e-8) * theta || high - low <= TRUM_EITHER(2e-16, 1.2e-7) * theta) break;
     a = next;
   }
-  *pressure = engagement * cos(a) + share;
+  *pressure = engagement * trum_cos(a) + share;
   return a;
 }
 
@@ -30,29 +30,29 @@ static double trum_angle_within(double engagement, double share, double theta, d
 static int trum_solve_balance(trum_lanes* lanes, int i, trum_search* search) {
   const trum_orbit_in* in = search->in;
   trum_orbit_out* out = search->out;
-  double a, R_v, theta, sense, pressure, error;
+  trum_real a, R_v, theta, sense, pressure, error;
   trum_surface at;
-  const double motion = fabs(in->a_A) + fabs(in->a_B) + (fabs(in->b_A) + fabs(in->b_B)) / in->omega_n; /* free */
+  const trum_real motion = trum_fabs(in->a_A) + trum_fabs(in->a_B) + (trum_fabs(in->b_A) + trum_fabs(in->b_B)) / in->omega_n; /* free */
   if (in->m > in->n) return 0;
-  if (!(motion <= 4e-15 * in->W)) return 0;
+  if (!(motion <= TRUM_EITHER(4e-15, 2e-6) * in->W)) return 0;
   trum_start_lap(lanes, i, search);
   trum_evaluate_surface(lanes, lanes->step.tau, &at);
   R_v = lane_value(&at.R_v, i), theta = lane_value(&at.theta, i);
-  sense = lane_value(&at.cos_phi, i) < 0.0 ? -1.0 : 1.0; /* in which the crest travels */
+  sense = lane_value(&at.cos_phi, i) < 0 ? -1 : 1; /* in which the crest travels */
   a = trum_angle_within(lane_value(&at.engagement, i), lane_value(&at.share, i), theta,
-                        0.5 * (1.0 + sense * in->drag / in->push), &pressure);
+                        TRUM_C(0.5) * (1 + sense * in->drag / in->push), &pressure);
   /* rounding, of the shares of the pressure where the contact is narrow and of what is given; the pressure is zero at the
    * contact's edge, where the root is double */
-  error = 4e-15 * (6.0 + 3.0 / (theta * theta));
-  error = error < 0.5 * pressure * (theta - a)
+  error = TRUM_EITHER(4e-15, 2e-6) * (6 + 3 / (theta * theta));
+  error = error < TRUM_C(0.5) * pressure * (theta - a)
               ? error / pressure
-              : sqrt(error / (lane_value(&at.engagement, i) * sin(theta) + 1e-300)) + error;
-  error = R_v * (sin(a) * error + 2e-15);
-  out->mean = out->low = out->high = out->start = sense * R_v * cos(a), out->variance = 0.0;
-  out->mean_error = out->low_error = out->high_error = error, out->deviation_error = 0.0;
-  out->level = trum_fine_level(in->tolerance), out->error = error / fabs(out->mean);
+              : trum_sqrt(error / (lane_value(&at.engagement, i) * trum_sin(theta) + trum_tiny)) + error;
+  error = R_v * (trum_sin(a) * error + TRUM_EITHER(2e-15, 1e-6));
+  out->mean = out->low = out->high = out->start = sense * R_v * trum_cos(a), out->variance = 0;
+  out->mean_error = out->low_error = out->high_error = error, out->deviation_error = 0;
+  out->level = trum_fine_level(in->tolerance), out->error = error / trum_fabs(out->mean);
   out->flags += trum_autonomous;
-  if (error <= in->tolerance * fabs(out->mean)) out->flags += trum_converged;
+  if (error <= in->tolerance * trum_fabs(out->mean)) out->flags += trum_converged;
   else out->flags += trum_failed_step;
   return 1;
 }

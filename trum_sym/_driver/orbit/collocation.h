@@ -13,19 +13,19 @@ typedef struct {
 /* Eliminates the matrix for K = T df/dx at the nodes. */
 /* Extrapolates the other nodes' values to the first node. */
 static real trum_extrapolate_first(const real* y) {
-  static const double outward[NODES] = TRUM_COLLOCATION_OUTWARD;
+  static const trum_real outward[NODES] = TRUM_COLLOCATION_OUTWARD;
   return REAL(outward[1]) * y[1] + REAL(outward[2]) * y[2] + REAL(outward[3]) * y[3];
 }
 
 static trum_factors trum_factorise(const real* K, mask damped) {
-  static const double A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS, outward[NODES] = TRUM_COLLOCATION_OUTWARD;
+  static const trum_real A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS, outward[NODES] = TRUM_COLLOCATION_OUTWARD;
   const real first = where(damped, REAL(1), REAL(0));
   trum_factors e;
   real M[3][3];
   int i, j;
   for (i = 0; i < 3; ++i)
     for (j = 0; j < 3; ++j)
-      M[i][j] = REAL(i == j ? 1.0 : 0.0) - (REAL(A[i + 1][j + 1]) + first * REAL(A[i + 1][0] * outward[j + 1])) * K[j + 1];
+      M[i][j] = REAL(i == j ? 1 : 0) - (REAL(A[i + 1][j + 1]) + first * REAL(A[i + 1][0] * outward[j + 1])) * K[j + 1];
   e.first = reciprocal(M[0][0]);
   e.t_1 = M[1][0] * e.first, e.t_2 = M[2][0] * e.first;
   M[1][1] = M[1][1] - e.t_1 * M[0][1], M[1][2] = M[1][2] - e.t_1 * M[0][2];

@@ -29,7 +29,7 @@ static real trum_mean_decay(real z) { return reciprocal(REAL(1) + z * (REAL(0.5)
 /* A bound of what the quadrature of a defect leaves out: the size of the defect times a power of how much of it does not
  * cancel, or of how lopsided it is.  *size is the integral of its magnitude. */
 static real trum_quadrature_remainder(const real* r, real* size) {
-  static const double b[] = TRUM_CHECK_WEIGHTS;
+  static const trum_real b[] = TRUM_CHECK_WEIGHTS;
   const real sum = REAL(b[0]) * r[0] + REAL(b[1]) * r[1] + REAL(b[2]) * r[2];
   const real all =
       REAL(b[0]) * absolute(r[0]) + REAL(b[1]) * absolute(r[1]) + REAL(b[2]) * absolute(r[2]) + REAL(trum_tiny);
@@ -43,8 +43,8 @@ static real trum_quadrature_remainder(const real* r, real* size) {
  * together from there to the step's end, and the time that is left.  The exponents K at the nodes add up to `stiff`. */
 static void trum_evaluate_defect(const trum_lanes* lanes, const trum_trial_step* trial, const real* K, real stiff,
                                  real* r, real* angle, real* exponent, real* left, real* xx) {
-  static const double c[] = TRUM_CHECK_POINTS, b[] = TRUM_CHECK_WEIGHTS;
-  static const double V[][NODES] = TRUM_CHECK_VALUES, U[][NODES] = TRUM_CHECK_INTEGRALS;
+  static const trum_real c[] = TRUM_CHECK_POINTS, b[] = TRUM_CHECK_WEIGHTS;
+  static const trum_real V[][NODES] = TRUM_CHECK_VALUES, U[][NODES] = TRUM_CHECK_INTEGRALS;
   const trum_equation* equation = &lanes->equation;
   const trum_step_control* step = &lanes->step;
   int i, j;
@@ -79,23 +79,23 @@ static real trum_rounding(const trum_lanes* lanes, const trum_trial_step* trial)
   const mask from_rest = at_most(absolute(lanes->region.f_A_re) + absolute(lanes->region.f_B_re), REAL(0));
   const real turn = (lanes->constants.omega_n + absolute(lanes->constants.Delta_omega)) * (lanes->step.tau + h);
   const real scale = lanes->constants.W * where(from_rest, minimum(REAL(1), turn), REAL(1));
-  const real phase = minimum(REAL(2), REAL(40.0 * trum_unit) * scale * reciprocal(trial->at[1].W_c + REAL(trum_tiny)));
+  const real phase = minimum(REAL(2), REAL(40 * trum_unit) * scale * reciprocal(trial->at[1].W_c + REAL(trum_tiny)));
   real at_stake = REAL(0);
   int j;
   for (j = 0; j < NODES; ++j) {
     const real f = absolute(trial->f[j]);
-    at_stake = maximum(at_stake, where(held, lanes->hertz ? REAL(1) : f, REAL(1) - f));
+    at_stake = maximum(at_stake, where(held, with_hertz(lanes) ? REAL(1) : f, REAL(1) - f));
   }
-  return h * (REAL(10.0 * trum_unit) * (REAL(1) + REAL(3) * reciprocal(theta * theta + REAL(trum_tiny))) + phase * at_stake);
+  return h * (REAL(10 * trum_unit) * (REAL(1) + REAL(3) * reciprocal(theta * theta + REAL(trum_tiny))) + phase * at_stake);
 }
 
 /* What a trial step is off by. */
 static void trum_step_defect(const trum_lanes* lanes, const trum_trial_step* trial, real root_error, trum_defect* d) {
-  static const double b[] = TRUM_CHECK_WEIGHTS, full[] = TRUM_CHECK_FULL_WEIGHTS;
-  static const double A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS;
+  static const trum_real b[] = TRUM_CHECK_WEIGHTS, full[] = TRUM_CHECK_FULL_WEIGHTS;
+  static const trum_real A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS;
   const real push = lanes->equation.push, h = lanes->step.h;
   real K[NODES], r[3], angle[3], exponent[3], left[3], stiff = REAL(0), to_saturation = REAL(0), all, least;
-  real size, rounding, first, damped, weakest = REAL(1e300), largest = REAL(0), lasting;
+  real size, rounding, first, damped, weakest = REAL(trum_unmeasured), largest = REAL(0), lasting;
   int i, j;
   for (j = 0; j < NODES; ++j) K[j] = trial->T[j] * trial->f_v[j];
   trum_extrapolate_ends(lanes->step.curvature, K);
@@ -138,7 +138,7 @@ static void trum_step_defect(const trum_lanes* lanes, const trum_trial_step* tri
   d->remainder = push * d->friction_remainder + trial->unsolved +
                  push * size * stiff * stiff * reciprocal(REAL(20) + stiff * stiff * (REAL(4) + stiff));
   d->x_integral_remainder = where(trial->damped, push * lasting, h * d->remainder);
-  d->angle_remainder = trum_quadrature_remainder(angle, &size) + REAL(1e-15) * h;
+  d->angle_remainder = trum_quadrature_remainder(angle, &size) + REAL(TRUM_EITHER(1e-15, 5e-7)) * h;
   d->angle = REAL(b[0]) * angle[0] + REAL(b[1]) * angle[1] + REAL(b[2]) * angle[2];
 }
 

@@ -3,7 +3,7 @@
 #define TRUM_ORBIT_DERIVATIVES_H
 
 /* a, or 0 where the surface stands still and a is not finite: such an instant contributes nothing. */
-static real trum_finite_or_zero(real a) { return where(less_than(absolute(a), REAL(1e100)), a, REAL(0)); }
+static real trum_finite_or_zero(real a) { return where(less_than(absolute(a), REAL(TRUM_EITHER(1e100, 1e37))), a, REAL(0)); }
 
 /* The derivatives at an instant (tau after the region's start) and a speed v of the rim. */
 static void trum_evaluate_derivatives(const trum_lanes* lanes, real tau, const trum_surface* at, real v,
@@ -13,7 +13,7 @@ static void trum_evaluate_derivatives(const trum_lanes* lanes, real tau, const t
   int parameter;
   trum_lanes_friction_slopes(at, &friction, v);
   trum_lanes_wave_slopes(&lanes->constants, &lanes->region, &lanes->region_slopes, tau, wave);
-  if (!lanes->hertz) friction.E_height = REAL(1); /* the Winkler layer's engagement is in proportion to the height */
+  if (!with_hertz(lanes)) friction.E_height = REAL(1); /* the Winkler layer's engagement is in proportion to the height */
   for (parameter = 0; parameter < PARAMETERS; ++parameter) {
     real height = REAL(0), speed = REAL(0), phase = REAL(0); /* derivatives of ln (W_c / W_full), ln R_v and phi */
     if (parameter == TRUM_BY_PREPRESSURE) height = REAL(-1);

@@ -9,13 +9,13 @@
 static real trum_longest_step(const trum_lanes* lanes, const trum_trial_step* trial) {
   mask saturated = mask_all(1), inside = mask_all(0), outside = mask_all(0);
   const real scale = reciprocal(trial->at[1].R_v * trial->at[1].R_v + REAL(trum_tiny));
-  real highest = REAL(-HUGE_VAL), lowest = REAL(HUGE_VAL);
+  real highest = REAL(-TRUM_HUGE), lowest = REAL(TRUM_HUGE);
   mask near;
   int j;
   for (j = 0; j < NODES; ++j) {
     const mask slower = less_than(REAL(0), trial->events[j][EVENT_SATURATION]);
     const real margin = where(slower, trial->events[j][EVENT_LARGER_PRESSURE], trial->events[j][EVENT_SATURATION] * scale);
-    saturated = saturated & less_than(REAL(1 - 1e-9), absolute(trial->f[j]));
+    saturated = saturated & less_than(REAL(trum_all_but_one), absolute(trial->f[j]));
     inside = inside | slower, outside = outside | mask_not(slower);
     highest = maximum(highest, margin), lowest = minimum(lowest, margin);
   }
@@ -41,7 +41,7 @@ static real trum_error_ratio(trum_lanes* lanes, const trum_trial_step* trial, ma
   ratio = where(trial->damped | less_than(REAL(trum_stiff), lanes->step.stiffness * lanes->equation.period *
                                                                 REAL(trum_max_step)),
                 REAL(trum_stiff_factor) * ratio, ratio);
-  if (lanes->slopes) {
+  if (with_slopes(lanes)) {
     const mask resolved = less_than(REAL(trum_min_step_for_slopes) * lanes->equation.period, lanes->step.h);
     const int contact = any_lane(held & lanes->status.active); /* not wanted of a free rotor */
     real T_f_v[NODES], T_theta_E[NODES], slope_ratio;
@@ -71,7 +71,7 @@ static real trum_error_ratio(trum_lanes* lanes, const trum_trial_step* trial, ma
     phase_unresolved =
         phase_unresolved |
         (less_than(along, REAL(trum_min_phase_cosine)) &
-         (lanes->hertz ? mask_all(1)
+         (with_hertz(lanes) ? mask_all(1)
                        : less_than(REAL(0), maximum(trial->events[j][EVENT_FULL_CONTACT],
                                                     trial->events[j - 1][EVENT_FULL_CONTACT]))));
     cosine = trial->at[j].cos_phi, sine = trial->at[j].sin_phi;

@@ -58,7 +58,7 @@ static trum_next_step trum_adjust_to_events(trum_lanes* lanes, trum_trial_step* 
     }
     for (j = 0; j < 3; ++j) { /* Newton; the event may lie beyond the step's end */
       const real slope = trum_cubic_slope(&q, root);
-      const mask usable = less_than(REAL(1e-200), absolute(slope));
+      const mask usable = less_than(REAL(trum_no_slope), absolute(slope));
       root = where(usable, root - trum_cubic_at(&q, root) * reciprocal(where(usable, slope, REAL(1))), root);
       root = maximum(REAL(1), minimum(REAL(1.25), root));
     }
@@ -97,7 +97,7 @@ static trum_next_step trum_adjust_to_events(trum_lanes* lanes, trum_trial_step* 
     next.retry = next.retry | is_this;
     if (k == EVENT_SATURATION || k == EVENT_FULL_CONTACT) next.curvature = where(is_this, REAL(-1), next.curvature);
     /* with slopes a kink at the start leaves the target: the step may be curved towards it */
-    if (!lanes->slopes || k == EVENT_SATURATION || k == EVENT_FULL_CONTACT)
+    if (!with_slopes(lanes) || k == EVENT_SATURATION || k == EVENT_FULL_CONTACT)
       next.target_event = where(is_this, REAL(-1), next.target_event);
   }
   return next;

@@ -69,7 +69,7 @@ static void trum_locate_first_event(const trum_lanes* lanes, const real* z, real
       const real c3 = side * c.d3, c2 = side * (c.d2 - (c.z1 + c.z2) * c.d3);
       const real c1 = side * (c.d1 - c.z1 * (c.d2 - c.z2 * c.d3)), square = c2 * c2 - REAL(3) * c1 * c3;
       const real below = c2 + square_root(maximum(square, REAL(0)));
-      const mask has_extremum = less_than(REAL(0), square) & less_than(REAL(1e-300), absolute(below));
+      const mask has_extremum = less_than(REAL(0), square) & less_than(REAL(TRUM_EITHER(1e-300, 1e-37)), absolute(below));
       const real lowest = where(has_extremum, -c1 * reciprocal(where(has_extremum, below, REAL(1))), REAL(-1));
       const real begin = where(starts_here, z[1], REAL(0));
       const mask between = has_extremum & less_than(begin, lowest) & less_than(lowest, where(found, to, REAL(1)));
@@ -87,7 +87,7 @@ static void trum_locate_first_event(const trum_lanes* lanes, const real* z, real
     }
     for (j = 0; j < 3; ++j) {
       const real slope = trum_cubic_slope(&c, root);
-      const mask usable = less_than(REAL(1e-200), absolute(slope));
+      const mask usable = less_than(REAL(trum_no_slope), absolute(slope));
       root = where(usable, root - trum_cubic_at(&c, root) * reciprocal(where(usable, slope, REAL(1))), root);
       root = maximum(from, minimum(to, root));
     }

@@ -19,7 +19,7 @@ static void trum_widen(trum_lap* lap, mask relevant, real value, real off) {
 /* Takes an accepted step into the lap's extremes of x, with S and the sensitivities at them. */
 static void trum_update_extremes(const real* G, const real* x, const real* S, real (*d)[NODES], int slopes,
                                  mask accepted, mask damped, const trum_defect* defect, trum_lap* lap) {
-  static const double P[NODES][NODES] = TRUM_COLLOCATION_POWERS;
+  static const trum_real P[NODES][NODES] = TRUM_COLLOCATION_POWERS;
   real p[NODES], top = maximum(x[0], x[1]), bottom = minimum(x[0], x[1]), steepest = absolute(G[0]);
   const real end_error = absolute(lap->error * defect->kept + defect->x);
   const real end_remainder = lap->remainder * defect->kept + defect->remainder + where(damped, defect->inside, REAL(0));
@@ -41,12 +41,12 @@ static void trum_update_extremes(const real* G, const real* x, const real* S, re
       for (j = 1; j < NODES; ++j) p[k] = p[k] + REAL(P[k][j]) * G[j];
     }
     for (k = 0; k < 3; ++k) { /* zeros of the rate, by Newton from the middles of three thirds */
-      real at = REAL((2.0 * k + 1.0) / 6.0), value, S_there, weight[NODES];
+      real at = REAL((TRUM_C(2.0) * (trum_real)k + 1) / 6), value, S_there, weight[NODES];
       mask lower, higher;
       for (j = 0; j < 4; ++j) {
         const real slope = p[1] + at * (REAL(2) * p[2] + at * REAL(3) * p[3]);
         const real rate = p[0] + at * (p[1] + at * (p[2] + at * p[3]));
-        const mask usable = less_than(REAL(1e-200), absolute(slope));
+        const mask usable = less_than(REAL(trum_no_slope), absolute(slope));
         at = maximum(REAL(0),
                      minimum(REAL(1), where(usable, at - rate * reciprocal(where(usable, slope, REAL(1))), at)));
       }

@@ -3,32 +3,32 @@
 #define TRUM_ORBIT_LAP_H
 
 /* The error that a fine lap's steps may have, over the speed's scale. */
-static double trum_fine_level(double tolerance) {
+static trum_real trum_fine_level(trum_real tolerance) {
   return trum_step_share * (tolerance < trum_coarsest ? tolerance : trum_coarsest);
 }
 
 /* A drive cycle: its regions' start phasors and lengths in drive periods, and the phasors' derivatives by resonance and
  * frequency difference. */
 typedef struct {
-  double start[TRUM_REGIONS][4], pulses[TRUM_REGIONS], slopes[2][TRUM_REGIONS][4];
+  trum_real start[TRUM_REGIONS][4], pulses[TRUM_REGIONS], slopes[2][TRUM_REGIONS][4];
 } trum_cycle_phasors;
 
 /* Start speeds that are too low and too high, and the gain of speed of the laps from there; those of fine laps. */
 typedef struct {
-  double low, high, gain_low, gain_high, sure_low, sure_high;
+  trum_real low, high, gain_low, gain_high, sure_low, sure_high;
   int bisect_next;
 } trum_bracket;
 
 /* The lap before: its change of the start speed, start, decay, gain without its errors and what that is uncertain by;
  * how far around it laps draw speeds together alike, and by what share their slope is off. */
 typedef struct {
-  double last_step, start, decay, exact_gain, uncertainty, trusted, slope_error;
+  trum_real last_step, start, decay, exact_gain, uncertainty, trusted, slope_error;
   int probes; /* laps beside a start whose gain has no certain sign */
 } trum_newton_record;
 
 /* What errors are measured by: a speed; with slopes the sums of the lap before. */
 typedef struct {
-  double speed, growth, friction[PARAMETERS], angle[PARAMETERS];
+  trum_real speed, growth, friction[PARAMETERS], angle[PARAMETERS];
 } trum_scales;
 
 /* A lap of the held rotor; laps far from the orbit; laps whose steps meet the tolerance. */
@@ -44,8 +44,8 @@ typedef struct {
   trum_bracket bracket;
   trum_newton_record newton;
   trum_scales scales;
-  double start_speed;    /* of the lap */
-  double level;          /* the error that its steps may have, per drive period, over the speed's scale */
+  trum_real start_speed;    /* of the lap */
+  trum_real level;          /* the error that its steps may have, per drive period, over the speed's scale */
   int stage, region;     /* of the lap */
   int laps, refinements; /* so far; those that were repeated with shorter steps */
   int held_laps;         /* with slopes, of the held rotor */
@@ -53,18 +53,18 @@ typedef struct {
 
 /* Puts the next region of non-zero length into the lane; returns 0 at the lap's end. */
 static int trum_enter_next_region(trum_lanes* lanes, int i, trum_search* search) {
-  static const double gates_A[] = TRUM_GATES_A, gates_B[] = TRUM_GATES_B;
-  const double* start;
+  static const trum_real gates_A[] = TRUM_GATES_A, gates_B[] = TRUM_GATES_B;
+  const trum_real* start;
   do {
     if (++search->region == TRUM_REGIONS) return 0;
-  } while (search->cycle.pulses[search->region] < 0.5);
+  } while (search->cycle.pulses[search->region] < TRUM_C(0.5));
   start = search->cycle.start[search->region];
   set_lane(&lanes->region.f_A_re, i, start[0]), set_lane(&lanes->region.f_A_im, i, start[1]);
   set_lane(&lanes->region.f_B_re, i, start[2]), set_lane(&lanes->region.f_B_im, i, start[3]);
   set_lane(&lanes->region.g_A, i, gates_A[search->region]), set_lane(&lanes->region.g_B, i, gates_B[search->region]);
-  if (lanes->slopes) {
-    const double* by_resonance = search->cycle.slopes[0][search->region];
-    const double* by_difference = search->cycle.slopes[1][search->region];
+  if (with_slopes(lanes)) {
+    const trum_real* by_resonance = search->cycle.slopes[0][search->region];
+    const trum_real* by_difference = search->cycle.slopes[1][search->region];
     trum_region_slopes* slopes = &lanes->region_slopes;
     set_lane(&slopes->f_A_re_omega_n, i, by_resonance[0]), set_lane(&slopes->f_A_im_omega_n, i, by_resonance[1]);
     set_lane(&slopes->f_B_re_omega_n, i, by_resonance[2]), set_lane(&slopes->f_B_im_omega_n, i, by_resonance[3]);
@@ -73,68 +73,68 @@ static int trum_enter_next_region(trum_lanes* lanes, int i, trum_search* search)
     set_lane(&slopes->f_B_re_Delta_omega, i, by_difference[2]);
     set_lane(&slopes->f_B_im_Delta_omega, i, by_difference[3]);
   }
-  set_lane(&lanes->step.tau, i, 0.0);
+  set_lane(&lanes->step.tau, i, 0);
   set_lane(&lanes->step.time_left, i, search->cycle.pulses[search->region] * lane_value(&lanes->equation.period, i));
   set_lane(&lanes->step.h, i, lane_value(&lanes->step.free_h, i));
-  set_lane(&lanes->step.curvature, i, 0.0), set_lane(&lanes->step.target_event, i, -1.0);
-  set_lane(&lanes->step.retries, i, 0.0);
+  set_lane(&lanes->step.curvature, i, 0), set_lane(&lanes->step.target_event, i, -1);
+  set_lane(&lanes->step.retries, i, 0);
   return 1;
 }
 
 /* The tolerances of a lap's steps, from the level of its search. */
 static void trum_set_tolerances(trum_lanes* lanes, int i, const trum_search* search) {
   const trum_orbit_in* in = search->in;
-  const double period = lane_value(&lanes->equation.period, i);
-  const double cycle_time = lane_value(&lanes->equation.cycle_time, i);
+  const trum_real period = lane_value(&lanes->equation.period, i);
+  const trum_real cycle_time = lane_value(&lanes->equation.cycle_time, i);
   const int held = search->stage == STAGE_HELD, of_friction = held && search->held_laps == 1;
   const int of_contact = held && search->held_laps == 2;
-  const int close = lanes->slopes && (held ? search->held_laps > 0 : search->stage == STAGE_FINE);
+  const int close = with_slopes(lanes) && (held ? search->held_laps > 0 : search->stage == STAGE_FINE);
   trum_tolerances* t = &lanes->tolerances;
-  double reach = held ? cycle_time : search->scales.speed / in->push, allowed;
+  trum_real reach = held ? cycle_time : search->scales.speed / in->push, allowed;
   int k;
   if (reach > cycle_time) reach = cycle_time;
   allowed = search->level * reach / in->m;
-  set_lane(&t->inverse_step, i, 1.0 / allowed);
+  set_lane(&t->inverse_step, i, 1 / allowed);
   set_lane(&t->inverse_growth, i, in->m / (in->tolerance * search->scales.growth));
-  for (k = 0; lanes->slopes && k < PARAMETERS; ++k) {
-    set_lane(&t->inverse_friction[k], i, of_contact ? 0.0 : in->m / (in->tolerance * search->scales.friction[k]));
-    set_lane(&t->inverse_angle[k], i, of_friction ? 0.0 : in->m / (in->tolerance * search->scales.angle[k]));
+  for (k = 0; with_slopes(lanes) && k < PARAMETERS; ++k) {
+    set_lane(&t->inverse_friction[k], i, of_contact ? 0 : in->m / (in->tolerance * search->scales.friction[k]));
+    set_lane(&t->inverse_angle[k], i, of_friction ? 0 : in->m / (in->tolerance * search->scales.angle[k]));
   }
-  set_lane(&t->root, i, trum_root_share * cbrt(allowed * allowed * period));
+  set_lane(&t->root, i, trum_root_share * trum_cbrt(allowed * allowed * period));
   set_lane(&t->kink, i, trum_kink_share * allowed);
-  set_lane(&t->newton, i, held ? 0.0 : allowed * in->push * sqrt(trum_newton_share * in->m / search->level));
-  set_lane(&t->slope_start, i, close ? trum_slope_start_tolerance * period : HUGE_VAL);
-  set_lane(&t->slope_end, i, close ? trum_slope_end_tolerance * period : HUGE_VAL);
+  set_lane(&t->newton, i, held ? 0 : allowed * in->push * trum_sqrt(trum_newton_share * in->m / search->level));
+  set_lane(&t->slope_start, i, close ? trum_slope_start_tolerance * period : TRUM_HUGE);
+  set_lane(&t->slope_end, i, close ? trum_slope_end_tolerance * period : TRUM_HUGE);
   if (close) set_lane(&t->newton, i, trum_slope_newton_factor * lane_value(&t->newton, i));
 }
 
 /* Sets a lap's errors to none. */
 static void trum_clear_lap_errors(trum_lap* lap, int i) {
-  set_lane(&lap->error, i, 0.0), set_lane(&lap->remainder, i, 0.0);
-  set_lane(&lap->error_sum, i, 0.0), set_lane(&lap->remainder_sum, i, 0.0);
-  set_lane(&lap->error_square, i, 0.0), set_lane(&lap->error_S, i, 0.0), set_lane(&lap->SS, i, 0.0);
-  set_lane(&lap->remainder_square, i, 0.0), set_lane(&lap->inside, i, 0.0);
-  set_lane(&lap->low_error, i, 0.0), set_lane(&lap->low_remainder, i, 0.0);
-  set_lane(&lap->high_error, i, 0.0), set_lane(&lap->high_remainder, i, 0.0);
-  set_lane(&lap->lowest, i, 0.0), set_lane(&lap->highest, i, 0.0);
-  set_lane(&lap->friction_error, i, 0.0), set_lane(&lap->friction_remainder, i, 0.0);
-  set_lane(&lap->angle_error, i, 0.0), set_lane(&lap->angle_remainder, i, 0.0);
+  set_lane(&lap->error, i, 0), set_lane(&lap->remainder, i, 0);
+  set_lane(&lap->error_sum, i, 0), set_lane(&lap->remainder_sum, i, 0);
+  set_lane(&lap->error_square, i, 0), set_lane(&lap->error_S, i, 0), set_lane(&lap->SS, i, 0);
+  set_lane(&lap->remainder_square, i, 0), set_lane(&lap->inside, i, 0);
+  set_lane(&lap->low_error, i, 0), set_lane(&lap->low_remainder, i, 0);
+  set_lane(&lap->high_error, i, 0), set_lane(&lap->high_remainder, i, 0);
+  set_lane(&lap->lowest, i, 0), set_lane(&lap->highest, i, 0);
+  set_lane(&lap->friction_error, i, 0), set_lane(&lap->friction_remainder, i, 0);
+  set_lane(&lap->angle_error, i, 0), set_lane(&lap->angle_remainder, i, 0);
 }
 
 /* Sets a lap's sums to those of no time. */
 static void trum_clear_lap(trum_lap* lap, int i, int slopes) {
   int k;
-  set_lane(&lap->x, i, 0.0), set_lane(&lap->xx, i, 0.0), set_lane(&lap->S, i, 0.0), set_lane(&lap->xS, i, 0.0);
-  set_lane(&lap->low, i, 0.0), set_lane(&lap->high, i, 0.0);
-  set_lane(&lap->S_low, i, 1.0), set_lane(&lap->S_high, i, 1.0);
-  set_lane(&lap->friction, i, 0.0), set_lane(&lap->angle, i, 0.0);
-  set_lane(&lap->full_contact, i, 0.0), set_lane(&lap->fastest, i, 0.0);
+  set_lane(&lap->x, i, 0), set_lane(&lap->xx, i, 0), set_lane(&lap->S, i, 0), set_lane(&lap->xS, i, 0);
+  set_lane(&lap->low, i, 0), set_lane(&lap->high, i, 0);
+  set_lane(&lap->S_low, i, 1), set_lane(&lap->S_high, i, 1);
+  set_lane(&lap->friction, i, 0), set_lane(&lap->angle, i, 0);
+  set_lane(&lap->full_contact, i, 0), set_lane(&lap->fastest, i, 0);
   trum_clear_lap_errors(lap, i);
   for (k = 0; slopes && k < PARAMETERS; ++k) {
-    set_lane(&lap->sum_abs_friction[k], i, 0.0), set_lane(&lap->sum_abs_angle[k], i, 0.0);
-    set_lane(&lap->d_x[k], i, 0.0), set_lane(&lap->d_xx[k], i, 0.0);
-    set_lane(&lap->d_low[k], i, 0.0), set_lane(&lap->d_high[k], i, 0.0);
-    set_lane(&lap->d_friction[k], i, 0.0), set_lane(&lap->d_angle[k], i, 0.0);
+    set_lane(&lap->sum_abs_friction[k], i, 0), set_lane(&lap->sum_abs_angle[k], i, 0);
+    set_lane(&lap->d_x[k], i, 0), set_lane(&lap->d_xx[k], i, 0);
+    set_lane(&lap->d_low[k], i, 0), set_lane(&lap->d_high[k], i, 0);
+    set_lane(&lap->d_friction[k], i, 0), set_lane(&lap->d_angle[k], i, 0);
   }
 }
 
@@ -143,10 +143,10 @@ static void trum_clear_sensitivity(trum_sensitivity* sensitivity, int i, int slo
   trum_derivatives* d = &sensitivity->derivatives;
   int k;
   for (k = 0; slopes && k < PARAMETERS; ++k) {
-    set_lane(&sensitivity->x[k], i, 0.0);
-    set_lane(&d->f[k], i, 0.0), set_lane(&d->ln_E[k], i, 0.0), set_lane(&d->ln_R_v[k], i, 0.0);
+    set_lane(&sensitivity->x[k], i, 0);
+    set_lane(&d->f[k], i, 0), set_lane(&d->ln_E[k], i, 0), set_lane(&d->ln_R_v[k], i, 0);
   }
-  set_lane(&d->theta_E, i, 0.0), set_lane(&d->R_v_rate, i, 0.0), set_lane(&d->W_c_rate, i, 0.0);
+  set_lane(&d->theta_E, i, 0), set_lane(&d->R_v_rate, i, 0), set_lane(&d->W_c_rate, i, 0);
 }
 
 /* Starts a lap in a lane: of the held rotor, which has no equation of motion, or from the search's start speed. */
@@ -154,20 +154,20 @@ static void trum_start_lap(trum_lanes* lanes, int i, trum_search* search) {
   const trum_orbit_in* in = search->in;
   const int held = search->stage == STAGE_HELD;
   trum_step_start* start = &lanes->start;
-  set_lane(&lanes->equation.push, i, held ? 0.0 : in->push), set_lane(&lanes->equation.drag, i, held ? 0.0 : in->drag);
+  set_lane(&lanes->equation.push, i, held ? 0 : in->push), set_lane(&lanes->equation.drag, i, held ? 0 : in->drag);
   set_lane(&lanes->equation.v0, i, search->start_speed);
   trum_set_tolerances(lanes, i, search);
-  set_lane(&lanes->step.stiffness, i, 0.0);
+  set_lane(&lanes->step.stiffness, i, 0);
   set_lane(&lanes->step.steps_left, i, trum_max_steps_per_period * in->m);
   set_lane(&lanes->step.free_h, i, trum_first_step * lane_value(&lanes->equation.period, i));
-  set_lane(&start->x, i, 0.0), set_lane(&start->S, i, 1.0);
-  set_lane(&start->f, i, 0.0), set_lane(&start->f_v, i, 0.0), set_lane(&start->theta, i, 0.0);
-  trum_clear_lap(&lanes->lap, i, lanes->slopes);
-  trum_clear_sensitivity(&lanes->sensitivity, i, lanes->slopes);
+  set_lane(&start->x, i, 0), set_lane(&start->S, i, 1);
+  set_lane(&start->f, i, 0), set_lane(&start->f_v, i, 0), set_lane(&start->theta, i, 0);
+  trum_clear_lap(&lanes->lap, i, with_slopes(lanes));
+  trum_clear_sensitivity(&lanes->sensitivity, i, with_slopes(lanes));
   set_lane_mask(&lanes->status.at_lap_start, i, 1), set_lane_mask(&lanes->status.failed, i, 0);
   set_lane_mask(&lanes->status.active, i, 1);
   set_lane_mask(&lanes->status.rough, i,
-                search->stage == STAGE_ROUGH && search->level > trum_fine_level(in->tolerance) * 1.0001);
+                search->stage == STAGE_ROUGH && search->level > trum_fine_level(in->tolerance) * TRUM_C(1.0001));
   set_lane_mask(&lanes->status.contact_only, i, held && search->held_laps == 2);
   search->region = -1;
   trum_enter_next_region(lanes, i, search);

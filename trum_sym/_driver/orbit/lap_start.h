@@ -30,7 +30,7 @@ static void trum_evaluate_lap_start(trum_lanes* lanes) {
   lanes->start.theta = where(lanes->status.at_lap_start, at.theta, lanes->start.theta);
   lanes->start.cos_phi = where(lanes->status.at_lap_start, at.cos_phi, lanes->start.cos_phi);
   lanes->start.sin_phi = where(lanes->status.at_lap_start, at.sin_phi, lanes->start.sin_phi);
-  if (lanes->slopes) {
+  if (with_slopes(lanes)) {
     trum_derivatives by;
     trum_evaluate_derivatives(lanes, lanes->step.tau, &at, lanes->equation.v0 + lanes->start.x, &by);
     trum_select_derivatives(&lanes->sensitivity.derivatives, &by, lanes->status.at_lap_start);

@@ -6,13 +6,9 @@
 #define TRUM_ORBIT_NUMBER_H
 
 #ifndef TRUM_LANES
-#include <math.h>
 #define TRUM_LANES 1
-#ifndef casadi_real
-#define casadi_real double
-#endif
 #include "trum_kernels.h"
-typedef casadi_real real;
+typedef trum_real real;
 typedef int mask;
 #define TRUM_KERNEL(name) name
 #define TRUM_NUMBER(x) ((real)(x))
@@ -27,12 +23,15 @@ static mask where_mask(mask m, mask a, mask b) { return m ? a : b; }
 static real minimum(real a, real b) { return a < b ? a : b; }
 static real maximum(real a, real b) { return a > b ? a : b; }
 static real absolute(real a) { return a < 0 ? -a : a; }
-static double lane_value(const real* x, int i) { return (void)i, (double)*x; }
-static void set_lane(real* x, int i, double value) { (void)i, *x = (real)value; }
+static trum_real lane_value(const real* x, int i) { return (void)i, *x; }
+static void set_lane(real* x, int i, trum_real value) { (void)i, *x = value; }
 static void set_lane_mask(mask* x, int i, int value) { (void)i, *x = value; }
-static real square_root(real a) { return (real)sqrt((double)a); }
-static real cube_root(real a) { return (real)cbrt((double)a); }
+static real square_root(real a) { return trum_sqrt(a); }
+static real cube_root(real a) { return trum_cbrt(a); }
 static real reciprocal(real a) { return 1 / a; }
+#endif
+#ifndef TRUM_SLOPES /* whether the search can give slopes of its figures, which trum.h has none of */
+#define TRUM_SLOPES (TRUM_LANES > 1)
 #endif
 #include "trum_collocation.h"
 #include "trum_lane_calls.h"

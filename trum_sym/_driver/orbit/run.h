@@ -27,28 +27,37 @@ static void trum_advance_lanes(trum_lanes* lanes, trum_search* searches, int* bu
 /* Sets all results to NaN, and the flags to none. */
 static void trum_set_unknown(trum_orbit_out* out, trum_slopes_out* slopes) {
   int of, parameter;
-  out->mean = out->low = out->high = out->variance = out->start = out->level = out->error = (double)NAN;
-  out->mean_error = out->low_error = out->high_error = out->deviation_error = (double)NAN;
-  out->contact = out->held = out->contact_error = out->held_error = (double)NAN, out->flags = 0;
+  out->mean = out->low = out->high = out->variance = out->start = out->level = out->error = TRUM_NAN;
+  out->mean_error = out->low_error = out->high_error = out->deviation_error = TRUM_NAN;
+  out->contact = out->held = out->contact_error = out->held_error = TRUM_NAN, out->flags = 0;
   for (of = 0; slopes && of < FIGURES; ++of)
-    for (parameter = 0; parameter < PARAMETERS; ++parameter) slopes->of[of][parameter] = (double)NAN;
+    for (parameter = 0; parameter < PARAMETERS; ++parameter) slopes->of[of][parameter] = TRUM_NAN;
 }
 
 /* The first task from `task` on that is wanted: even ones are the held rotors, odd ones the orbits. */
 static long trum_next_task(const trum_orbit_in* in, long task, long count) {
-  return task < 2 * count && task % 2 == 0 && !(in[task / 2].held > 0.5) ? task + 1 : task;
+  return task < 2 * count && task % 2 == 0 && !(in[task / 2].held > TRUM_C(0.5)) ? task + 1 : task;
 }
 
-/* Works through the tasks of count points of one contact law.  With slopes_in the orbits in `out` must be known. */
-static void trum_run_tasks(const trum_orbit_in* in, trum_orbit_out* out, const trum_slopes_in* slopes_in,
-                           trum_slopes_out* slopes_out, long count) {
+/* Counts an attempt at a step, of those that a call may still take (null: any number); 0 if there is none left. */
+static int trum_may_attempt(int_least32_t* attempts) {
+  if (!attempts) return 1;
+  if (*attempts <= 0) return 0;
+  --*attempts;
+  return 1;
+}
+
+/* Works through the tasks of count points of one contact law.  With slopes_in the orbits in `out` must be known.  Returns
+ * 0 if the attempts were used up before the end. */
+static int trum_run_tasks(const trum_orbit_in* in, trum_orbit_out* out, const trum_slopes_in* slopes_in,
+                          trum_slopes_out* slopes_out, long count, int_least32_t* attempts) {
   trum_lanes lanes;
   trum_search searches[TRUM_LANES];
   trum_orbit_out own[TRUM_LANES];
   trum_slopes_out unused;
   int busy[TRUM_LANES], used[TRUM_LANES], i, remaining;
   long next = 0;
-  trum_initialise_lanes(&lanes, in[0].hertz > 0.5, slopes_in != 0);
+  trum_initialise_lanes(&lanes, in[0].hertz > TRUM_C(0.5), slopes_in != 0);
   for (i = 0; i < TRUM_LANES; ++i) busy[i] = used[i] = 0;
   do {
     for (i = remaining = 0; i < TRUM_LANES; ++i) {
@@ -61,60 +70,69 @@ static void trum_run_tasks(const trum_orbit_in* in, trum_orbit_out* out, const t
         searches[i].slopes_out = slopes_out && has_task ? &slopes_out[point] : &unused;
         if (to_scratch) trum_set_unknown(&own[i], 0);
         busy[i] = trum_load_task(&lanes, i, &searches[i], &in[point], to_scratch ? &own[i] : &out[point],
-                                 !has_task || next % 2 == 0, slopes_in ? out[point].start : (double)NAN);
+                                 !has_task || next % 2 == 0, slopes_in ? out[point].start : TRUM_NAN);
         busy[i] = busy[i] && has_task, used[i] = 1, next += has_task;
         if (!busy[i]) set_lane_mask(&lanes.status.active, i, 0);
       }
       remaining += busy[i];
     }
+    if (remaining && !trum_may_attempt(attempts)) return 0;
     if (remaining) trum_advance_lanes(&lanes, searches, busy);
   } while (remaining);
+  return 1;
 }
 
-/* Orbits of count points of one contact law; their slopes too unless slopes_in is null. */
-static void trum_orbits(const trum_orbit_in* in, trum_orbit_out* out, const trum_slopes_in* slopes_in,
-                        trum_slopes_out* slopes_out, long count) {
+/* Orbits of count points of one contact law; their slopes too unless slopes_in is null.  Returns 0 if the attempts at steps
+ * were used up (null: any number): figures are then the best found. */
+static int trum_orbits(const trum_orbit_in* in, trum_orbit_out* out, const trum_slopes_in* slopes_in,
+                              trum_slopes_out* slopes_out, long count, int_least32_t* attempts) {
+  int done;
   long k;
-  if (count <= 0) return;
+  if (count <= 0) return 1;
   for (k = 0; k < count; ++k) trum_set_unknown(&out[k], slopes_out ? &slopes_out[k] : 0);
-  trum_run_tasks(in, out, 0, 0, count);
+  done = trum_run_tasks(in, out, 0, 0, count, attempts);
   for (k = 0; k < count; ++k) {
     const int flags = (int)out[k].flags;
     const int known = out[k].held_error <= in[k].tolerance && out[k].contact_error <= in[k].tolerance;
-    if (in[k].held > 0.5 && !known && flags & trum_converged) out[k].flags = flags - trum_converged;
+    if (in[k].held > TRUM_C(0.5) && !known && flags & trum_converged) out[k].flags = (trum_real)(flags - trum_converged);
   }
-  if (slopes_in) trum_run_tasks(in, out, slopes_in, slopes_out, count);
+  if (slopes_in) done = trum_run_tasks(in, out, slopes_in, slopes_out, count, attempts);
+  return done;
 }
 
-/* One cycle of a point's orbit: rim speed, and distance since t1, at count equal times after t1. */
-static void trum_history(const trum_orbit_in* in, const trum_orbit_out* orbit, double* speed, double* distance,
-                         long count) {
+/* One cycle of a point's orbit: rim speed, and distance since t1, at count equal times after t1; NaN where the motion could
+ * not be followed.  Returns 0 if that is for want of attempts. */
+static int trum_history(const trum_orbit_in* in, const trum_orbit_out* orbit, trum_real* speed,
+                               trum_real* distance, long count, int_least32_t* attempts) {
   trum_lanes lanes;
   trum_search searches[TRUM_LANES];
   trum_orbit_out unused;
   trum_record record;
-  int i;
-  trum_initialise_lanes(&lanes, in->hertz > 0.5, 0);
+  int i, allowed = 1;
+  trum_initialise_lanes(&lanes, in->hertz > TRUM_C(0.5), 0);
   for (i = 0; i < TRUM_LANES; ++i) {
-    trum_load_task(&lanes, i, &searches[i], in, &unused, 1, (double)NAN);
+    trum_load_task(&lanes, i, &searches[i], in, &unused, 1, TRUM_NAN);
     if (i > 0) set_lane_mask(&lanes.status.active, i, 0);
   }
   searches[0].stage = STAGE_FINE, searches[0].level = orbit->level, searches[0].start_speed = orbit->start;
-  searches[0].scales.speed = fabs(orbit->low) > fabs(orbit->high) ? fabs(orbit->low) : fabs(orbit->high);
+  searches[0].scales.speed = trum_fabs(orbit->low) > trum_fabs(orbit->high) ? trum_fabs(orbit->low) : trum_fabs(orbit->high);
   trum_start_lap(&lanes, 0, &searches[0]);
   record.speed = speed, record.distance = distance, record.count = count, record.written = 0;
-  record.spacing = lane_value(&lanes.equation.cycle_time, 0) / (double)count, record.since = record.travelled = 0.0;
+  record.spacing = lane_value(&lanes.equation.cycle_time, 0) / (trum_real)count, record.since = record.travelled = 0;
   lanes.record = &record;
   for (;;) {
     mask accepted;
+    allowed = trum_may_attempt(attempts);
+    if (!allowed) break;
     if (any_lane(lanes.status.at_lap_start)) trum_evaluate_lap_start(&lanes);
     accepted = trum_advance_step(&lanes);
-    if (mask_in_lane(lanes.status.failed, 0) || lane_value(&lanes.step.steps_left, 0) < 0.0) break;
-    if (mask_in_lane(accepted, 0) && lane_value(&lanes.step.time_left, 0) <= 0.0 &&
+    if (mask_in_lane(lanes.status.failed, 0) || lane_value(&lanes.step.steps_left, 0) < 0) break;
+    if (mask_in_lane(accepted, 0) && lane_value(&lanes.step.time_left, 0) <= 0 &&
         !trum_enter_next_region(&lanes, 0, &searches[0]))
       break;
   }
-  for (; record.written < count; ++record.written) speed[record.written] = distance[record.written] = (double)NAN;
+  for (; record.written < count; ++record.written) speed[record.written] = distance[record.written] = TRUM_NAN;
+  return allowed;
 }
 
 #endif

@@ -8,7 +8,7 @@
 
 /* Replaces T f_v at a square root (0 times infinity) by the extrapolation from the other nodes. */
 static void trum_extrapolate_ends(real curvature, real* K) {
-  static const double outward[NODES] = TRUM_COLLOCATION_OUTWARD;
+  static const trum_real outward[NODES] = TRUM_COLLOCATION_OUTWARD;
   const real first = REAL(outward[1]) * K[1] + REAL(outward[2]) * K[2] + REAL(outward[3]) * K[3];
   const real last = REAL(outward[1]) * K[2] + REAL(outward[2]) * K[1] + REAL(outward[3]) * K[0];
   K[0] = where(less_than(curvature, REAL(0)), first, K[0]);
@@ -35,7 +35,7 @@ static void trum_friction_jacobian(const trum_lanes* lanes, const trum_trial_ste
   for (j = 0; j < NODES; ++j) K[j] = trial->T[j] * trial->f_v[j];
   trum_extrapolate_ends(lanes->step.curvature, K);
   K[0] = minimum(K[0], REAL(0)), K[LAST_NODE] = minimum(K[LAST_NODE], REAL(0));
-  if (!lanes->slopes) return;
+  if (!with_slopes(lanes)) return;
   first = trum_saturation_limit(lanes, trial->events[0], trial->derivatives[0].R_v_rate, v0, trial->f[0]);
   last = trum_saturation_limit(lanes, trial->events[LAST_NODE], trial->derivatives[LAST_NODE].R_v_rate, v1,
                                trial->f[LAST_NODE]);
@@ -62,7 +62,7 @@ static void trum_half_angle_jacobian(const trum_lanes* lanes, const trum_trial_s
   const mask from = less_than(lanes->step.curvature, REAL(0)) & lanes->start.at_event[EVENT_FULL_CONTACT];
   const mask to =
       less_than(REAL(0), lanes->step.curvature) & trum_is_event(lanes->step.target_event, REAL(EVENT_FULL_CONTACT));
-  const mask partly = less_than(REAL(0), trial->events[1][EVENT_FULL_CONTACT]) & mask_all(!lanes->hertz);
+  const mask partly = less_than(REAL(0), trial->events[1][EVENT_FULL_CONTACT]) & mask_all(!with_hertz(lanes));
   int j;
   for (j = 0; j < NODES; ++j) T_theta_E[j] = trial->T[j] * trial->derivatives[j].theta_E;
   for (j = 0; j < NODES; j += LAST_NODE) {

@@ -9,44 +9,44 @@
 #define TRUM_ORBIT_SHOOTING_H
 
 /* The level of laps far from the orbit: Newton's step from there leaves its square, so that one fine lap is enough. */
-static double trum_rough_level(double tolerance) { return 0.02 * sqrt(tolerance); }
+static trum_real trum_rough_level(trum_real tolerance) { return TRUM_C(0.02) * trum_sqrt(tolerance); }
 
 /* Slopes of the figures once the orbit is found.  The start speed follows a parameter by the implicit function theorem:
  * d0 = dx(end) / (1 - growth). */
 static void trum_store_slopes(const trum_lanes* lanes, int i, trum_search* search) {
   const trum_lap* lap = &lanes->lap;
-  const double whole = lane_value(&lanes->equation.cycle_time, i), growth = lane_value(&lanes->start.S, i);
-  const double decay = 1.0 - growth > 1e-14 ? 1.0 - growth : 1e-14;
-  const double x = lane_value(&lap->x, i) / whole, S = lane_value(&lap->S, i) / whole;
-  const double xS = lane_value(&lap->xS, i) / whole;
+  const trum_real whole = lane_value(&lanes->equation.cycle_time, i), growth = lane_value(&lanes->start.S, i);
+  const trum_real decay = trum_larger(1 - growth, trum_least_decay);
+  const trum_real x = lane_value(&lap->x, i) / whole, S = lane_value(&lap->S, i) / whole;
+  const trum_real xS = lane_value(&lap->xS, i) / whole;
   int parameter;
   for (parameter = 0; parameter < PARAMETERS; ++parameter) {
-    double(*of)[PARAMETERS] = search->slopes_out->of;
+    trum_real(*of)[TRUM_SLOPE_PARAMETERS_COUNT] = search->slopes_out->of;
     if (search->stage == STAGE_HELD) {
       if (search->held_laps != 1)
-        of[TRUM_OF_CONTACT][parameter] = lane_value(&lap->d_angle[parameter], i) / whole / 3.14159265358979323846;
+        of[TRUM_OF_CONTACT][parameter] = lane_value(&lap->d_angle[parameter], i) / whole / TRUM_C(3.14159265358979323846);
       if (search->held_laps != 2) of[TRUM_OF_HELD][parameter] = lane_value(&lap->d_friction[parameter], i) / whole;
     } else {
-      const double d0 = lane_value(&lanes->sensitivity.x[parameter], i) / decay;
-      const double d_x = lane_value(&lap->d_x[parameter], i) / whole;
+      const trum_real d0 = lane_value(&lanes->sensitivity.x[parameter], i) / decay;
+      const trum_real d_x = lane_value(&lap->d_x[parameter], i) / whole;
       of[TRUM_OF_MEAN][parameter] = d_x + S * d0;
       of[TRUM_OF_LOW][parameter] = lane_value(&lap->d_low[parameter], i) + lane_value(&lap->S_low, i) * d0;
       of[TRUM_OF_HIGH][parameter] = lane_value(&lap->d_high[parameter], i) + lane_value(&lap->S_high, i) * d0;
       of[TRUM_OF_VARIANCE][parameter] =
-          2.0 * (lane_value(&lap->d_xx[parameter], i) / whole - x * d_x + (xS - x * S) * d0);
+          2 * (lane_value(&lap->d_xx[parameter], i) / whole - x * d_x + (xS - x * S) * d0);
     }
   }
 }
 
 /* Errors of the next lap's slopes are measured by what this one has summed up; slopes that are nothing but rounding, as
  * those of a plain wave's contact by the frequencies, are not to be resolved. */
-static void trum_update_slope_scales(const trum_lanes* lanes, int i, trum_search* search, double growth) {
+static void trum_update_slope_scales(const trum_lanes* lanes, int i, trum_search* search, trum_real growth) {
   int k;
   search->scales.growth = growth;
   for (k = 0; k < PARAMETERS; ++k) {
     const int by_frequency = k == TRUM_BY_RESONANCE || k == TRUM_BY_DIFFERENCE;
-    const double least =
-        trum_least_slope * lane_value(&lanes->equation.cycle_time, i) / (by_frequency ? search->in->omega_n : 1.0);
+    const trum_real least =
+        trum_least_slope * lane_value(&lanes->equation.cycle_time, i) / (by_frequency ? search->in->omega_n : 1);
     search->scales.friction[k] = trum_larger(lane_value(&lanes->lap.sum_abs_friction[k], i), least);
     search->scales.angle[k] = trum_larger(lane_value(&lanes->lap.sum_abs_angle[k], i), least);
   }
@@ -54,13 +54,13 @@ static void trum_update_slope_scales(const trum_lanes* lanes, int i, trum_search
 
 /* What a finished lap says of the orbit. */
 typedef struct {
-  double gain, growth, decay;     /* of speed over the lap; S at its end; 1 - growth */
-  double exact_gain, uncertainty; /* the gain without the lap's errors; what it may still be off by */
-  double top, bound;              /* the largest speed of the lap; above all speeds that are possible */
-  double newton, saturated_gain;  /* Newton's step; the gain of a lap with saturated friction, where that is smaller */
-  double change, trusted;         /* of ln decay since the lap before; how far around decay is alike */
-  double slope_error;             /* of the lap's slope, beside that of the secant to the lap before */
-  double share;                   /* of Newton's step that is uncertain, as the slope is off */
+  trum_real gain, growth, decay;     /* of speed over the lap; S at its end; 1 - growth */
+  trum_real exact_gain, uncertainty; /* the gain without the lap's errors; what it may still be off by */
+  trum_real top, bound;              /* the largest speed of the lap; above all speeds that are possible */
+  trum_real newton, saturated_gain;  /* Newton's step; the gain of a lap with saturated friction, where that is smaller */
+  trum_real change, trusted;         /* of ln decay since the lap before; how far around decay is alike */
+  trum_real slope_error;             /* of the lap's slope, beside that of the secant to the lap before */
+  trum_real share;                   /* of Newton's step that is uncertain, as the slope is off */
   int certain, known;             /* has the exact gain a certain sign?  is Newton's step to be believed? */
   int accurate, last;             /* at the fine level; no more laps are allowed */
 } trum_lap_summary;
@@ -69,18 +69,18 @@ typedef struct {
 static trum_lap_summary trum_summarise_lap(const trum_lanes* lanes, int i, trum_search* search) {
   const trum_lap* lap = &lanes->lap;
   const trum_orbit_in* in = search->in;
-  const double error = lane_value(&lap->error, i);
+  const trum_real error = lane_value(&lap->error, i);
   trum_lap_summary s;
   s.gain = lane_value(&lanes->start.x, i), s.growth = lane_value(&lanes->start.S, i);
-  s.decay = 1.0 - s.growth > 1e-14 ? 1.0 - s.growth : 1e-14;
-  s.exact_gain = s.gain - error, s.uncertainty = 0.1 * fabs(error) + lane_value(&lap->remainder, i);
-  s.bound = 1.5 * lane_value(&lap->fastest, i);
-  s.top = trum_larger(fabs(search->start_speed + lane_value(&lap->low, i)),
-                      fabs(search->start_speed + lane_value(&lap->high, i)));
+  s.decay = trum_larger(1 - s.growth, trum_least_decay);
+  s.exact_gain = s.gain - error, s.uncertainty = TRUM_C(0.1) * trum_fabs(error) + lane_value(&lap->remainder, i);
+  s.bound = TRUM_C(1.5) * lane_value(&lap->fastest, i);
+  s.top = trum_larger(trum_fabs(search->start_speed + lane_value(&lap->low, i)),
+                      trum_fabs(search->start_speed + lane_value(&lap->high, i)));
   s.newton = s.gain / s.decay;
-  s.saturated_gain = (in->push - fabs(in->drag)) * lane_value(&lanes->equation.cycle_time, i);
-  s.certain = fabs(s.exact_gain) > s.uncertainty;
-  s.accurate = search->level <= trum_fine_level(in->tolerance) * 1.0001, s.last = ++search->laps >= trum_max_laps;
+  s.saturated_gain = (in->push - trum_fabs(in->drag)) * lane_value(&lanes->equation.cycle_time, i);
+  s.certain = trum_fabs(s.exact_gain) > s.uncertainty;
+  s.accurate = search->level <= trum_fine_level(in->tolerance) * TRUM_C(1.0001), s.last = ++search->laps >= trum_max_laps;
   return s;
 }
 
@@ -88,30 +88,30 @@ static trum_lap_summary trum_summarise_lap(const trum_lanes* lanes, int i, trum_
  * part of that. */
 static void trum_compare_laps(const trum_search* search, trum_lap_summary* s) {
   const trum_newton_record* before = &search->newton;
-  const double distance = fabs(search->start_speed - before->start), allowed = search->in->tolerance * s->top;
-  double secant_error = before->slope_error;
-  s->change = before->decay > 0.0 ? fabs(log(s->decay / before->decay)) : HUGE_VAL;
-  s->trusted = s->change < 0.7 ? trum_larger(distance, before->trusted - distance) : 0.0;
-  if (distance * s->decay > 30.0 * (s->uncertainty + before->uncertainty)) {
-    const double secant = (before->exact_gain - s->exact_gain) / (search->start_speed - before->start);
-    secant_error = 2.0 * fabs(secant / s->decay - 1.0);
+  const trum_real distance = trum_fabs(search->start_speed - before->start), allowed = search->in->tolerance * s->top;
+  trum_real secant_error = before->slope_error;
+  s->change = before->decay > 0 ? trum_fabs(trum_log(s->decay / before->decay)) : TRUM_HUGE;
+  s->trusted = s->change < TRUM_C(0.7) ? trum_larger(distance, before->trusted - distance) : 0;
+  if (distance * s->decay > 30 * (s->uncertainty + before->uncertainty)) {
+    const trum_real secant = (before->exact_gain - s->exact_gain) / (search->start_speed - before->start);
+    secant_error = 2 * trum_fabs(secant / s->decay - 1);
   }
-  s->slope_error = s->change + secant_error < 1.0 ? s->change + secant_error : 1.0;
+  s->slope_error = s->change + secant_error < 1 ? s->change + secant_error : 1;
   /* from the orbit to where laps are saturated the decay falls to 0, so it changes as the gain does */
-  s->share = 0.02 + s->slope_error + 10.0 * fabs(s->gain) / s->saturated_gain;
-  if (s->share > 1.0) s->share = 1.0;
-  s->known = s->change < 0.7 && fabs(s->gain) <= 0.1 * s->saturated_gain &&
-             fabs(s->newton) + s->uncertainty / s->decay <= trum_larger(0.1 * s->trusted, 0.05 * allowed);
+  s->share = TRUM_C(0.02) + s->slope_error + 10 * trum_fabs(s->gain) / s->saturated_gain;
+  if (s->share > 1) s->share = 1;
+  s->known = s->change < TRUM_C(0.7) && trum_fabs(s->gain) <= TRUM_C(0.1) * s->saturated_gain &&
+             trum_fabs(s->newton) + s->uncertainty / s->decay <= trum_larger(TRUM_C(0.1) * s->trusted, TRUM_C(0.05) * allowed);
 }
 
 /* What the change of the start speed is uncertain by: Newton's step in the ratio in which its slope is off, or the
  * bracket. */
-static trum_start_change trum_uncertain_change(const trum_search* search, const trum_lap_summary* s, double change) {
-  const double width = search->bracket.sure_high - search->bracket.sure_low;
+static trum_start_change trum_uncertain_change(const trum_search* search, const trum_lap_summary* s, trum_real change) {
+  const trum_real width = search->bracket.sure_high - search->bracket.sure_low;
   trum_start_change start;
-  start.change = s->known ? s->newton : change, start.rival = fabs(s->gain);
-  start.uncertainty = s->known ? fabs(s->newton) * s->share : HUGE_VAL;
-  if (width < 2.0 * s->bound && width < start.uncertainty) start.uncertainty = width;
+  start.change = s->known ? s->newton : change, start.rival = trum_fabs(s->gain);
+  start.uncertainty = s->known ? trum_fabs(s->newton) * s->share : TRUM_HUGE;
+  if (width < 2 * s->bound && width < start.uncertainty) start.uncertainty = width;
   return start;
 }
 
@@ -120,41 +120,41 @@ static trum_start_change trum_uncertain_change(const trum_search* search, const 
  * speed rises. */
 static void trum_update_bracket(trum_search* search, const trum_lap_summary* s) {
   trum_bracket* b = &search->bracket;
-  const double start = search->start_speed;
+  const trum_real start = search->start_speed;
   if (!s->certain) return;
-  if (s->exact_gain > 0.0) {
+  if (s->exact_gain > 0) {
     b->low = start, b->gain_low = s->exact_gain;
     if (s->accurate) b->sure_low = start;
-    if (!(b->high > start + (s->accurate ? s->exact_gain - s->uncertainty : 0.0))) b->high = b->sure_high;
+    if (!(b->high > start + (s->accurate ? s->exact_gain - s->uncertainty : 0))) b->high = b->sure_high;
   } else {
     b->high = start, b->gain_high = s->exact_gain;
     if (s->accurate) b->sure_high = start;
-    if (!(b->low < start + (s->accurate ? s->exact_gain + s->uncertainty : 0.0))) b->low = b->sure_low;
+    if (!(b->low < start + (s->accurate ? s->exact_gain + s->uncertainty : 0))) b->low = b->sure_low;
   }
 }
 
 /* The next start speed: Newton's, or a division of the bracket where that is not to be believed, and leaves the bracket
  * or is not half the step before. */
-static double trum_next_start(trum_search* search, const trum_lap_summary* s) {
+static trum_real trum_next_start(trum_search* search, const trum_lap_summary* s) {
   trum_bracket* b = &search->bracket;
-  double next = search->start_speed + s->exact_gain / s->decay;
+  trum_real next = search->start_speed + s->exact_gain / s->decay;
   next = next > s->bound ? s->bound : next < -s->bound ? -s->bound : next;
   if (s->known && next > b->sure_low && next < b->sure_high) return next;
-  if (next > b->low && next < b->high && fabs(next - search->start_speed) <= 0.5 * search->newton.last_step)
+  if (next > b->low && next < b->high && trum_fabs(next - search->start_speed) <= TRUM_C(0.5) * search->newton.last_step)
     return next;
-  if (b->low > -HUGE_VAL && b->high < HUGE_VAL) {
-    const double ratio = b->gain_low / -b->gain_high; /* one end is saturated if the other's gain is much larger */
-    const double share =
-        b->bisect_next || ratio > 10.0 || ratio < 0.1 ? 0.5 : b->gain_low / (b->gain_low - b->gain_high);
+  if (b->low > -TRUM_HUGE && b->high < TRUM_HUGE) {
+    const trum_real ratio = b->gain_low / -b->gain_high; /* one end is saturated if the other's gain is much larger */
+    const trum_real share =
+        b->bisect_next || ratio > 10 || ratio < TRUM_C(0.1) ? TRUM_C(0.5) : b->gain_low / (b->gain_low - b->gain_high);
     next = b->low + share * (b->high - b->low), b->bisect_next = !b->bisect_next;
   }
   return next;
 }
 
 /* The speed that errors of the next lap are measured by: the smaller the decay, the more an error of a step weighs. */
-static double trum_scale_of(const trum_orbit_in* in, const trum_lap_summary* s, double cycle_time) {
-  const double reach = in->push * cycle_time;
-  return s->top * (s->decay > 1e-3 ? s->decay : 1e-3 * (reach < s->top ? s->decay + reach / s->top : 1.0));
+static trum_real trum_scale_of(const trum_orbit_in* in, const trum_lap_summary* s, trum_real cycle_time) {
+  const trum_real reach = in->push * cycle_time;
+  return s->top * (s->decay > TRUM_C(1e-3) ? s->decay : TRUM_C(1e-3) * (reach < s->top ? s->decay + reach / s->top : 1));
 }
 
 /* A lap of the held rotor has ended.  Without slopes it is repeated until its bounds meet the tolerance; with slopes
@@ -162,86 +162,86 @@ static double trum_scale_of(const trum_orbit_in* in, const trum_lap_summary* s, 
 static int trum_finish_held_lap(trum_lanes* lanes, int i, trum_search* search) {
   const int met = trum_store_held(lanes, i, search);
   trum_orbit_out* out = search->out;
-  if (lanes->slopes) trum_store_slopes(lanes, i, search);
-  if (lanes->slopes && search->held_laps < 2) {
-    if (!search->held_laps) trum_update_slope_scales(lanes, i, search, 1e300);
+  if (with_slopes(lanes)) trum_store_slopes(lanes, i, search);
+  if (with_slopes(lanes) && search->held_laps < 2) {
+    if (!search->held_laps) trum_update_slope_scales(lanes, i, search, trum_unmeasured);
     ++search->held_laps;
     trum_start_lap(lanes, i, search);
     return 1;
   }
-  if (!lanes->slopes && !met && ++search->refinements <= 6) {
-    const double error = trum_larger(out->contact_error, out->held_error);
-    search->level *= 0.3 * trum_larger(search->in->tolerance / error, 0.01);
+  if (!with_slopes(lanes) && !met && ++search->refinements <= 6) {
+    const trum_real error = trum_larger(out->contact_error, out->held_error);
+    search->level *= TRUM_C(0.3) * trum_larger(search->in->tolerance / error, TRUM_C(0.01));
     trum_start_lap(lanes, i, search);
     return 1;
   }
-  if (lane_value(&lanes->lap.full_contact, i) > 0.0) out->flags += trum_full_contact;
+  if (lane_value(&lanes->lap.full_contact, i) > 0) out->flags += trum_full_contact;
   return 0;
 }
 
 /* Repeats a lap that could not be followed with shorter steps, a few times at most: steps that are too long alternate
  * between the sides of a line contact that is as fast as the rotor. */
 static int trum_repeat_failed_lap(trum_lanes* lanes, int i, trum_search* search) {
-  const double fine_level = trum_fine_level(search->in->tolerance);
+  const trum_real fine_level = trum_fine_level(search->in->tolerance);
   if (++search->refinements > 3) {
-    search->out->flags += lane_value(&lanes->step.steps_left, i) < 0.0 ? trum_too_many_steps : trum_failed_step;
+    search->out->flags += lane_value(&lanes->step.steps_left, i) < 0 ? (trum_real)trum_too_many_steps : (trum_real)trum_failed_step;
     return 0;
   }
-  search->level = search->level > fine_level ? fine_level : 0.1 * search->level, ++search->laps;
+  search->level = search->level > fine_level ? fine_level : TRUM_C(0.1) * search->level, ++search->laps;
   trum_start_lap(lanes, i, search);
   return 1;
 }
 
 /* After a fine lap whose bounds do not meet the tolerance: shorter steps if its own errors are too large; else from a
  * better start, or on both sides of a start whose gain has no certain sign.  Returns the next start. */
-static double trum_refine(const trum_lanes* lanes, int i, trum_search* search, const trum_lap_summary* s, double next) {
-  const double allowed = search->in->tolerance * s->top, error = fabs(lane_value(&lanes->lap.error, i));
-  const double width = search->bracket.high - search->bracket.low, middle = search->start_speed;
+static trum_real trum_refine(const trum_lanes* lanes, int i, trum_search* search, const trum_lap_summary* s, trum_real next) {
+  const trum_real allowed = search->in->tolerance * s->top, error = trum_fabs(lane_value(&lanes->lap.error, i));
+  const trum_real width = search->bracket.high - search->bracket.low, middle = search->start_speed;
   trum_newton_record* newton = &search->newton;
   trum_start_change own = {s->known ? s->newton : next - middle, s->share * error / s->decay, error};
   trum_store_orbit(lanes, i, search, own, s->top);
   if (s->known) {
-    const double excess = search->out->error / search->in->tolerance;
-    if (excess > 1.0 && ++search->refinements <= 12) search->level *= 0.3 * trum_larger(1.0 / excess, 0.003);
+    const trum_real excess = search->out->error / search->in->tolerance;
+    if (excess > 1 && ++search->refinements <= 12) search->level *= TRUM_C(0.3) * trum_larger(1 / excess, TRUM_C(0.003));
     return next;
   }
   if (s->certain) return next;
-  newton->last_step = HUGE_VAL;
-  if (width <= 0.5 * allowed || ++newton->probes > 8) {
-    search->level *= 0.1, ++search->refinements, newton->probes = 0;
+  newton->last_step = TRUM_HUGE;
+  if (width <= TRUM_C(0.5) * allowed || ++newton->probes > 8) {
+    search->level *= TRUM_C(0.1), ++search->refinements, newton->probes = 0;
     return next;
   }
-  next = 0.3 * allowed * pow(3.0, newton->probes / 2);
+  next = TRUM_C(0.3) * allowed * trum_pow(TRUM_C(3.0), (trum_real)(newton->probes / 2));
   next = search->bracket.high - middle > middle - search->bracket.low ? middle + next : middle - next;
   if (next < search->bracket.high && next > search->bracket.low) return next;
-  return 0.5 * (search->bracket.low + search->bracket.high);
+  return TRUM_C(0.5) * (search->bracket.low + search->bracket.high);
 }
 
 /* A lap with slopes along an orbit that is known: the first one measures them, the next ones end when their start is
  * good enough.  Returns 1 if there is another lap to do. */
 static int trum_finish_lap_with_slopes(trum_lanes* lanes, int i, trum_search* search, const trum_lap_summary* s,
-                                       double change) {
+                                       trum_real change) {
   trum_update_slope_scales(lanes, i, search, s->decay);
   if (search->stage == STAGE_ROUGH) {
     search->stage = STAGE_FINE, search->level = trum_fine_level(search->in->tolerance);
-    search->scales.speed = s->top * trum_larger(s->decay, 1e-3);
+    search->scales.speed = s->top * trum_larger(s->decay, TRUM_C(1e-3));
     return 1;
   }
   trum_store_slopes(lanes, i, search);
-  return fabs(change) > search->in->tolerance * s->top && s->certain && !s->last;
+  return trum_fabs(change) > search->in->tolerance * s->top && s->certain && !s->last;
 }
 
 /* After a lap far from the orbit: its last figures if no more are allowed (returns 0), or a finer level. */
 static int trum_finish_rough_lap(trum_lanes* lanes, int i, trum_search* search, const trum_lap_summary* s,
-                                 double change) {
-  const double nearly = s->top * sqrt(0.1 * search->in->tolerance);
+                                 trum_real change) {
+  const trum_real nearly = s->top * trum_sqrt(TRUM_C(0.1) * search->in->tolerance);
   if (s->last) {
-    const trum_start_change start = {change, HUGE_VAL, 0.0};
+    const trum_start_change start = {change, TRUM_HUGE, 0};
     trum_store_orbit(lanes, i, search, start, s->top);
     search->out->flags += trum_too_many_laps;
     return 0;
   }
-  if ((fabs(change) <= nearly && s->change < 0.7) || !s->certain ||
+  if ((trum_fabs(change) <= nearly && s->change < TRUM_C(0.7)) || !s->certain ||
       search->bracket.high - search->bracket.low <= nearly) {
     search->stage = STAGE_FINE, search->level = trum_fine_level(search->in->tolerance);
   } else if (search->laps == 1) {
@@ -252,7 +252,7 @@ static int trum_finish_rough_lap(trum_lanes* lanes, int i, trum_search* search, 
 
 /* The bounds after a fine lap: 1 if they meet the tolerance, or if no more laps are allowed. */
 static int trum_finish_fine_lap(trum_lanes* lanes, int i, trum_search* search, const trum_lap_summary* s,
-                                double change) {
+                                trum_real change) {
   trum_store_orbit(lanes, i, search, trum_uncertain_change(search, s, change), s->top);
   if (search->out->error <= search->in->tolerance) search->out->flags += trum_converged;
   else if (s->last) search->out->flags += trum_too_many_laps;
@@ -263,15 +263,15 @@ static int trum_finish_fine_lap(trum_lanes* lanes, int i, trum_search* search, c
 /* What follows a lap that has ended: stores figures, or starts the next lap.  Returns 0 when the task is done. */
 static int trum_finish_lap(trum_lanes* lanes, int i, trum_search* search) {
   trum_lap_summary s;
-  double next;
+  trum_real next;
   trum_newton_record* newton = &search->newton;
   if (mask_in_lane(lanes->status.failed, i)) return trum_repeat_failed_lap(lanes, i, search);
   if (search->stage == STAGE_HELD) return trum_finish_held_lap(lanes, i, search);
   s = trum_summarise_lap(lanes, i, search);
   trum_compare_laps(search, &s);
   trum_update_bracket(search, &s);
-  next = trum_next_start(search, &s), newton->last_step = fabs(next - search->start_speed);
-  if (lanes->slopes) {
+  next = trum_next_start(search, &s), newton->last_step = trum_fabs(next - search->start_speed);
+  if (with_slopes(lanes)) {
     const int known_start = search->stage == STAGE_ROUGH; /* is kept for the lap whose slopes count */
     if (!trum_finish_lap_with_slopes(lanes, i, search, &s, next - search->start_speed)) return 0;
     if (known_start) next = search->start_speed;
@@ -281,7 +281,7 @@ static int trum_finish_lap(trum_lanes* lanes, int i, trum_search* search) {
   } else if (!trum_finish_rough_lap(lanes, i, search, &s, next - search->start_speed)) {
     return 0;
   }
-  if (!lanes->slopes) search->scales.speed = trum_scale_of(search->in, &s, lane_value(&lanes->equation.cycle_time, i));
+  if (!with_slopes(lanes)) search->scales.speed = trum_scale_of(search->in, &s, lane_value(&lanes->equation.cycle_time, i));
   newton->start = search->start_speed, newton->decay = s.decay, newton->exact_gain = s.exact_gain;
   newton->uncertainty = s.uncertainty, newton->trusted = s.trusted, newton->slope_error = s.slope_error;
   search->start_speed = next;

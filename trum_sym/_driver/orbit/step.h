@@ -8,7 +8,7 @@
 
 /* An estimate of a step's quadrature error, from the decay of its integrand's Legendre coefficients. */
 static real trum_quadrature_error(const real* G) {
-  static const double L[NODES][NODES] = TRUM_COLLOCATION_LEGENDRE;
+  static const trum_real L[NODES][NODES] = TRUM_COLLOCATION_LEGENDRE;
   real size[NODES], whole, second, third;
   int k, j;
   for (k = 0; k < NODES; ++k) {
@@ -58,9 +58,9 @@ static real trum_limited(const trum_lanes* lanes, const trum_trial_step* trial, 
 
 /* Solves x_i = x_0 + sum_j A_ij T_j (push f(x_j) - drag) for the three nodes after the first. */
 static void trum_solve_collocation(const trum_lanes* lanes, trum_trial_step* trial) {
-  static const double A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS, c[NODES] = TRUM_COLLOCATION_POINTS;
+  static const trum_real A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS, c[NODES] = TRUM_COLLOCATION_POINTS;
   trum_factors equations;
-  real G[NODES], right[NODES], y[NODES], T_f[NODES], last_change = REAL(1e100);
+  real G[NODES], right[NODES], y[NODES], T_f[NODES], last_change = REAL(TRUM_EITHER(1e100, 1e37));
   int i, j, k, tries;
   for (j = 0; j < NODES; ++j) {
     const real sigma = REAL(c[j]);
@@ -124,11 +124,11 @@ static void trum_solve_collocation(const trum_lanes* lanes, trum_trial_step* tri
     trial->events[j][EVENT_SATURATION] = trial->at[j].R_v * trial->at[j].R_v - v * v;
     trial->events[j][EVENT_FULL_CONTACT] =
         trial->at[j].W_c * trial->at[j].W_c - lanes->constants.W_full * lanes->constants.W_full;
-    if (lanes->slopes)
+    if (with_slopes(lanes))
       trum_evaluate_derivatives(lanes, lanes->step.tau + lanes->step.h * trial->z[j], &trial->at[j], v,
                                 &trial->derivatives[j]);
   }
-  if (lanes->slopes) trial->derivatives[0] = lanes->sensitivity.derivatives;
+  if (with_slopes(lanes)) trial->derivatives[0] = lanes->sensitivity.derivatives;
 }
 
 #endif

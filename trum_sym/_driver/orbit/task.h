@@ -35,21 +35,21 @@ static void trum_load_region_slopes(trum_search* search) {
 /* No error control of the next lap's slopes, as nothing is known of their magnitude. */
 static void trum_reset_slope_scales(trum_search* search) {
   int k;
-  search->scales.growth = 1e300;
-  for (k = 0; k < PARAMETERS; ++k) search->scales.friction[k] = search->scales.angle[k] = 1e300;
+  search->scales.growth = trum_unmeasured;
+  for (k = 0; k < PARAMETERS; ++k) search->scales.friction[k] = search->scales.angle[k] = trum_unmeasured;
 }
 
 /* Starts the search for an orbit from rest, or from a known start speed (else NaN); 0 if no speed balances the load. */
-static int trum_start_search(trum_lanes* lanes, int i, trum_search* search, double known) {
+static int trum_start_search(trum_lanes* lanes, int i, trum_search* search, trum_real known) {
   const trum_orbit_in* in = search->in;
-  if (!(in->push > fabs(in->drag))) {
+  if (!(in->push > trum_fabs(in->drag))) {
     search->out->flags += trum_runaway;
     return 0;
   }
-  if (isnan(known) && trum_solve_balance(lanes, i, search)) return 0;
+  if ((known != known) && trum_solve_balance(lanes, i, search)) return 0;
   search->stage = STAGE_ROUGH, search->level = trum_step_share * trum_first_lap_tolerance;
-  search->scales.speed = 0.1 * in->D * in->k_c * in->W * (in->omega_n + in->Delta_omega);
-  if (!isnan(known)) search->start_speed = known, search->laps = 1;
+  search->scales.speed = TRUM_C(0.1) * in->D * in->k_c * in->W * (in->omega_n + in->Delta_omega);
+  if (!(known != known)) search->start_speed = known, search->laps = 1;
   trum_start_lap(lanes, i, search);
   return 1;
 }
@@ -57,8 +57,8 @@ static int trum_start_search(trum_lanes* lanes, int i, trum_search* search, doub
 /* Puts a task of a point into a lane: its held rotor, or its orbit from a start speed that is known or NaN.  0 if there
  * is nothing to do. */
 static int trum_load_task(trum_lanes* lanes, int i, trum_search* search, const trum_orbit_in* in, trum_orbit_out* out,
-                          int held, double known) {
-  const double period = 6.283185307179586477 / (in->omega_n + in->Delta_omega);
+                          int held, trum_real known) {
+  const trum_real period = TRUM_C(6.283185307179586477) / (in->omega_n + in->Delta_omega);
   trum_cycle_constants cycle;
   trum_free_motion before;
   trum_real results[trum_regions_n_res], phasors[trum_region_phasors_n_res];
@@ -69,13 +69,13 @@ static int trum_load_task(trum_lanes* lanes, int i, trum_search* search, const t
   set_lane(&lanes->constants.D, i, in->D), set_lane(&lanes->constants.k_c, i, in->k_c);
   set_lane(&lanes->constants.engagement_per_height, i, in->engagement_per_height);
   set_lane(&lanes->constants.W_full, i, in->W_full);
-  set_lane(&lanes->constants.p_re, i, cos(in->psi)), set_lane(&lanes->constants.p_im, i, sin(in->psi));
+  set_lane(&lanes->constants.p_re, i, trum_cos(in->psi)), set_lane(&lanes->constants.p_im, i, trum_sin(in->psi));
   set_lane(&lanes->equation.period, i, period), set_lane(&lanes->equation.cycle_time, i, period * in->m);
   trum_load_cycle(in, &cycle, &before);
   trum_plain_regions(&cycle, &before, results);
   trum_plain_region_phasors(&cycle, &before, phasors);
   for (r = 0; r < TRUM_REGIONS; ++r) {
-    search->cycle.pulses[r] = floor(results[trum_regions_out_time_redu + r] / period + 0.5);
+    search->cycle.pulses[r] = trum_floor(results[trum_regions_out_time_redu + r] / period + TRUM_C(0.5));
     for (phase = 0; phase < 2; ++phase) {
       const trum_real* z = &phasors[2 * TRUM_REGIONS * phase + 2 * r];
       search->cycle.start[r][2 * phase] = z[0], search->cycle.start[r][2 * phase + 1] = z[1];
@@ -83,15 +83,15 @@ static int trum_load_task(trum_lanes* lanes, int i, trum_search* search, const t
   }
   search->in = in, search->out = out;
   search->laps = search->refinements = search->bracket.bisect_next = 0;
-  search->newton.last_step = HUGE_VAL, search->newton.start = search->newton.decay = search->newton.exact_gain = 0.0;
-  search->newton.uncertainty = search->newton.trusted = 0.0, search->newton.slope_error = 1.0;
+  search->newton.last_step = TRUM_HUGE, search->newton.start = search->newton.decay = search->newton.exact_gain = 0;
+  search->newton.uncertainty = search->newton.trusted = 0, search->newton.slope_error = 1;
   search->newton.probes = 0;
-  search->stage = STAGE_HELD, search->start_speed = 0.0;
-  search->bracket.low = search->bracket.sure_low = -HUGE_VAL;
-  search->bracket.high = search->bracket.sure_high = HUGE_VAL;
-  search->scales.speed = 0.0, search->level = trum_fine_level(in->tolerance);
+  search->stage = STAGE_HELD, search->start_speed = 0;
+  search->bracket.low = search->bracket.sure_low = -TRUM_HUGE;
+  search->bracket.high = search->bracket.sure_high = TRUM_HUGE;
+  search->scales.speed = 0, search->level = trum_fine_level(in->tolerance);
   search->held_laps = 0, trum_reset_slope_scales(search);
-  if (lanes->slopes) trum_load_region_slopes(search);
+  if (with_slopes(lanes)) trum_load_region_slopes(search);
   if (!held) return trum_start_search(lanes, i, search, known);
   trum_start_lap(lanes, i, search);
   return 1;

@@ -2,7 +2,7 @@
 #ifndef TRUM_ORBIT_TYPES_H
 #define TRUM_ORBIT_TYPES_H
 
-enum { FIGURES = TRUM_SLOPE_FIGURES_COUNT, PARAMETERS = TRUM_SLOPE_PARAMETERS_COUNT };
+enum { FIGURES = TRUM_SLOPE_FIGURES_COUNT, PARAMETERS = TRUM_SLOPES ? TRUM_SLOPE_PARAMETERS_COUNT : 1 };
 enum { LAST_NODE = TRUM_COLLOCATION_NODES - 1, NODES = TRUM_COLLOCATION_NODES };
 
 /* Glossary.
@@ -98,8 +98,8 @@ typedef struct {
 
 /* Speed and distance of lane 0 at equal times of a lap. */
 typedef struct {
-  double *speed, *distance;
-  double spacing, since, travelled; /* between the times; time and distance at the step's start */
+  trum_real *speed, *distance;
+  trum_real spacing, since, travelled; /* between the times; time and distance at the step's start */
   long count, written;
 } trum_record;
 
@@ -119,5 +119,13 @@ typedef struct {
   int slopes;          /* whether sensitivities are wanted */
   trum_record* record; /* of a history, or none */
 } trum_lanes;
+
+/* What a build leaves out is a constant 0, so that the compiler leaves out what it would need. */
+#define with_slopes(lanes) (TRUM_SLOPES && (lanes)->slopes)
+#ifdef TRUM_FIXED_CONTACT
+#define with_hertz(lanes) (TRUM_FIXED_CONTACT == TRUM_CONTACT_HERTZ)
+#else
+#define with_hertz(lanes) ((lanes)->hertz)
+#endif
 
 #endif
