@@ -232,6 +232,15 @@
         else send();
       });
     }
+    /* a slider over decades: 0 at its left end, then equal steps of the logarithm */
+    function fromSlider(input) {
+      const place = Number(input.value), ends = input.dataset.decades?.split(" ").map(Number);
+      return !ends ? place : place ? Number((10 ** (ends[0] + (ends[1] - ends[0]) * place / input.max)).toPrecision(3)) : 0;
+    }
+    function toSlider(input, value) {
+      const ends = input.dataset.decades?.split(" ").map(Number);
+      return !ends ? value : value > 0 ? input.max * (Math.log10(value) - ends[0]) / (ends[1] - ends[0]) : 0;
+    }
     function limit(periods) {
       for (const input of inputs) if (input.dataset.setting === "on_periods") {
         input.min = Math.ceil(periods / 2);
@@ -243,7 +252,7 @@
       if (!busy) limit(settings.periods);
       for (const input of inputs) {
         const wanted = values[input.dataset.setting] ?? settings[input.dataset.setting];
-        if (input !== document.activeElement || input.type !== "number") input.value = wanted;
+        if (input !== document.activeElement || input.type !== "number") input.value = toSlider(input, wanted);
       }
       for (const cell of root.querySelectorAll("[data-figure]")) {
         const value = figures[cell.dataset.figure];
@@ -259,8 +268,9 @@
         note.textContent = `${input.dataset.setting.replaceAll("_", " ")}: ${input.validationMessage}`;
         return;
       }
-      const name = input.dataset.setting, value = name === "start" ? input.value : Number(input.value);
-      for (const other of inputs) if (other !== input && other.dataset.setting === name) other.value = input.value;
+      const name = input.dataset.setting, number = fromSlider(input);
+      const value = Number.isNaN(number) ? input.value : number; /* a word, of a choice */
+      for (const other of inputs) if (other !== input && other.dataset.setting === name) other.value = toSlider(other, value);
       const changes = { [name]: value };
       if (name === "periods") {
         const on = values.on_periods ?? state.settings.on_periods;
