@@ -84,8 +84,9 @@ class RangeType(click.ParamType):  # type: ignore[type-arg, unused-ignore]
 
 def number_option(name: str, unit: str, default: float | None, text: str, metavar: str) -> Callable[..., Any]:
     """An option that takes a quantity."""
-    shown = False if default is None else f"{default:g}" + ("" if unit == "1" else f" {unit}")
-    return click.option(name, type=QuantityType(unit), default=default, show_default=shown, help=text, metavar=metavar)
+    if default is not None:  # click would put a default that is text in brackets
+        text += f"  [default: {default:g}{'' if unit == '1' else f' {unit}'}]"
+    return click.option(name, type=QuantityType(unit), default=default, help=text, metavar=metavar)
 
 
 def choice_option(name: str, words: tuple[str, ...], text: str) -> Callable[..., Any]:
