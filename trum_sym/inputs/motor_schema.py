@@ -64,7 +64,7 @@ _SECTIONS: dict[str, dict[str, Entry]] = {
         "amplitude_factor": Entry(
             "1", "C_f of eq. 8: a phase's amplitude is free_amplitude C_f (F_c / 1 N)^-varsigma; calibrate fits both"
         ),
-        "amplitude_exponent": Entry("1", "varsigma of eq. 8, the line above"),
+        "amplitude_exponent": Entry("1", "varsigma, the exponent of eq. 8"),
         "fit_prepressure_min": Entry("N", "eq. 8 was measured from here"),
         "fit_prepressure_max": Entry("N", "eq. 8 was measured up to here"),
     },
