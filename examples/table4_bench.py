@@ -51,10 +51,9 @@ def main() -> None:
                             *(f"{trend[k]:+.2f}" for trend in trends),
                         )
                     )
-    print(
-        "Table 4 prints Q_aver 1447.5 1/s, v_s 633 arcsec/s, sigma_s 17.3 % (of an encoder of 2 ms); its speed\n"
-        "follows Q_aver over the frequency difference (Fig. 30a) and the prepressure (Fig. 31a): rank correlation +1.00\n"
-    )
+    print("Table 4 prints Q_aver 1447.5 1/s, v_s 633 arcsec/s, sigma_s 17.3 % (of an encoder of 2 ms);")
+    print("its speed follows Q_aver over the frequency difference (Fig. 30a) and the prepressure (Fig. 31a):")
+    print("rank correlation +1.00\n")
     head = ("reading", "gives", "load kg m^2", "Q_aver 1/s", "v_s arcsec/s", "sigma_s %", "30a", "31a")
     print(tabulate(rows, head, disable_numparse=True, colalign=("left", "left", *["right"] * 6)))
 

@@ -235,7 +235,7 @@ def test_sliders_move_numbers_and_pictures_by_keyboard(page):
     from selenium.webdriver.common.by import By
     from selenium.webdriver.common.keys import Keys
 
-    pictures = "return [...document.querySelectorAll('svg')].map((svg) => svg.innerHTML)"
+    pictures = "return [...document.querySelectorAll('svg:not([data-plot=load])')].map((svg) => svg.innerHTML)"
     names = page.execute_script(
         "return [...document.querySelectorAll('svg')].map((svg) => svg.getAttribute('aria-label'))"
     )
@@ -251,6 +251,26 @@ def test_sliders_move_numbers_and_pictures_by_keyboard(page):
     drawn = page.execute_script(pictures)
     page.find_element(By.CSS_SELECTOR, "input[type=range][data-instant]").send_keys(Keys.ARROW_RIGHT * 20)
     assert all(a != b for a, b in zip(drawn, page.execute_script(pictures), strict=True))
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("settings", [{}, {"on_periods": 20, "frequency_difference": 500, "compliance": "flange"}])
+def test_speed_under_load_is_that_of_evaluate(page, settings):
+    from selenium.webdriver.support.ui import WebDriverWait
+
+    enter(page, settings)
+    shown = "return document.querySelector('[data-plot=load] path.line')?.getAttribute('d')"
+    WebDriverWait(page, 20).until(lambda browser: browser.execute_script(shown))
+    current = "return trumMotor.underLoad().serial === trumMotor.serial()"
+    WebDriverWait(page, 20).until(lambda browser: browser.execute_script(current))
+    found = page.execute_script("const { loads, speeds } = trumMotor.underLoad(); return [loads, speeds.map(String)]")
+    loads, speeds = np.array(found[0]), np.array(found[1], float)
+    assert loads[0] == 0
+    assert loads[-1] == pytest.approx(0.25 * 180 * 0.0265 * 23 / 24)
+    for k in (0, 7, 20):
+        point = evaluated({**settings, "load_torque": float(loads[k])})
+        size = max(abs(point["min_speed"]), abs(point["max_speed"]))
+        assert speeds[k] == pytest.approx(point["mean_speed"], abs=1e-4 * size)
 
 
 @pytest.mark.browser
