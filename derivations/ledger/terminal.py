@@ -141,35 +141,51 @@ def _parts(expression: sp.Basic) -> Iterator[Picture]:
     elif isinstance(expression, sp.Pow):
         yield from _power(expression)
     elif isinstance(expression, sp.Piecewise):
-        for value, condition in expression.args:
-            yield {**_text("otherwise " if condition == sp.true else ""), "row": True}
-            yield _of(value)
-            if condition != sp.true:
-                yield _text("  for ", breaks=True)
-                yield _of(condition)
+        yield from _pieces(expression)
     elif isinstance(expression, sp.And | sp.Or):
-        for place, argument in enumerate(sorted(expression.args, key=sp.default_sort_key)):
-            if place:
-                yield _text(" ∧ " if isinstance(expression, sp.And) else " ∨ ", breaks=True)
-            yield _of(argument)
+        yield from _junction(expression)
     elif isinstance(expression, sp.Derivative):
-        whole = _whole(sp.Derivative(sp.Symbol("·"), *expression.args[1:]))
-        sign = "∂" if requires_partial(expression.expr) else "d"
-        top = [line.replace("(·)", "").replace("·", "").replace("d", sign) for line in whole["lines"]]
-        yield {"lines": top, "baseline": whole["baseline"]}
-        yield from _bracketed(expression.expr)
+        yield from _derivative(expression)
     elif isinstance(expression, sp.Integral) and all(len(limit) == 3 for limit in expression.limits):
-        for over, low, high in reversed(expression.limits):
-            yield _text(f"∫ over {_whole(over)['lines'][0]} from ", breaks=True)
-            yield _of(low)
-            yield _text(" to ")
-            yield _of(high)
-            yield _text(" of ")
-        yield from _bracketed(expression.function)
+        yield from _integral(expression)
     elif isinstance(expression, sp.Function | sp.Max | sp.Min):
         name = expression.func.__name__
         yield _text(str(pretty_symbol(name)) if isinstance(expression, AppliedUndef) else name.lower())
         yield from _bracketed(*expression.args)
+
+
+def _pieces(expression: sp.Piecewise) -> Iterator[Picture]:
+    for value, condition in expression.args:
+        yield {**_text("otherwise " if condition == sp.true else ""), "row": True}
+        yield _of(value)
+        if condition != sp.true:
+            yield _text("  for ", breaks=True)
+            yield _of(condition)
+
+
+def _junction(expression: sp.And | sp.Or) -> Iterator[Picture]:
+    for place, argument in enumerate(sorted(expression.args, key=sp.default_sort_key)):
+        if place:
+            yield _text(" ∧ " if isinstance(expression, sp.And) else " ∨ ", breaks=True)
+        yield _of(argument)
+
+
+def _derivative(expression: sp.Derivative) -> Iterator[Picture]:
+    whole = _whole(sp.Derivative(sp.Symbol("·"), *expression.args[1:]))
+    sign = "∂" if requires_partial(expression.expr) else "d"
+    top = [line.replace("(·)", "").replace("·", "").replace("d", sign) for line in whole["lines"]]
+    yield {"lines": top, "baseline": whole["baseline"]}
+    yield from _bracketed(expression.expr)
+
+
+def _integral(expression: sp.Integral) -> Iterator[Picture]:
+    for over, low, high in reversed(expression.limits):
+        yield _text(f"∫ over {_whole(over)['lines'][0]} from ", breaks=True)
+        yield _of(low)
+        yield _text(" to ")
+        yield _of(high)
+        yield _text(" of ")
+    yield from _bracketed(expression.function)
 
 
 def _bracketed(*arguments: sp.Basic) -> Iterator[Picture]:
