@@ -62,7 +62,7 @@ def main(arguments: list[str] | None = None) -> int:
     )
     proving.add_argument("--every", type=_count, default=1, metavar="N", help="of those mutants every N-th only")
     proving.add_argument("--circular", action="store_true", help="look for checks of a thing against itself")
-    proving.add_argument("--write", action="store_true", help="write generated/ledger.json and ledger.html")
+    proving.add_argument("--write", action="store_true", help="write generated/ledger.* and the pages made with it")
     proving.add_argument("--check", action="store_true", help="change nothing; exit 1 if those two are stale")
     copies = commands.add_parser("transcription", help="compare both transcriptions of the paper's equations")
     copies.add_argument("--mutants", action="store_true", help="change 200 characters, one at a time: is each noticed?")

@@ -18,7 +18,7 @@ import trum_sym as ts
 from trum_sym.inputs.checks import Array
 from trum_sym.model.kernels import call
 
-__all__ = ["pressed", "speed_at"]
+__all__ = ["alike", "pressed", "speed_at"]
 
 _SAMPLES = 512
 _STEPS = 4000
@@ -86,10 +86,30 @@ def speed_at(u: Array, pressure: Array, fraction: float) -> float:
     return float(np.interp((1 - fraction) / 2, slower, surface[order]))
 
 
+def alike(motor: ts.Motor, height: float, prepressure: float, fraction: float) -> float:
+    """By how much stiffer one spring for the contact falls as far under a load as all harmonics do, 1 to 8 times.
+
+    NaN where the whole wave touches: then the speed does not depend on the stiffness.
+    """
+    u, every = pressed(motor, height, prepressure, single=False)
+    if every.min() > 0:
+        return float("nan")
+    wanted = speed_at(u, every, fraction) / speed_at(u, every, 0.0)
+    single = _compliance(motor, float(motor.crests.value / motor.radius.value))
+    mean = prepressure / (2 * np.pi * float(motor.radius.value))
+    low, high = 1.0, 8.0
+    for _ in range(12):
+        middle = float(np.sqrt(low * high))
+        pressure = _least_energy(np.full(_SAMPLES // 2 + 1, single / middle), height * np.cos(u), mean)
+        found = speed_at(u, pressure, fraction) / speed_at(u, pressure, 0.0)
+        low, high = (middle, high) if found < wanted else (low, middle)
+    return middle
+
+
 def main(say: Callable[[str], None] = print) -> None:
-    """Print half-angle and speed under load by one spring and by all harmonics."""
+    """Print half-angle and speed under load by one spring and by all harmonics, and how stiff a spring is alike."""
     motor = ts.load_motor("trum60")
-    say("flange mm  wave um  half-angle rad: one, all  speed at 49 % over none: one, all  at 56 %: one, all")
+    say("flange mm  wave um  half-angle rad: one, all  speed at 49 % over none: one, all  at 56 %: one, all  alike")
     for length in (2e-3, 3e-3, 5e-3):
         for height in (1.8e-6, 3e-6, 5.56e-6):
             cells = []
@@ -99,7 +119,8 @@ def main(say: Callable[[str], None] = print) -> None:
                 touching = float(np.abs(u[pressure > 1e-6 * pressure.max()]).max())
                 cells.append((touching, *(speed_at(u, pressure, share) / free for share in (0.49, 0.56))))
             pairs = "  ".join(f"{one:.3f} {every:.3f}" for one, every in zip(*cells, strict=True))
-            say(f"{1e3 * length:9.0f}  {1e6 * height:7.2f}  {pairs}")
+            stiffer = alike(motor.with_values({"flange_length": length}), height, 180.0, 0.49)
+            say(f"{1e3 * length:9.0f}  {1e6 * height:7.2f}  {pairs}  {stiffer:.2f}")
 
 
 if __name__ == "__main__":

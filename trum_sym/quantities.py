@@ -1,13 +1,15 @@
 """The numeric figures of an operating point: label, units, symbol, meaning, and where they come from.
 
-This is the one table of them: tables, JSON, CSV headers, NetCDF attributes, axes and messages take it from here.
+This is the one table of them: tables, JSON, CSV headers, NetCDF attributes, axes, messages, help and the glossary take
+it from here.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
-__all__ = ["ERRORS", "MORE", "QUANTITIES", "Quantity", "unit_of_figure"]
+__all__ = ["ERRORS", "MORE", "QUANTITIES", "Quantity", "in_glossary", "in_help", "unit_of_figure"]
 
 
 class Quantity(NamedTuple):
@@ -16,64 +18,131 @@ class Quantity(NamedTuple):
     ``unit`` is the SI unit that programs read, ``shown`` the one that people read; ``source`` an equation of the paper.
     """
 
-    label: str
+    term: str
+    symbol: str
     unit: str
     shown: str
     meaning: str = ""
     source: str = ""
 
+    @property
+    def label(self) -> str:
+        """The term with its symbol."""
+        return f"{self.term} {self.symbol}".rstrip()
+
 
 QUANTITIES = {
     "resonance_frequency": Quantity(
-        "resonance frequency f_n", "Hz", "Hz", "at which the stator under prepressure vibrates by itself", "eq. 6"
+        "resonance frequency",
+        "f_n",
+        "Hz",
+        "Hz",
+        "at which the stator under prepressure vibrates by itself",
+        "eq. 6",
     ),
-    "drive_frequency": Quantity("drive frequency f_q", "Hz", "Hz", "of the voltage on both phases", "eq. 7"),
-    "cycle_time": Quantity("cycle time T_Qall", "s", "ms", "of the pattern of switching that repeats", "eq. 43"),
-    "amplitude": Quantity("amplitude of a phase W_maxf", "m", "µm", "steady amplitude of one phase", "eq. 8"),
+    "drive_frequency": Quantity("drive frequency", "f_q", "Hz", "Hz", "of the voltage on both phases", "eq. 7"),
+    "cycle_time": Quantity("cycle time", "T_Qall", "s", "ms", "of the pattern of switching that repeats", "eq. 43"),
+    "amplitude": Quantity("amplitude of a phase", "W_maxf", "m", "µm", "steady amplitude of one phase", "eq. 8"),
     "neutral_axis": Quantity(
-        "neutral axis D", "m", "mm", "from the tooth surface to the line that keeps its length", "eq. 1"
+        "neutral axis",
+        "D",
+        "m",
+        "mm",
+        "from the tooth surface to the line of the section that bending leaves as long as it was",
+        "eq. 1",
     ),
     "wavenumber": Quantity(
-        "wavenumber k_c", "1/m", "1/m", "angle of the wave per length of the circumference", "eq. 4"
+        "wavenumber", "k_c", "1/m", "1/m", "angle of the wave per length of the circumference", "eq. 4"
     ),
-    "q_ratio": Quantity("forward over backward X", "1", "1", "of the direction determinant over a cycle", "eq. A14"),
+    "q_ratio": Quantity(
+        "forward over backward",
+        "X",
+        "1",
+        "1",
+        "the direction determinant's positive part over the size of its negative part, over a cycle",
+        "eq. A14",
+    ),
     "q_square_ratio": Quantity(
-        "the same of squares Y", "1", "1", "of the determinant's square over a cycle", "eq. A16"
+        "the same of squares", "Y", "1", "1", "that ratio of the determinant's square", "eq. A16"
     ),
-    "q_average": Quantity("speed determinant Q_aver", "1/s", "1/s", "the paper's measure of the mean speed", "eq. 43"),
+    "q_average": Quantity(
+        "speed determinant",
+        "Q_aver",
+        "1/s",
+        "1/s",
+        "the determinant's positive less its negative part, over their sum and the cycle time: the paper's measure of "
+        "the mean speed",
+        "eq. 43",
+    ),
     "q_volatility": Quantity(
-        "volatility determinant Q_vib", "1/s", "1/s", "the paper's measure of the fluctuation", "eq. 44"
+        "volatility determinant",
+        "Q_vib",
+        "1/s",
+        "1/s",
+        "the paper's measure of the fluctuation, from the positive and negative parts of the determinant's square",
+        "eq. 44",
     ),
-    "mean_speed": Quantity("mean speed v_s", "rad/s", "arcsec/s", "of the rotor over its periodic orbit", "eq. 39"),
-    "min_speed": Quantity("lowest speed", "rad/s", "arcsec/s", "of the rotor over its periodic orbit"),
-    "max_speed": Quantity("highest speed", "rad/s", "arcsec/s", "of the rotor over its periodic orbit"),
+    "mean_speed": Quantity(
+        "mean speed", "v_s", "rad/s", "arcsec/s", "mean of the rotor's speed over the orbit", "eq. 39"
+    ),
+    "min_speed": Quantity("lowest speed", "", "rad/s", "arcsec/s", "lowest of the orbit"),
+    "max_speed": Quantity("highest speed", "", "rad/s", "arcsec/s", "highest of the orbit"),
     "speed_volatility": Quantity(
-        "speed volatility sigma_s", "1", "%", "standard deviation of the speed over the size of its mean", "eq. 40"
+        "speed volatility", "sigma_s", "1", "%", "standard deviation of the speed over the size of its mean", "eq. 40"
     ),
-    "stall_torque": Quantity("stall torque", "N*m", "N*m", "mean torque on a rotor that is held still"),
-    "contact_fraction": Quantity("contact fraction", "1", "1", "mean over the cycle of the wave's share in contact"),
+    "stall_torque": Quantity(
+        "stall torque",
+        "",
+        "N*m",
+        "N*m",
+        "mean torque on a rotor that is held still; a load beyond it drives a heavy rotor back, a light one follows "
+        "the beats and may still advance",
+    ),
+    "contact_fraction": Quantity(
+        "contact fraction", "", "1", "1", "mean over the cycle of the contact half-angle over pi"
+    ),
 }
 
 ERRORS = {
     f"{name}_error": Quantity(
-        f"{QUANTITIES[name].label}, bound of its error", QUANTITIES[name].unit, QUANTITIES[name].shown
+        f"{QUANTITIES[name].label}, bound of its error", "", QUANTITIES[name].unit, QUANTITIES[name].shown
     )
     for name in ("mean_speed", "min_speed", "max_speed", "speed_volatility", "stall_torque")
 }
 """Bounds of the errors of the rotor's figures, by the figure's name with ``_error`` after it."""
 
 MORE = {
-    "speed_deviation": Quantity("standard deviation of the speed", "rad/s", "arcsec/s"),
-    "peak_pressure": Quantity("peak pressure", "Pa", "MPa", "highest pressure between layer and stator in a cycle"),
-    "sampling_period": Quantity("sampling period", "s", "ms", "over which an encoder averages the speed", "Sect. 8"),
-    "tolerance": Quantity("tolerance", "1", "1", "largest bound of the speeds' errors over the largest speed"),
-    "constraint_violation": Quantity("constraint violation", "1", "1", "the largest, over the constraint's bound"),
-    "reachable_speed": Quantity("reachable speed", "rad/s", "arcsec/s", "lowest and highest mean speed of the box"),
-    "reachable": Quantity("reachable speed", "rad/s", "arcsec/s", "lowest and highest mean speed of the box"),
-    "floor": Quantity("floor", "rad/s", "arcsec/s", "speed that errors are taken of where the speed is smaller"),
-    "largest_error": Quantity("largest error seen", "1", "%", "over the speed"),
+    "speed_deviation": Quantity("standard deviation of the speed", "", "rad/s", "arcsec/s"),
+    "peak_pressure": Quantity("peak pressure", "", "Pa", "MPa", "highest pressure between layer and stator in a cycle"),
+    "sampling_period": Quantity(
+        "sampling period", "", "s", "ms", "over which an encoder averages the speed", "Sect. 8"
+    ),
+    "tolerance": Quantity("tolerance", "", "1", "1", "largest bound of the speeds' errors over the largest speed"),
+    "constraint_violation": Quantity("constraint violation", "", "1", "1", "the largest, over the constraint's bound"),
+    "reachable_speed": Quantity("reachable speed", "", "rad/s", "arcsec/s", "lowest and highest mean speed of the box"),
+    "reachable": Quantity("reachable speed", "", "rad/s", "arcsec/s", "lowest and highest mean speed of the box"),
+    "floor": Quantity("floor", "", "rad/s", "arcsec/s", "speed that errors are taken of where the speed is smaller"),
+    "largest_error": Quantity("largest error seen", "", "1", "%", "over the speed"),
 }
 """What answers have beside the figures of an operating point."""
+
+
+def in_help(names: Iterable[str]) -> str:
+    """Figures with their SI units, for the end of a command's help."""
+    known = {**QUANTITIES, **MORE}
+    return "\b\nFigures:\n" + "\n".join(f"  {n:<20} {known[n].unit:<6} {known[n].label}" for n in names)
+
+
+def in_glossary() -> str:
+    """The figures as rows of the glossary: term, meaning, symbol, unit, equation, name."""
+    rows = []
+    for name, q in QUANTITIES.items():
+        units = q.unit if q.shown == q.unit else f"{q.unit}, read in {q.shown}"
+        meaning = q.meaning[0].upper() + q.meaning[1:]
+        rows.append(
+            f"| {q.term} | {meaning}. | {q.symbol} | {units} | {q.source.removeprefix('eq. ') or 'ours'} | `{name}` |"
+        )
+    return "\n".join(rows)
 
 
 def unit_of_figure(name: str) -> str | None:

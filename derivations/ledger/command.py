@@ -24,7 +24,7 @@ from derivations.proofs.mutants import Slip, kernel_mutants, table_mutants
 from derivations.proofs.page import rests_on
 from trum_sym.paper.ledger import table, written_out
 
-__all__ = ["as_json", "check_mutants", "outputs", "prove", "transcription", "verify"]
+__all__ = ["as_json", "as_pictures", "check_mutants", "outputs", "prove", "transcription", "verify"]
 
 
 def _progress(text: str) -> None:
@@ -47,7 +47,14 @@ def prove(entries: tuple[Entry, ...]) -> list[dict[str, Any]]:
 
 def as_json(records: list[dict[str, Any]]) -> str:
     """The text of ledger.json."""
-    return json.dumps(records, indent=1, ensure_ascii=False) + "\n"
+    said = [{key: value for key, value in record.items() if key != "pictures"} for record in records]
+    return json.dumps(said, indent=1, ensure_ascii=False) + "\n"
+
+
+def as_pictures(records: list[dict[str, Any]]) -> str:
+    """The text of ledger.pictures.json, a line an entry."""
+    rows = (f"{json.dumps(r['id'])}: {json.dumps(r['pictures'], ensure_ascii=False)}" for r in records)
+    return "{\n" + ",\n".join(rows) + "\n}\n"
 
 
 def _slips(name: str) -> tuple[list[Outcome], list[Outcome], float]:
@@ -173,6 +180,7 @@ def outputs(records: list[dict[str, Any]]) -> dict[Path, str]:
     docs = GENERATED.parent / "docs"
     return {
         GENERATED / "ledger.json": as_json(records),
+        GENERATED / "ledger.pictures.json": as_pictures(records),
         GENERATED / "ledger.html": html.page(records, ENTRIES),
         docs / "assumptions.md": assumptions.page(),
         docs / "referee.md": protocol.page(records),
@@ -199,7 +207,7 @@ def _show(records: list[dict[str, Any]], json_: bool, one: bool) -> None:
     if json_:
         print(as_json(records), end="")
     elif one:
-        print(written_out(records[0]))
+        print(written_out(records[0], records[0]["pictures"]))
     else:
         failed = sum(not r["confirmed"] for r in records)
         print(table(records))

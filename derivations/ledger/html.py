@@ -43,16 +43,26 @@ article[hidden] { display: none; } .place { color: var(--soft); font-size: .9rem
 .pair { display: grid; grid-template-columns: minmax(0, 1fr); gap: .5rem; margin: .6rem 0; }
 .box { background: var(--wash); border-radius: .4rem; padding: .4rem .8rem; }
 .box h3 { margin: 0 0 .3rem; font-size: .85rem; color: var(--soft); font-weight: 600; }
-.formula { margin: .35rem 0; overflow-x: auto; overflow-y: hidden; padding: .15rem 0; } math { font-size: 1.05rem; }
+.formula { margin: .35rem 0; overflow-y: hidden; padding: .15rem 0; } math { font-size: 1.05rem; }
+.box .formula { --page: var(--wash); }
+/* a shadow where more is hidden, and words where the script runs */
+.wide, .formula { overflow-x: auto; background: linear-gradient(90deg, var(--page) 40%, transparent) 0 / 3rem 100%,
+  linear-gradient(270deg, var(--page) 40%, transparent) 100% / 3rem 100%,
+  linear-gradient(90deg, var(--soft), transparent) 0 / .8rem 100%,
+  linear-gradient(270deg, var(--soft), transparent) 100% / .8rem 100%; background-repeat: no-repeat;
+  background-attachment: local, local, scroll, scroll; }
+.scrolls::before { content: "\\2194  more to the side"; position: sticky; left: 0; display: block; width: max-content;
+  font-size: .8rem; color: var(--soft); }
 math[display=block] { width: max-content; min-width: 100%; }
 details { margin: .4rem 0; } summary { cursor: pointer; } ol { padding-left: 1.8rem; } ol > li { margin: .5rem 0; }
 li.against { color: var(--bad); } sub, sup { line-height: 0; font-size: .75em; }
 figure { margin: .6rem 0; background: #fff; border-radius: .4rem; } svg { display: block; width: 100%; height: auto; }
-.wide { overflow-x: auto; } table { border-collapse: collapse; }
+table { border-collapse: collapse; }
 td, th { border: 1px solid var(--line); padding: .15rem .5rem; text-align: left; vertical-align: top; }
 .index { margin: .5rem 0; } .index a { display: inline-block; min-width: 2.2rem; text-align: center;
   border-radius: .3rem; margin: .1rem; text-decoration: none; padding: 0 .3rem; font-size: .85rem; }
-@media (max-width: 40rem) { body { padding: .5rem; } article { padding: .7rem; } .bar { position: static; } }
+@media (max-width: 40rem) { body { padding: .5rem; } article { padding: .7rem; } .bar { position: static; }
+  figure svg { min-width: 38rem; } }
 """
 
 _SCRIPT = """
@@ -82,7 +92,11 @@ function reveal() {
   if (target && target.hidden) { box.value = ''; buttons[0].click(); target.scrollIntoView(); }
 }
 window.addEventListener('hashchange', reveal);
-refresh(); reveal();
+const wide = [...document.querySelectorAll('.wide')];
+function hint() { for (const b of wide) b.classList.toggle('scrolls', b.scrollWidth > b.clientWidth + 1); }
+window.addEventListener('resize', hint);
+document.addEventListener('toggle', hint, true);
+refresh(); reveal(); hint();
 """
 
 
@@ -230,7 +244,7 @@ def _article(r: dict[str, Any], picture: str) -> str:
     words = " ".join(said).lower()
     corrected = {"erratum": "put right", "reconstructed": "reconstructed"}.get(r["verdict"], "derived")
     found_by = f"<p>Found by: {escape(', '.join(r['found_by']).replace('_', ' '))}.</p>" if r["found_by"] else ""
-    figure = f"<figure>{picture}</figure>" if picture else ""
+    figure = f'<figure><div class="wide">{picture}</div></figure>' if picture else ""
     return (
         f'<article id="{escape(anchor(r["id"]))}" data-verdict="{r["verdict"]}" data-severity="{r["severity"] or ""}" '
         f'data-copy="{r["copy"]}" data-words="{escape(words)}">'
@@ -260,7 +274,7 @@ def _nomenclature() -> str:
         f'<section id="nomenclature"><h2>Symbols</h2><details><summary>{len(rows)} symbols</summary><div class="wide">'
         f"<table>{head}{''.join(rows)}</table></div></details><h2>One letter, several "
         f"meanings</h2><details><summary>{len(clashes)} "
-        f"letters</summary><table>{''.join(clashes)}</table></details></section>"
+        f"letters</summary><div class='wide'><table>{''.join(clashes)}</table></div></details></section>"
     )
 
 

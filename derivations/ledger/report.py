@@ -12,6 +12,7 @@ from derivations.ledger.conditions import effect_at
 from derivations.ledger.model import Evidence, Forms, Result
 from derivations.ledger.referee import Review
 from derivations.ledger.second_opinion import as_record, stale
+from derivations.ledger.terminal import picture
 from derivations.nomenclature import NOMENCLATURE, latex
 
 __all__ = ["forms_latex", "record"]
@@ -31,12 +32,16 @@ def forms_latex(forms: Forms) -> list[str]:
     return [_form_latex(name, form) for name, form in forms.items()]
 
 
+def _pictures(forms: Forms) -> list[dict[str, Any]]:
+    return [picture(name, form) for name, form in forms.items()]
+
+
 def _evidence(found: Iterable[Evidence], about: str) -> list[dict[str, Any]]:
     return [{"about": about, "kind": e.kind, "ok": e.ok, "detail": e.detail} for e in found]
 
 
 def record(result: Result, review: Review) -> dict[str, Any]:
-    """What ``verify --json`` and ledger.json say of an entry."""
+    """What ``verify --json`` and ledger.json say of an entry, and its formulas as pictures for a terminal."""
     entry, weight, problems = result.entry, review.severity, [*result.problems, *review.problems]
     outdated = stale(entry, result.derivation.forms)
     problems += [outdated] if outdated else []
@@ -72,4 +77,9 @@ def record(result: Result, review: Review) -> dict[str, Any]:
             {"text": s.text, "latex": [latex(shown) for shown in s.shows], "holds": s.holds}
             for s in result.derivation.steps
         ],
+        "pictures": {
+            "printed": _pictures(entry.printed),
+            "derived": _pictures(result.derivation.forms),
+            "steps": [[picture("", shown) for shown in s.shows] for s in result.derivation.steps],
+        },
     }

@@ -271,11 +271,12 @@ def test_the_motor_of_a_point_is_the_shipped_one_where_nothing_was_set(written):
     assert read_point(Path(path)).motor() == ts.load_motor()
 
 
-def test_a_random_point_passes_every_way(tmp_path):
-    """A sample of ``python -m studies.points``."""
+@pytest.mark.parametrize("number", range(6))
+def test_a_random_point_passes_every_way(tmp_path, number):
+    """A sample of ``python -m studies.points``: each command that takes a point once."""
     from studies import points
 
-    assert points.wrong(points.drawn(np.random.default_rng(7)), tmp_path) == []
+    assert points.wrong(points.drawn(np.random.default_rng([7, number])), tmp_path, number) == []
 
 
 def test_a_point_that_loses_digits_is_noticed(tmp_path, monkeypatch):
@@ -283,7 +284,7 @@ def test_a_point_that_loses_digits_is_noticed(tmp_path, monkeypatch):
     from trum_sym.model import tables
 
     monkeypatch.setattr(tables, "full", lambda value: f"{float(value):.6g}")
-    assert "pasted to evaluate" in points.wrong(points.drawn(np.random.default_rng(7)), tmp_path)
+    assert "pasted to evaluate" in points.wrong(points.drawn(np.random.default_rng(7)), tmp_path, 0)
 
 
 def test_words_agree_in_number(capsys):

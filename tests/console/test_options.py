@@ -210,13 +210,16 @@ DRAWN = {
     "evaluate": (),
     "sensitivities": (),
     "optimize": ("--objective", "wear", "--load-torque", "0.05", "--prepressure", "180"),
+    "simulate": ("--load-torque", "0.1"),
+    "sweep": ("--prepressure", "170,180", "--outputs", "amplitude", "--out", "{folder}/store.zarr"),
+    "calibrate": (str(ROOT / "examples" / "data" / "table2.csv"),),
 }
 
 
 @pytest.mark.parametrize("command", DRAWN)
 def test_a_picture_is_drawn_and_replaces_no_file(capsys, console_refuses, tmp_path, command):
     target = tmp_path / "picture.png"
-    line = [command, *DRAWN[command], "--plot", str(target)]
+    line = [command, *(word.format(folder=tmp_path) for word in DRAWN[command]), "--plot", str(target)]
     assert console.main(line) == 0
     capsys.readouterr()
     content = target.read_bytes()

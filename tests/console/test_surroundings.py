@@ -6,6 +6,7 @@ import os
 import signal
 import subprocess
 import sys
+from importlib import import_module
 
 import pytest
 
@@ -160,7 +161,7 @@ def test_what_the_system_refuses_is_one_line(monkeypatch, capsys, error, code, w
     def fails(*_, **__):
         raise error
 
-    monkeypatch.setattr(sys.modules["trum_sym.console.equations"], "say", fails)
+    monkeypatch.setattr(import_module("trum_sym.console.equations"), "say", fails)
     assert console.main(QUICK) == code
     out, err = capsys.readouterr()
     assert out == ""
@@ -178,7 +179,7 @@ def test_a_fault_of_our_own_is_not_hidden(monkeypatch):
     def fails(*_, **__):
         raise RuntimeError("a bug")
 
-    monkeypatch.setattr(sys.modules["trum_sym.console.equations"], "say", fails)
+    monkeypatch.setattr(import_module("trum_sym.console.equations"), "say", fails)
     with pytest.raises(RuntimeError, match="a bug"):
         console.main(QUICK)
 

@@ -101,6 +101,12 @@ def test_the_page_on_the_optimiser_shows_what_its_example_prints():
     alike(shown("docs/optimise.md", "examples/optimise.py"), done.stdout)
 
 
+def test_the_page_on_claims_has_table_4_by_reading_inertia_and_compliance():
+    command = [sys.executable, ROOT / "examples" / "table4_bench.py"]
+    done = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", check=True)
+    alike(shown("docs/claims.md", "examples/table4_bench.py"), done.stdout)
+
+
 @pytest.mark.slow
 def test_the_page_on_the_optimiser_shows_how_sharp_its_optima_are():
     command = [sys.executable, ROOT / "examples" / "knife_edge.py"]

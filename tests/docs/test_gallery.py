@@ -76,6 +76,14 @@ def test_the_stored_picture_is_what_the_script_draws(drawn, name):
     assert not found, f"{file}: {found}; run python examples/gallery_{name}.py docs/pictures"
 
 
+def test_the_page_on_claims_has_what_the_region_s_script_prints(drawn):
+    text = (ROOT / "docs" / "claims.md").read_text("utf-8")
+    block = text.split("<!-- examples/gallery_load_region.py -->\n```\n")[1].split("```")[0]
+    assert NUMBER.sub("#", block) == NUMBER.sub("#", drawn[0]["load_region"])
+    numbers = [np.array(NUMBER.findall(part), float) for part in (block, drawn[0]["load_region"])]
+    assert numbers[0] == pytest.approx(numbers[1], rel=0.02)
+
+
 def test_every_stored_picture_is_on_a_page():
     text = "".join(page.read_text("utf-8") for page in (ROOT / "README.md", *(ROOT / "docs").glob("*.md")))
     stored = [path for kind in ("svg", "png") for path in (ROOT / "docs").rglob(f"*.{kind}")]

@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from trum_sym.quantities import in_glossary
+
 ROOT = Path(__file__).parents[2]
 NAME = re.compile(r"`([^`]+)`")
 
@@ -75,3 +77,9 @@ def test_equations_are_the_papers_and_terms_are_there_once():
     assert [term for term, count in Counter(row[0] for row in rows()).items() if count > 1] == []
     assert all(len(row) == 6 for row in rows())
     assert len(rows()) > 50
+
+
+def test_the_figures_are_those_of_the_table():
+    text = (ROOT / "docs" / "glossary.md").read_text("utf-8")
+    section = text.split("## Figures of an operating point")[1].split("\n## ")[0]
+    assert section.strip().split("|---|\n")[1] == in_glossary(), "paste trum_sym.quantities.in_glossary()"

@@ -133,6 +133,16 @@ def test_check_says_what_is_left_and_ends_with_no(capsys, motor_file):
     assert "contradictory or unusual: radius: 60 mm contradicts perimeter" in out
 
 
+def test_check_notices_an_amplitude_above_the_free_one(capsys, motor_file):
+    """Eq. 8 by hand: 12.6 um * 14.926 * 50^-0.678 = 13.25 um at 50 N, and 8.29 um at the stated 100 N."""
+    low = MOTOR_TEXT.replace("fit_prepressure_min = { value = 100.0", "fit_prepressure_min = { value = 50.0")
+    assert low != MOTOR_TEXT
+    code, out = run(capsys, "check", str(motor_file(low)))
+    assert code == 1
+    assert "amplitude_factor: eq. 8 gives 13.25" in out
+    assert "um at 50 N, the least prepressure of its fit, more than free_amplitude, 12.6 um" in out
+
+
 def test_show_names_every_value_with_its_source(capsys):
     out = run(capsys, "show")[1]
     for name, parameter in MOTOR.parameters():

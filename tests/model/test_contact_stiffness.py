@@ -8,6 +8,8 @@ from lazily import lazily
 
 import trum_sym as ts
 from trum_sym.model.kernels import call
+from trum_sym.model.levels import Levels
+from trum_sym.model.stator import solve_stator
 
 orbit_reference = lazily("orbit_reference")
 optimize = lazily("scipy.optimize")
@@ -148,6 +150,22 @@ def test_all_harmonics_of_the_pressure_agree_with_the_level_where_the_plate_is_o
     crest = point.neutral_axis * point.wavenumber * point.amplitude * 2 * np.pi * point.drive_frequency / 0.0265
     assert point.mean_speed / crest == pytest.approx(speeds[True], abs=3e-3)
     assert (np.array(speeds[False]) > speeds[True]).all()
+
+
+def test_a_stiffer_spring_stands_for_all_harmonics(trum60):
+    """At 3 mm and 3 um the level with 1.76 times its stiffness falls as far as the point-by-point contact."""
+    height = 3e-6
+    motor = trum60.with_values({"amplitude": height})
+    times = flange.alike(motor, height, 180.0, 0.49)
+    assert 1.5 < times < 2.0
+    level = solve_stator(motor, DRIVE, Levels(compliance="flange")).values["k_N"]
+    stiffer = motor.with_values({"contact_stiffness": times * float(level)})
+    u, pressure = flange.pressed(motor, height, 180.0, single=False)
+    wanted = flange.speed_at(u, pressure, 0.49) / flange.speed_at(u, pressure, 0.0)
+    stall = ts.evaluate(stiffer, DRIVE, compliance="flange").stall_torque
+    drive = ts.Drive(frequency_difference=500.0, on_periods=20, load_torque=np.array([0.0, 0.49]) * stall)
+    loaded = ts.evaluate(stiffer, drive, compliance="flange").mean_speed
+    assert loaded[1] / loaded[0] == pytest.approx(wanted, abs=3e-3)
 
 
 def random_flange(number):

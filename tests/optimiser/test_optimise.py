@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -444,3 +445,13 @@ def test_slopes_come_closer_with_the_tolerance():
     rough, middle, fine = np.median(smooth, axis=0)
     assert fine <= middle <= rough
     assert fine < 1e-6
+
+
+def test_it_says_what_it_does_and_about_how_long(capsys):
+    drive = ts.Drive(load_torque=0.05)
+    ts.optimize(ts.load_motor(), drive, objective="wear", bounds={"prepressure": 180}, progress=True)
+    first, second = capsys.readouterr().err.splitlines()
+    assert first == "optimize: a map of the box"
+    assert re.fullmatch(r"optimize: descents from its basins, about [\d.e-]+ s", second)
+    ts.optimize(ts.load_motor(), drive, objective="wear", bounds={"prepressure": 180})
+    assert capsys.readouterr().err == ""

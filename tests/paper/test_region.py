@@ -46,6 +46,21 @@ def test_the_friction_is_where_evaluate_has_table_4_s_speed(trum60, found, place
     assert found.volatility[place] == pytest.approx(read.speed_volatility, rel=2e-3)
 
 
+def test_the_region_with_a_flange_is_that_of_evaluate_with_one(trum60):
+    alone, found = (
+        region(trum60, "rest", -1.0, 0.0, np.array([1e-4]), np.array([0.0265]), of) for of in ("layer", "flange")
+    )
+
+    def excess(friction):
+        motor = trum60.with_values({"friction_coefficient": friction})
+        drive = replace(REST, load_inertia=1e-4 - J)
+        return ts.evaluate(motor, drive, compliance="flange", tolerance=1e-7).mean_speed / (633 * ARCSEC) - 1
+
+    root = scipy.optimize.brentq(excess, 0.2, 0.3, xtol=1e-9)
+    assert found.friction[0, 0] == pytest.approx(root, rel=1e-6)
+    assert found.friction[0, 0] > 1.05 * alone.friction[0, 0]
+
+
 def test_there_is_none_where_the_speed_keeps_its_sign(trum60, found):
     assert np.isnan(found.friction[2, 0])
     ends = [at(trum60, INERTIA[0], RADIUS[2], friction).mean_speed - 633 * ARCSEC for friction in (0.2, 0.25, 0.3)]

@@ -25,6 +25,7 @@ SETTINGS = [
     {"start": "rest", "phase_lead": -1, "load_torque": 0.1},
     {"start": "steady", "frequency_difference": -1500, "load_torque": -0.05, "prepressure": 210},
     {"compliance": "flange", "load_torque": 0.05, "frequency_difference": 2000},
+    {"load_inertia": 1e-3, "start": "rest", "phase_lead": -1},
     {"periods": 31, "on_periods": 22, "load_torque": 0, "frequency_difference": 1234.5},
 ]
 
@@ -79,7 +80,7 @@ def test_it_asks_nothing_of_any_network(text):
 
 def test_every_control_sets_a_field_of_the_drive_and_every_cell_shows_a_figure(text):
     settings = set(re.findall(r'data-setting="(\w+)"', text))
-    assert {"prepressure", "frequency_difference", "on_periods", "load_torque", "start"} <= settings
+    assert {"prepressure", "frequency_difference", "on_periods", "load_torque", "load_inertia", "start"} <= settings
     assert settings <= {*Drive().numbers(), "start", *LEVEL_NAMES}
     cells = dict(re.findall(r'data-figure="(\w+)"(?: data-factor="([\d.e]+)")?></td><td>', text))
     assert {"mean_speed", "speed_volatility", "q_average", "contact_fraction"} <= set(cells)
@@ -234,7 +235,7 @@ def test_sliders_move_numbers_and_pictures_by_keyboard(page):
     from selenium.webdriver.common.by import By
     from selenium.webdriver.common.keys import Keys
 
-    pictures = "return [...document.querySelectorAll('svg')].map((svg) => svg.innerHTML)"
+    pictures = "return [...document.querySelectorAll('svg:not([data-plot=load])')].map((svg) => svg.innerHTML)"
     names = page.execute_script(
         "return [...document.querySelectorAll('svg')].map((svg) => svg.getAttribute('aria-label'))"
     )
@@ -250,6 +251,52 @@ def test_sliders_move_numbers_and_pictures_by_keyboard(page):
     drawn = page.execute_script(pictures)
     page.find_element(By.CSS_SELECTOR, "input[type=range][data-instant]").send_keys(Keys.ARROW_RIGHT * 20)
     assert all(a != b for a, b in zip(drawn, page.execute_script(pictures), strict=True))
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("settings", [{}, {"on_periods": 20, "frequency_difference": 500, "compliance": "flange"}])
+def test_speed_under_load_is_that_of_evaluate(page, settings):
+    from selenium.webdriver.support.ui import WebDriverWait
+
+    enter(page, settings)
+    shown = "return document.querySelector('[data-plot=load] path.line')?.getAttribute('d')"
+    WebDriverWait(page, 20).until(lambda browser: browser.execute_script(shown))
+    current = "return trumMotor.underLoad().serial === trumMotor.serial()"
+    WebDriverWait(page, 20).until(lambda browser: browser.execute_script(current))
+    found = page.execute_script("const { loads, speeds } = trumMotor.underLoad(); return [loads, speeds.map(String)]")
+    loads, speeds = np.array(found[0]), np.array(found[1], float)
+    assert loads[0] == 0
+    assert loads[-1] == pytest.approx(0.25 * 180 * 0.0265 * 23 / 24)
+    for k in (0, 7, 20):
+        point = evaluated({**settings, "load_torque": float(loads[k])})
+        size = max(abs(point["min_speed"]), abs(point["max_speed"]))
+        assert speeds[k] == pytest.approx(point["mean_speed"], abs=1e-4 * size)
+
+
+@pytest.mark.browser
+def test_the_slider_of_the_inertia_goes_by_decades_from_nothing(page):
+    from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
+
+    slider, number = (
+        page.find_element(By.CSS_SELECTOR, f"input[type={kind}][data-setting=load_inertia]")
+        for kind in ("range", "number")
+    )
+    assert (slider.get_attribute("value"), number.get_attribute("value")) == ("0", "0")
+    slider.send_keys(Keys.END)
+    swing = {}
+    for value in (1e-2, 9.55e-3):  # half a percent of four decades lower, to three digits
+        settled(page)
+        assert float(number.get_attribute("value")) == page.execute_script("return trumMotor.settings().load_inertia")
+        assert float(number.get_attribute("value")) == value
+        swing[value] = np.subtract(*(shown_figures(page)[name] for name in ("max_speed", "min_speed")))
+        slider.send_keys(Keys.ARROW_LEFT)
+    assert swing[1e-2] < swing[9.55e-3]
+    enter(page, {"load_inertia": 1e-4})
+    assert float(slider.get_attribute("value")) == 50  # two of four decades
+    slider.send_keys(Keys.HOME)
+    settled(page)
+    assert page.execute_script("return trumMotor.settings().load_inertia") == 0
 
 
 @pytest.mark.browser

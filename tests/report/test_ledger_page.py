@@ -142,3 +142,26 @@ def test_it_opens_filters_searches_and_finds_its_anchors(browser):
     )
     assert len(heights) > len(ledger.ENTRIES)
     assert [entry for entry in browser.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")] == []
+
+
+HIDDEN = """
+for (const d of document.querySelectorAll('details')) d.open = true;
+return new Promise((done) => setTimeout(() => done([...document.querySelectorAll('.wide')].map(
+  (box) => [box.scrollWidth > box.clientWidth + 1, getComputedStyle(box, '::before').content.includes('side')])), 200));
+"""
+
+
+@pytest.mark.browser
+def test_a_narrow_screen_says_where_more_is_to_the_side_and_keeps_the_pictures_readable(browser):
+    browser.execute_cdp_cmd(
+        "Emulation.setDeviceMetricsOverride", {"width": 390, "height": 900, "deviceScaleFactor": 1, "mobile": True}
+    )
+    browser.get(PAGE.as_uri())
+    assert browser.execute_script("return document.documentElement.scrollWidth") <= 390
+    boxes = browser.execute_script(HIDDEN)
+    assert sum(wide for wide, _ in boxes) > 5
+    assert all(wide == said for wide, said in boxes)
+    pictures = browser.execute_script(
+        "return [...document.querySelectorAll('figure svg')].map((s) => s.getBoundingClientRect().width)"
+    )
+    assert min(pictures) >= 38 * 16  # of 7 inches with labels of 9 points: 11 pixels

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 from test_interactive import SETTINGS, enter, evaluated, numbers, settled, shown_figures
-from test_ledger_page import Reader
+from test_ledger_page import HIDDEN, Reader
 
 import trum_sym as ts
 from trum_sym import report
@@ -269,3 +269,14 @@ def test_its_sliders_give_the_figures_of_the_package(browser, folder):
         expected, every = evaluated(settings), numbers(browser, "trumMotor.figures()")
         for name in QUANTITIES:
             assert every[name] == pytest.approx(expected[name], rel=1e-9), name
+
+
+@pytest.mark.browser
+def test_a_narrow_screen_says_where_more_is_to_the_side(browser, folder):
+    browser.execute_cdp_cmd(
+        "Emulation.setDeviceMetricsOverride", {"width": 390, "height": 900, "deviceScaleFactor": 1, "mobile": True}
+    )
+    browser.get((folder / "index.html").as_uri())
+    boxes = browser.execute_script(HIDDEN)
+    assert sum(wide for wide, _ in boxes) > 20
+    assert all(wide == said for wide, said in boxes)

@@ -11,7 +11,7 @@ from typing import Unpack
 import numpy as np
 
 from trum_sym.calibration.least_squares import fit, interval_factor
-from trum_sym.calibration.models import DecayModel, Model, PointModel
+from trum_sym.calibration.models import FIT_TOLERANCE, DecayModel, Model, PointModel
 from trum_sym.calibration.result import Calibration, FittedParameter
 from trum_sym.errors import ImplausibleWarning, ParameterError, ValidityWarning
 from trum_sym.inputs.checks import Array
@@ -23,10 +23,11 @@ from trum_sym.inputs.motor import SPECS, Motor, Parameter, spec
 from trum_sym.inputs.motor_file import load_motor
 from trum_sym.inputs.plausible import doubts, outside_range, unquestioned
 from trum_sym.inputs.points import check_single, one_number, period_of
+from trum_sym.model.inputs import Inputs
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.quantities import QUANTITIES
 
-__all__ = ["ERRORS", "Calibration", "FittedParameter", "calibrate"]
+__all__ = ["ERRORS", "Calibration", "FittedParameter", "calibrate", "model_of"]
 
 ERRORS = ("absolute", "relative")
 _USUAL = {  # what is fitted if nothing else is asked for, by what was measured
@@ -105,14 +106,25 @@ def calibrate(
     check_single({} if period is None else {"sampling_period": period})
     with warnings.catch_warnings(), unquestioned():
         warnings.simplefilter("ignore", ValidityWarning)  # the search may leave eq. 8's range, or set it
-        model: Model
-        if measured.is_decay:
-            model = DecayModel(measured, machine, names, drive, chosen)
-        else:
-            model = PointModel(measured, machine, names, drive, chosen, period)  # type: ignore[arg-type]
-        found = _fitted(model, measured, machine, names, errors, confidence, progress)
+        inputs = Inputs(machine, drive, chosen, period, FIT_TOLERANCE)
+        model = _model(measured, inputs, names)
+        found = _fitted(model, measured, inputs, names, errors, confidence, progress)
     _warn_beyond(found, machine)
     return found
+
+
+def _model(data: Measurements, inputs: Inputs, names: tuple[str, ...]) -> Model:
+    if data.is_decay:
+        return DecayModel(data, inputs.motor, names, inputs.drive, inputs.levels)
+    period: float | None = inputs.sampling_period  # type: ignore[assignment]  # checked to be a single one
+    return PointModel(data, inputs.motor, names, inputs.drive, inputs.levels, period)
+
+
+def model_of(found: Calibration) -> Model:
+    """The model that was fitted, which predicts the measured values in their order."""
+    with warnings.catch_warnings(), unquestioned():
+        warnings.simplefilter("ignore", ValidityWarning)
+        return _model(found.measurements, found.inputs, tuple(e.name for e in found.estimates if e.in_motor))
 
 
 def _warn_beyond(found: Calibration, before: Motor) -> None:
@@ -153,13 +165,13 @@ def _names(data: Measurements, parameters: Sequence[str] | None) -> tuple[str, .
 def _fitted(
     model: Model,
     data: Measurements,
-    motor: Motor,
+    inputs: Inputs,
     names: tuple[str, ...],
     errors: str,
     confidence: float,
     progress: bool,
 ) -> Calibration:
-    measured, count = model.measured, len(model.names)
+    measured, count, motor = model.measured, len(model.names), inputs.motor
     if measured.size <= count:
         raise ParameterError("data", f"{measured.size} measured values", f"more than the {count} fitted parameters")
     weights = 1.0 if model.uncertainty is None else 1.0 / model.uncertainty
@@ -219,14 +231,18 @@ def _fitted(
     with np.errstate(invalid="ignore"):
         correlation = np.where(np.isfinite(np.outer(error, error)), found.covariance / np.outer(error, error), np.nan)
     left = found.residuals
+    if solved:
+        motor = _with_estimates(motor, estimates, data)
     return Calibration(
+        inputs=replace(inputs, motor=motor),
+        measurements=data,
         data=data.label,
         observed=data.observed,
         errors=errors,
         confidence=confidence,
         status="solved" if solved else "unidentifiable",
         message=message,
-        motor=_with_estimates(motor, estimates, data) if solved else motor,
+        motor=motor,
         estimates=estimates,
         covariance=found.covariance,
         correlation=correlation,

@@ -23,10 +23,11 @@ from trum_sym.model.rotor import weight_inertia
 from trum_sym.model.sensitivities import DIFFERENTIATED, sensitivities
 from trum_sym.model.stator import solve_stator
 
-__all__ = ["DecayModel", "Model", "PointModel"]
+__all__ = ["FIT_TOLERANCE", "DecayModel", "Model", "PointModel"]
 
 _TURN = 2 * np.pi
-_TOLERANCE = 1e-8  # of the rotor's orbits
+FIT_TOLERANCE = 1e-8
+"""Of the rotor's orbits."""
 _STEP_OF_ORBITS, _STEP_OF_FORMS = 1e-4, 1e-5  # relative steps of the differences
 _OF_STATOR = ("resonance_frequency", "drive_frequency", "amplitude", "neutral_axis", "wavenumber")
 _ROTOR_SCALES = ("friction_coefficient", "contact_radius", "rotor_inertia")
@@ -97,7 +98,7 @@ class PointModel:
         self.bounds = np.array([low for low, _ in ends]), np.array([high for _, high in ends])
         self.exact = tuple(self._is_exact(name) for name in names)
         # differences of orbits see the orbits' tolerance, the slopes their own
-        self.resolution = 1e-8 if not self._orbits else 1e-6 if all(self.exact) else _TOLERANCE / _STEP_OF_ORBITS
+        self.resolution = 1e-8 if not self._orbits else 1e-6 if all(self.exact) else FIT_TOLERANCE / _STEP_OF_ORBITS
         self.measured = np.concatenate([data.columns[name] for name in self._observed])
         known = [data.columns.get(name + UNCERTAINTY) for name in self._observed]
         self.uncertainty = None if known[0] is None else np.concatenate([u for u in known if u is not None])
@@ -136,7 +137,7 @@ class PointModel:
             compliance=self._levels.compliance,
             tangential=self._levels.tangential,
             sampling_period=self._sampling_period,
-            tolerance=_TOLERANCE,
+            tolerance=FIT_TOLERANCE,
         )
         return {name: getattr(point, name) for name in self._observed}
 
@@ -191,7 +192,7 @@ class PointModel:
             foundation=self._levels.foundation,
             amplitude=self._levels.amplitude,
             compliance=self._levels.compliance,
-            tolerance=_TOLERANCE,
+            tolerance=FIT_TOLERANCE,
         )
         figures = self._figures(motor, self._drive)
         mu, radius, _ = (float(getattr(motor, name).value) for name in _ROTOR_SCALES)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from importlib.metadata import version
 from os import PathLike
 from typing import Any
 
@@ -13,8 +12,9 @@ import numpy as np
 from trum_sym.calibration.least_squares import Residuals, Separation
 from trum_sym.errors import ParameterError
 from trum_sym.inputs.checks import Array
+from trum_sym.inputs.measurements import Measurements
 from trum_sym.inputs.motor import Motor
-from trum_sym.model.inputs import SCHEMA
+from trum_sym.model.inputs import Inputs, units_of
 from trum_sym.output.result import Result
 from trum_sym.text import one_line
 from trum_sym.values import Value
@@ -58,6 +58,10 @@ class Calibration(Result, Value):
 
     Attributes
     ----------
+    inputs : Inputs
+        The motor with the fitted values, and drive, levels and encoder, which give what the data have no column of.
+    measurements : Measurements
+        The data, in SI units.
     status : str
         ``"solved"``, or ``"unidentifiable"``: the data do not fix these parameters, whatever the figures look like.
     message : str
@@ -73,6 +77,8 @@ class Calibration(Result, Value):
         Share of the measured columns' variance that the fit explains, R^2.
     """
 
+    inputs: Inputs
+    measurements: Measurements
     data: str
     observed: tuple[str, ...]
     errors: str
@@ -94,7 +100,7 @@ class Calibration(Result, Value):
         return f"<Calibration {self.status}: {fitted}>"
 
     def to_dict(self) -> dict[str, Any]:
-        """All of it by name, in SI units."""
+        """All of it by name, in SI units, with the inputs as ``--point`` takes them."""
         return _as_dict(self)
 
     def to_text(self, before: Motor | None = None) -> str:
@@ -162,7 +168,7 @@ def _as_dict(found: Calibration) -> dict[str, Any]:
         },
         "iterations": found.iterations,
     }
-    return {"schema": SCHEMA, "trum_sym": version("trum-sym"), **record}
+    return {**found.inputs.record(), **record, "units": units_of(found.inputs.record())}
 
 
 def _estimate(e: FittedParameter) -> dict[str, object]:

@@ -1,32 +1,57 @@
-"""``trum-sym``: the console.  One module a command; heavy imports wait until it runs."""
+"""``trum-sym``: the console.  One module a command, which is loaded when it is asked for; heavy imports wait until it
+runs.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
+from importlib import import_module
 from typing import Any
 
 import click
 
-from trum_sym.console.c_library import c_library
-from trum_sym.console.calibrate import calibrate
-from trum_sym.console.characteristics import characteristics
-from trum_sym.console.equations import equations
-from trum_sym.console.evaluate import evaluate
-from trum_sym.console.fmu import fmu
-from trum_sym.console.motor import motor
-from trum_sym.console.optimize import optimize
-from trum_sym.console.pareto import pareto
-from trum_sym.console.report import report
-from trum_sym.console.robust import robust
 from trum_sym.console.say import say
-from trum_sym.console.sensitivities import sensitivities
-from trum_sym.console.simulate import simulate
-from trum_sym.console.speed_table import speed_table
-from trum_sym.console.spread import spread
 from trum_sym.console.streams import spelling_streams
-from trum_sym.console.sweep import sweep
 from trum_sym.text import one_line
 
 __all__ = ["main", "outcome"]
+
+
+_NAMES = (
+    "evaluate",
+    "sensitivities",
+    "simulate",
+    "characteristics",
+    "sweep",
+    "spread",
+    "optimize",
+    "pareto",
+    "robust",
+    "speed-table",
+    "calibrate",
+    "c-library",
+    "fmu",
+    "motor",
+    "equations",
+    "report",
+)
+
+
+class _Commands(Mapping[str, click.Command]):
+    """The commands by name, each with its module loaded on first use."""
+
+    def __getitem__(self, name: str) -> click.Command:
+        if name not in _NAMES:
+            raise KeyError(name)
+        word = name.replace("-", "_")
+        command: click.Command = getattr(import_module(f"trum_sym.console.{word}"), word)
+        return command
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(_NAMES)
+
+    def __len__(self) -> int:
+        return len(_NAMES)
 
 
 class _Group(click.Group):
@@ -49,34 +74,17 @@ class _Group(click.Group):
             raise in_console_words(error, command, ctx.meta) from None
 
 
-@click.group(cls=_Group, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
+@click.group(
+    cls=_Group,
+    commands=_Commands(),
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110},
+)
 @click.version_option(package_name="trum-sym")
 def _cli() -> None:
     """Travelling-wave ultrasonic motors at very low speed (superimposed pulse driving).
 
     Exit codes: 0 done; 1 the work was done and its answer is no; 2 bad input, or no room for the result.
     """
-
-
-for _command in (
-    evaluate,
-    sensitivities,
-    simulate,
-    characteristics,
-    sweep,
-    spread,
-    optimize,
-    pareto,
-    robust,
-    speed_table,
-    calibrate,
-    c_library,
-    fmu,
-    motor,
-    equations,
-    report,
-):
-    _cli.add_command(_command)
 
 
 _REFUSALS = {

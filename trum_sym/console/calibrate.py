@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from trum_sym.console.options import (
+    check_plot,
     chosen_drive,
     chosen_levels,
     chosen_motor,
     examples,
-    force_option,
     number_option,
+    plot_options,
     point_options,
 )
 from trum_sym.console.say import say
@@ -27,7 +28,7 @@ __all__ = ["calibrate"]
 
 @click.command(
     epilog=examples(
-        "trum-sym calibrate examples/data/table2.csv",
+        "trum-sym calibrate examples/data/table2.csv --plot fit.png",
         "trum-sym calibrate examples/data/table2.csv --fit amplitude_factor --errors relative --out my-motor.toml",
     )
 )
@@ -53,7 +54,7 @@ __all__ = ["calibrate"]
     metavar="MOTOR.toml",
     help="Write the motor file with the fitted values in place.",
 )
-@force_option
+@plot_options("Draw the data, the fit and its band")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object instead of tables; SI units, speeds in rad/s.")
 @point_options
 def calibrate(
@@ -62,6 +63,7 @@ def calibrate(
     errors: str,
     confidence: float,
     out: Path | None,
+    plot: Path | None,
     force: bool,
     as_json: bool,
     motor: str,
@@ -79,6 +81,7 @@ def calibrate(
     from trum_sym.inputs.measurements import read_measurements
     from trum_sym.output.files import check_new
 
+    check_plot(plot, force)
     if out is not None:
         check_new("--out", out, (".toml",), force)
     machine = chosen_motor(motor, overrides)
@@ -96,6 +99,10 @@ def calibrate(
         **chosen_levels(options),
     )
     say(found.to_json() if as_json else found.to_text(machine))
+    if plot is not None:
+        from trum_sym.plots import answers
+
+        answers.write("--plot", answers.fitted(found), plot)
     if found.status != "solved":
         return 1
     if out is not None:

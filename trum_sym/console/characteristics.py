@@ -81,9 +81,10 @@ def characteristics(
         check_new("--out", out, (".nc", ".csv"), force)
         check_packages(out)
     beside = measured_of(motor) if measured is None else measured
+    machine, drive = chosen_motor(motor, overrides), chosen_drive(options)
     found = curves_of(
-        chosen_motor(motor, overrides),
-        chosen_drive(options),
+        machine,
+        drive,
         points=points,
         measured=() if beside is None else load_measured(beside),
         tolerance=tolerance,
@@ -96,9 +97,12 @@ def characteristics(
 
         draw("--plot", found, plot)
     if as_json:
+        from trum_sym.model.inputs import Inputs
+        from trum_sym.model.levels import Levels
         from trum_sym.output.json_text import json_text
 
-        say(json_text(_as_json(found)))
+        inputs = Inputs(machine, drive, Levels(**chosen_levels(options)), None, tolerance)
+        say(json_text({**inputs.record(), **_as_json(found)}))
     else:
         say(_as_text(found))
 

@@ -23,10 +23,19 @@ __all__ = ["equations"]
     "--severity", metavar="NAME", help="Only errata that are typographical, conditional, quantitative or structural."
 )
 @click.option("--open", "open_page", is_flag=True, help="Show the ledger's page, with typeset formulas, in a browser.")
-@click.option("--json", "as_json", is_flag=True, help="The records instead of a table.")
+@click.option("--json", "as_json", is_flag=True, help="The records instead of a table, formulas in LaTeX among them.")
 def equations(equation: str | None, verdict: str | None, severity: str | None, open_page: bool, as_json: bool) -> None:
     """The ledger: what the paper printed, what follows from first principles, the verdict and its effect."""
-    from trum_sym.paper.ledger import counted, filtered, ledger_path, load_ledger, select, table, written_out
+    from trum_sym.paper.ledger import (
+        counted,
+        filtered,
+        ledger_path,
+        load_ledger,
+        load_pictures,
+        select,
+        table,
+        written_out,
+    )
 
     if open_page:
         import webbrowser
@@ -43,7 +52,7 @@ def equations(equation: str | None, verdict: str | None, severity: str | None, o
 
         say(json.dumps(chosen, indent=1))
     elif equation is not None:
-        say(written_out(chosen[0]))
+        say(written_out(chosen[0], load_pictures(chosen[0]["id"])))
     else:
         say(table(chosen))
         say(f"\n{counted(chosen)}")

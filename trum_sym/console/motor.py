@@ -71,10 +71,11 @@ def check(name: str) -> int:
     from trum_sym.inputs.motor_file import load_motor
     from trum_sym.inputs.motor_tables import checked
     from trum_sym.inputs.plausible import unquestioned
+    from trum_sym.model.stator import above_free
 
     with unquestioned():
         found = load_motor(name)
-    text, good = checked(found)
+    text, good = checked(found, above_free(found))
     say(text)
     return 0 if good else 1
 

@@ -10,6 +10,7 @@ from typing import Any
 import click
 
 from trum_sym.console.options import (
+    IN_ARITHMETIC,
     box_options,
     check_plot,
     chosen_box,
@@ -56,6 +57,7 @@ def sought(objective: str | None, target_speed: str | None, constraints: tuple[s
         "trum-sym optimize --target-speed '1 rad/s' --prepressure 180 --frequency-difference '2.9 kHz:3.2 kHz' "
         "--load-torque 0.1",
         "trum-sym optimize --objective wear --constraint 'stall_torque >= 0.2 N*m' --load-torque 0.1 --prepressure 180",
+        figures=IN_ARITHMETIC,
     )
 )
 @box_options

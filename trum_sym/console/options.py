@@ -17,12 +17,15 @@ import click
 from trum_sym.console.words import typed
 from trum_sym.inputs.drive import BOX_NAMES, Drive
 from trum_sym.model.levels import LEVEL_NAMES, LevelChoice, Levels
+from trum_sym.quantities import MORE, QUANTITIES, in_help
 
 if TYPE_CHECKING:
     from trum_sym.inputs.motor import Motor
 
 __all__ = [
     "FREED",
+    "IN_ARITHMETIC",
+    "IN_SWEEPS",
     "QuantityType",
     "box_options",
     "check_plot",
@@ -44,6 +47,10 @@ __all__ = [
 
 FREED = ("prepressure", "frequency_difference", "switching_phase", "periods", "on_periods")
 """What a search may vary: these options take ``LOW:HIGH``."""
+
+IN_SWEEPS = tuple(QUANTITIES)
+IN_ARITHMETIC = (*IN_SWEEPS, *(name for name in MORE if name in ("speed_deviation", "peak_pressure")))
+"""The figures that ``sweep`` and ``spread`` compute, and those of objectives and constraints."""
 
 
 class QuantityType(click.ParamType):  # type: ignore[type-arg, unused-ignore]
@@ -77,8 +84,9 @@ class RangeType(click.ParamType):  # type: ignore[type-arg, unused-ignore]
 
 def number_option(name: str, unit: str, default: float | None, text: str, metavar: str) -> Callable[..., Any]:
     """An option that takes a quantity."""
-    shown = False if default is None else f"{default:g}" + ("" if unit == "1" else f" {unit}")
-    return click.option(name, type=QuantityType(unit), default=default, show_default=shown, help=text, metavar=metavar)
+    if default is not None:  # click would put a default that is text in brackets
+        text += f"  [default: {default:g}{'' if unit == '1' else f' {unit}'}]"
+    return click.option(name, type=QuantityType(unit), default=default, help=text, metavar=metavar)
 
 
 def choice_option(name: str, words: tuple[str, ...], text: str) -> Callable[..., Any]:
@@ -110,9 +118,10 @@ def option_name(name: str) -> str:
     return "--" + name.replace("_", "-")
 
 
-def examples(*lines: str) -> str:
-    """Examples at the end of a command's help; a test runs each."""
-    return "\b\nExamples:\n" + "\n".join(f"  {line}" for line in lines)
+def examples(*lines: str, figures: tuple[str, ...] = ()) -> str:
+    """Examples at the end of a command's help, a test runs each; before them the figures that options name."""
+    known = in_help(figures) + "\n\n" if figures else ""
+    return known + "\b\nExamples:\n" + "\n".join(f"  {line}" for line in lines)
 
 
 def _take_point(ctx: click.Context, _: click.Parameter, path: Path | None) -> None:

@@ -10,6 +10,7 @@ import click
 
 from trum_sym.console.optimize import constraint_option, sought, target_option
 from trum_sym.console.options import (
+    IN_ARITHMETIC,
     box_options,
     check_plot,
     chosen_box,
@@ -29,6 +30,7 @@ __all__ = ["pareto"]
     epilog=examples(
         "trum-sym pareto --target-speed '300000 arcsec/s' --load-torque '0.05 N m' --prepressure 180 --points 3",
         "trum-sym pareto --objective ripple --load-torque 0.05 --prepressure 180 --points 3",
+        figures=IN_ARITHMETIC,
     )
 )
 @click.option(

@@ -10,6 +10,7 @@ import click
 
 from trum_sym.console.optimize import constraint_option, sought, target_option
 from trum_sym.console.options import (
+    IN_ARITHMETIC,
     box_options,
     check_plot,
     chosen_box,
@@ -31,6 +32,7 @@ __all__ = ["robust"]
         "--prepressure 180 --frequency-difference 2900:3000",
         "trum-sym robust --spread load_torque=0.04:0.06 --objective speed-error --target-speed '300000 arcsec/s' "
         "--load-torque 0.05 --prepressure 180 --frequency-difference 2900:3000",
+        figures=IN_ARITHMETIC,
     )
 )
 @click.option(

@@ -8,12 +8,13 @@ from typing import Any
 import click
 
 from trum_sym.console.options import (
+    check_plot,
     chosen_drive,
     chosen_levels,
     chosen_motor,
     examples,
-    force_option,
     number_option,
+    plot_options,
     point_options,
     tolerance_option,
 )
@@ -25,7 +26,7 @@ __all__ = ["simulate"]
 @click.command(
     epilog=examples(
         "trum-sym simulate --load-torque '0.1 N m'",
-        "trum-sym simulate --cycles 2 --out histories.csv",
+        "trum-sym simulate --cycles 2 --out histories.csv --plot histories.png",
     )
 )
 @point_options
@@ -38,13 +39,14 @@ __all__ = ["simulate"]
     metavar="FILE",
     help="Write the histories: .nc (NetCDF, with every setting and unit) or .csv.  [default: a summary]",
 )
-@force_option
+@plot_options("Draw phases, contact, speed and angle")
 def simulate(
     motor: str,
     overrides: tuple[str, ...],
     cycles: float,
     samples_per_period: float,
     out: Path | None,
+    plot: Path | None,
     force: bool,
     tolerance: float | None,
     **options: Any,  # noqa: ANN401
@@ -57,6 +59,7 @@ def simulate(
     from trum_sym.model.histories import simulate as simulate_point
     from trum_sym.output.files import check_new, write
 
+    check_plot(plot, force)
     if out is not None:
         check_new("--out", out, force=force)
     histories = simulate_point(
@@ -75,4 +78,8 @@ def simulate(
         from trum_sym.model.tables import histories_table
 
         say(histories_table(histories))
+    if plot is not None:
+        from trum_sym.plots import answers
+
+        answers.write("--plot", answers.histories(histories), plot)
     return 0 if histories.attrs["converged"] else 1

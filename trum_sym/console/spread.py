@@ -8,6 +8,7 @@ from typing import Any
 import click
 
 from trum_sym.console.options import (
+    IN_SWEEPS,
     check_plot,
     chosen_drive,
     chosen_levels,
@@ -28,6 +29,7 @@ __all__ = ["spread"]
         "trum-sym spread --spread friction_coefficient --samples 64",
         "trum-sym spread --spread motor --spread prepressure=normal:180:3 --spread 'load_torque=10 %' --samples 64",
         "trum-sym spread --spread frequency_difference=2990:3010 --samples 64 --target 'mean_speed >= 600 arcsec/s'",
+        figures=IN_SWEEPS,
     )
 )
 @point_options

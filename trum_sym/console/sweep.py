@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from trum_sym.console.options import (
+    IN_SWEEPS,
     QuantityType,
+    check_plot,
     chosen_levels,
     chosen_motor,
     examples,
-    force_option,
     number_option,
+    plot_options,
     point_options,
 )
 from trum_sym.console.say import say
@@ -38,9 +40,10 @@ class Range(click.ParamType):  # type: ignore[type-arg, unused-ignore]
 
 @click.command(
     epilog=examples(
-        "trum-sym sweep --prepressure 160:210:6 --out force.csv",
+        "trum-sym sweep --prepressure 160:210:6 --out force.csv --plot force.png",
         "trum-sym sweep --prepressure 160:210:51 --frequency-difference 2800:3300:by=10 --dry-run",
         "trum-sym sweep --set friction_coefficient=0.2,0.25,0.3 --load-torque 0:0.1:3 --out friction.zarr",
+        figures=IN_SWEEPS,
     )
 )
 @point_options
@@ -60,7 +63,7 @@ class Range(click.ParamType):  # type: ignore[type-arg, unused-ignore]
 @number_option(
     "--tolerance", "1", 1e-6, "Largest bound of the errors of speeds over the largest speed, 1e-9 to 1e-2.", "T"
 )
-@force_option
+@plot_options("Draw lines over one axis, maps over two")
 @click.option("--dry-run", is_flag=True, help="Say points, chunks, size and time, from a sample that is measured.")
 def sweep(
     motor: str,
@@ -70,6 +73,7 @@ def sweep(
     scheduler: str | None,
     chunk: float | None,
     tolerance: float,
+    plot: Path | None,
     force: bool,
     dry_run: bool,
     **options: Any,  # noqa: ANN401
@@ -91,6 +95,7 @@ def sweep(
     if out is None and not dry_run:
         raise ParameterError("--out", "nothing", "the name of a .zarr store, or of a .nc, .parquet or .csv file")
     check_out("--out", out)
+    check_plot(plot, force)
     if out is not None and out.suffix != ".zarr" and out.exists() and not force and not dry_run:
         raise ParameterError("--out", str(out), "a new file, or --force to replace it: this one exists")
     fixed = tuple(text for text in overrides if not _is_range(text))
@@ -101,11 +106,17 @@ def sweep(
     if words["load"] == "weight" and "load_radius" in ranges:
         words["load_radius"] = 1.0  # the range's values take its place
     plan = make_plan(chosen_motor(motor, fixed), Drive(**words), levels, None, tolerance, names, chunk, ranges)
+    if plot is not None:
+        from trum_sym.plots import answers
+
+        answers.check_swept(len(plan.grid.axes))
     if dry_run:
         say(_estimate(estimate("--out", plan, out, scheduler, chunk is not None), out))
         return
-    summary = run("--out", plan, out, scheduler, chunk is not None, sys.stderr)[1]
+    found, summary = run("--out", plan, out, scheduler, chunk is not None, sys.stderr)
     say(f"{out}: {_summary(plan, summary)}")
+    if plot is not None:
+        answers.write("--plot", answers.swept(found), plot)
 
 
 def _ranges(options: dict[str, Any], overrides: tuple[str, ...], fixed: tuple[str, ...]) -> dict[str, str]:

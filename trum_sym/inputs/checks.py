@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping
 from typing import TypeAlias
 
@@ -42,7 +43,7 @@ def quantity(name: str, value: object, domain: Domain, unit: str | None) -> tupl
     allowed = domain.describe(unit or "its SI unit")
     value = _spelt_out(name, value, unit)
     try:
-        if np.ma.is_masked(value):
+        if "numpy.ma" in sys.modules and np.ma.is_masked(value):  # else there is no masked array, nor need of it
             raise TypeError
         magnitude, given = magnitude_and_unit(name, value)
         raw = np.asarray(in_unit(name, magnitude, given, unit))

@@ -61,8 +61,10 @@ _SECTIONS: dict[str, dict[str, Entry]] = {
         "shear_correction": Entry("1", "Timoshenko's coefficient of the section"),
         "damping_ratio": Entry("1", "of the stator under prepressure, as a decay of its vibration shows"),
         "free_amplitude": Entry("um", "amplitude of one phase without prepressure"),
-        "amplitude_factor": Entry("1", "C_f of eq. 8, amplitude over prepressure in newton; calibrate fits it"),
-        "amplitude_exponent": Entry("1", "exponent of eq. 8; calibrate fits it"),
+        "amplitude_factor": Entry(
+            "1", "C_f of eq. 8: a phase's amplitude is free_amplitude C_f (F_c / 1 N)^-varsigma; calibrate fits both"
+        ),
+        "amplitude_exponent": Entry("1", "varsigma, the exponent of eq. 8"),
         "fit_prepressure_min": Entry("N", "eq. 8 was measured from here"),
         "fit_prepressure_max": Entry("N", "eq. 8 was measured up to here"),
     },

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from trum_sym.inputs.drive import BOX_NAMES
@@ -72,12 +72,12 @@ def as_table(motor: Motor) -> str:
     return "\n".join(lines)
 
 
-def checked(motor: Motor) -> tuple[str, bool]:
-    """What is to be looked at, and whether nothing of it is wrong."""
+def checked(motor: Motor, further: Sequence[str] = ()) -> tuple[str, bool]:
+    """What is to be looked at, and whether nothing of it is wrong; ``further`` is what the model finds wrong."""
     left = [name for name, p in motor.parameters() if p.source.casefold().startswith(TO_DO)]
     assumed = {name: p for name, p in motor.assumed().items() if name not in left}
     parameters = dict(motor.parameters())
-    wrong = doubts(parameters)
+    wrong = [*doubts(parameters), *further]
     outside = [text for name, p in parameters.items() if (text := outside_range(name, p.value, p)) is not None]
     lines = [f"{one_line(motor.name)}: {len(parameters)} values"]
     lines += [f"to do: {len(left)} values of the template: {', '.join(left)}"] if left else []

@@ -26,8 +26,8 @@ def readable(name: str, value: float) -> float:
     >>> f"{readable('speed_volatility', 0.173):.1f}"
     '17.3'
     """
-    unit, shown = quantity_of(name)[1:3]
-    return parse_unit(unit).to_si(value) / parse_unit(shown).to_si(1.0)
+    quantity = quantity_of(name)
+    return parse_unit(quantity.unit).to_si(value) / parse_unit(quantity.shown).to_si(1.0)
 
 
 def full(value: ArrayLike) -> str:

@@ -11,6 +11,7 @@ import math
 import re
 from collections.abc import Iterator
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any, NamedTuple, TypeVar
 
 from trum_sym.errors import ParameterError, shorten
@@ -181,6 +182,7 @@ _TOKEN = re.compile(
 )
 
 
+@lru_cache(maxsize=512)  # a table of one point asks some two hundred times for a few units
 def parse_unit(text: str) -> Unit:
     """Parse a unit such as ``mm``, ``kg/m^3``, ``kg m-3``, ``N*m``, ``mNm``, ``m²/N``, ``1/(N s)`` or ``arcsec/s``.
 

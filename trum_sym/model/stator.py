@@ -15,7 +15,7 @@ from trum_sym.inputs.motor import FLANGE, Motor
 from trum_sym.model.kernels import call
 from trum_sym.model.levels import Contact, Levels
 
-__all__ = ["Stator", "solve_stator", "warn_outside_fit"]
+__all__ = ["Stator", "above_free", "solve_stator", "warn_outside_fit"]
 
 _TURN = 2 * np.pi
 _MAX_ITERATIONS = 200
@@ -60,6 +60,21 @@ def warn_outside_fit(motor: Motor, drive: Drive) -> None:
             "where eq. 8's amplitude was measured"
         )
         warnings.warn(message, ValidityWarning, stacklevel=5)
+
+
+def above_free(motor: Motor) -> list[str]:
+    """What to say where eq. 8 gives a motor more than its free amplitude, within the prepressures of its fit."""
+    least = motor.fit_prepressure_min.value
+    amplitude = np.asarray(call("trum_amplitude_measured", {**motor.symbols(), "F_c": least})["W"])
+    force, found, free = np.broadcast_arrays(least, amplitude, motor.free_amplitude.value)
+    wrong = found > free * (1 + 1e-9)
+    if not wrong.any():
+        return []
+    n, w, most = (float(values[wrong].flat[0]) for values in (force, found, free))
+    return [
+        f"amplitude_factor: eq. 8 gives {1e6 * w:.6g} um at {n:.6g} N, the least prepressure of its fit, more than "
+        f"free_amplitude, {1e6 * most:.6g} um"
+    ]
 
 
 def _check_size(name: str, value: ArrayLike) -> None:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from trum_sym.inputs.checks import Array
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import SPECS, TO_DO, Motor, Parameter, Published
 from trum_sym.inputs.plausible import unquestioned
@@ -71,13 +73,18 @@ def _published(inputs: Inputs) -> dict[str, Published]:
     return {
         entry.output: entry
         for entry in inputs.motor.published
-        if all(bool(np.isclose(settings[name], value, rtol=1e-9)) for name, value in entry.drive.items())
+        if all(_alike(float(settings[name]), value) for name, value in entry.drive.items())
         and (entry.output != "speed_volatility" or _same_encoder(entry.sampling_period, here))
     }
 
 
 def _same_encoder(one: float | None, other: float | None) -> bool:
-    return (one is None) == (other is None) and (one is None or bool(np.isclose(one, other or 0.0)))
+    return one is other or (one is not None and other is not None and _alike(one, other))
+
+
+def _alike(one: float, other: float) -> bool:
+    """Equal but for rounding."""
+    return math.isclose(one, other, rel_tol=1e-9, abs_tol=1e-8)
 
 
 def compared(point: OperatingPoint) -> dict[str, dict[str, object]]:
@@ -118,24 +125,29 @@ def reading_in_words(inputs: Inputs) -> list[str]:
 
 def _resting_on_assumed(point: OperatingPoint) -> dict[str, set[str]]:
     """The figures that change when an assumed value of the motor goes to an end of its range, by that value's name."""
-    inputs, found = point.inputs, dict[str, set[str]]()
+    inputs = point.inputs
+    assumed = inputs.motor.assumed()
+    if not assumed:
+        return {}
     closed = [name for name in QUANTITIES if name not in OF_ORBIT]
-    tolerance = inputs.tolerance or 1e-6
+    # as they are, then each in turn at another value: one batch
+    columns = {name: np.full(len(assumed) + 1, float(parameter.value)) for name, parameter in assumed.items()}
+    for place, (name, parameter) in enumerate(assumed.items(), 1):
+        columns[name][place] = _another(name, parameter)
     with unquestioned():
-        here = prepare(inputs.motor, inputs.drive, inputs.levels, tolerance, warn=False)
-        figures = results(here, closed)
-        for name, parameter in inputs.motor.assumed().items():
-            end = _another(name, parameter)
-            motor = replace(inputs.motor, **{name: replace(parameter, value=end, range=None)})  # type: ignore[arg-type]
-            moved = prepare(motor, inputs.drive, inputs.levels, tolerance, warn=False)
-            then = results(moved, closed)
-            found[name] = {figure for figure in closed if then[figure] != figures[figure]}
-            orbit = {"r_c"} | set(here.arguments)
-            both = ({**case.symbols, **case.arguments} for case in (here, moved))
-            one, other = both
-            if any(one[key] != other[key] for key in orbit):
-                found[name] |= OF_ORBIT & set(QUANTITIES)
-    return found
+        motor = inputs.motor.with_values(columns)
+        case = prepare(motor, inputs.drive, inputs.levels, inputs.tolerance or 1e-6, warn=False)
+        figures = results(case, closed)
+
+    def moved(value: Any) -> Array:  # noqa: ANN401
+        """Where another value of the n-th assumed parameter changes something, (n,)."""
+        every = np.broadcast_to(value, len(assumed) + 1)
+        return np.asarray(every[1:] != every[0])
+
+    orbit = np.any([moved({**case.symbols, **case.arguments}[key]) for key in {"r_c", *case.arguments}], axis=0)
+    found: dict[str, Any] = {figure: moved(figures[figure]) for figure in closed}
+    found |= dict.fromkeys(OF_ORBIT & set(QUANTITIES), orbit)
+    return {name: {f for f, by in found.items() if by[place]} for place, name in enumerate(assumed)}
 
 
 def _another(name: str, parameter: Parameter) -> float:

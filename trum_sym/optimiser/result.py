@@ -160,10 +160,10 @@ class Optimum(Result, Value):
 
 
 def _shown(name: str, figures: Mapping[str, float]) -> tuple[str, str, str, str]:
-    label, _, shown = quantity_of(name)[:3]
+    quantity = quantity_of(name)
     value, error = readable(name, figures[name]), figures.get(f"{name}_error")
     text = (f"{value:.8g}", "") if error is None else with_error(value, readable(name, error))
-    return label, *text, "" if shown == "1" else shown
+    return quantity.label, *text, "" if quantity.shown == "1" else quantity.shown
 
 
 def _as_table(optimum: Optimum, title: str) -> str:

@@ -23,7 +23,7 @@ from trum_sym.optimiser.expressions import Constraint, Expression, parse_constra
 from trum_sym.optimiser.model import Box, functions
 from trum_sym.optimiser.result import Evidence, Optimum
 from trum_sym.optimiser.solve import Answer, Problem, solve
-from trum_sym.output.progress import shown
+from trum_sym.output.progress import said, shown
 
 __all__ = [
     "OBJECTIVES",
@@ -88,7 +88,7 @@ def optimize(
     constraints : sequence of str
         ``"stall_torque >= 0.35 N*m"``: arithmetic on figures, ``>=``, ``<=`` or ``==``, a value or more arithmetic.
     progress : bool
-        Whether to show a bar on the standard error while pulse counts are gone through.
+        Whether to say on the standard error what is done, with a bar while pulse counts are gone through.
     contact, resonance, foundation, amplitude
         As for :func:`trum_sym.evaluate`.
 
@@ -117,7 +117,7 @@ def optimize(
     problem = Problem(motor, drive, Levels(**levels), box, aim, limits)
     warn_outside_fit(problem)
     best, chosen, pruned, evaluations = _over_pulses(
-        problem, pulses, ("maps", "pulse counts") if progress else (None, None)
+        problem, pulses, ("maps", "pulse counts", "optimize") if progress else (None, None, None)
     )
     return _optimum(objective, target, chosen, best, len(pulses), pruned, evaluations)
 
@@ -247,7 +247,7 @@ def warn_outside_fit(problem: Problem) -> None:
 
 
 def _over_pulses(
-    problem: Problem, pulses: list[tuple[int, int]], bars: tuple[str | None, str | None]
+    problem: Problem, pulses: list[tuple[int, int]], bars: tuple[str | None, str | None, str | None]
 ) -> tuple[Answer, Problem, int, int]:
     """The best answer over all pairs of periods and on_periods.
 
@@ -259,7 +259,7 @@ def _over_pulses(
 
     if len(pulses) == 1:
         chosen = at(pulses[0])
-        answer = solve(chosen)
+        answer = solve(chosen, tell=said(bars[2]))
         return answer, chosen, 0, answer.evaluations
     low = np.array([constraint.low for constraint in problem.constraints])
     high = np.array([constraint.high for constraint in problem.constraints])

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import time
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -18,6 +20,7 @@ from trum_sym.optimiser.extra import casadi
 from trum_sym.optimiser.finish import ALLOWED, TOLERANCE, Bounds, Finished, checked, finish
 from trum_sym.optimiser.kinks import compass, stationarity
 from trum_sym.optimiser.model import Box, Functions, Model, functions
+from trum_sym.output.progress import duration
 from trum_sym.values import Value
 
 __all__ = ["Answer", "Problem", "solve"]
@@ -119,7 +122,12 @@ class _Search:
         )
 
 
-def solve(problem: Problem, model: Model | None = None, known: Chart | None = None) -> Answer:
+def solve(
+    problem: Problem,
+    model: Model | None = None,
+    known: Chart | None = None,
+    tell: Callable[[str], None] = lambda _: None,
+) -> Answer:
     """Find the least objective in the box.
 
     Parameters
@@ -130,9 +138,14 @@ def solve(problem: Problem, model: Model | None = None, known: Chart | None = No
         From a problem that names the same figures; counts the evaluations.
     known : Chart, optional
         Its map, if it is there already.
+    tell : callable
+        Told what is begun, and how long that may take: the map is a third of the whole, as measured.
     """
+    begin = time.monotonic()
     model = problem.model() if model is None else model
+    tell("a map of the box")
     known = chart(model) if known is None else known
+    tell(f"descents from its basins, about {duration(2 * (time.monotonic() - begin))}")
     rows = functions([problem.objective, *(constraint.expression for constraint in problem.constraints)])
     values = rows.values(known.figures)
     low = np.array([constraint.low for constraint in problem.constraints])

@@ -14,6 +14,7 @@ import numpy as np
 
 from trum_sym.inputs.drive import STARTS
 from trum_sym.inputs.motor import Motor
+from trum_sym.output.progress import shown
 from trum_sym.paper import section_5, section_6, sections_1_to_4, sections_7_to_9
 from trum_sym.paper.findings import ByInertia, Context, Finding, Truth
 from trum_sym.paper.readings import AXES, COMBINATIONS, LEADS, Readings
@@ -272,7 +273,8 @@ def claims(motor: Motor, found: Readings | None = None, progress: bool = False) 
     """
     context = Context(motor, found or readings(motor, progress))
     checks = {**sections_1_to_4.CHECKS, **section_5.CHECKS, **section_6.CHECKS, **sections_7_to_9.CHECKS}
-    return [judged(statement, checks[statement.id](context)) for statement in statements()]
+    every = shown(list(statements()), "claims" if progress else None)
+    return [judged(statement, checks[statement.id](context)) for statement in every]
 
 
 def readings(motor: Motor, progress: bool = False) -> Readings:

@@ -15,7 +15,7 @@ from trum_sym.inputs.drive import STARTS, Drive, Start
 from trum_sym.inputs.motor import Motor
 from trum_sym.model.cycle import cycle_sums, modal_values, response
 from trum_sym.model.kernels import call
-from trum_sym.model.levels import Levels
+from trum_sym.model.levels import Compliance, Levels
 from trum_sym.model.operating_point import prepare
 from trum_sym.model.rotor import solve_orbit
 from trum_sym.paper.published import BOX
@@ -286,9 +286,16 @@ class Context:
         return {name: np.stack([part[name] for part in parts]) for name in parts[0]}
 
     @staticmethod
-    def figures(motor: Motor, drive: Drive, tolerance: float = 1e-4, encoder: bool = True) -> dict[str, Array]:
+    def figures(
+        motor: Motor,
+        drive: Drive,
+        tolerance: float = 1e-4,
+        encoder: bool = True,
+        compliance: Compliance = "layer",
+    ) -> dict[str, Array]:
         """Determinants and the rotor's figures at the default levels; what an encoder reads is NaN unless wanted."""
-        case = prepare(motor, drive, Levels("winkler", "quartic", "harmonic", "measured"), tolerance, warn=False)
+        levels = Levels("winkler", "quartic", "harmonic", "measured", compliance)
+        case = prepare(motor, drive, levels, tolerance, warn=False)
         arguments = {**case.arguments, "held": 0.0}
         orbit = solve_orbit(arguments, case.symbols)
         time = np.broadcast_to(np.asarray(call("trum_drive", case.values)["T"]), case.shape)

@@ -16,6 +16,7 @@ __all__ = [
     "ledger_page",
     "ledger_path",
     "load_ledger",
+    "load_pictures",
     "select",
     "table",
     "written_out",
@@ -128,11 +129,30 @@ def _systems(record: Record) -> str:
     return f"{systems} ({means})" if means else systems
 
 
-def written_out(record: Record) -> str:
-    """One entry: printed, derivation step by step, derived, evidence, effect; formulas in LaTeX."""
+def load_pictures(equation: str) -> dict[str, Any]:
+    """The formulas of an entry as pictures of characters, which :mod:`trum_sym.paper.terminal` lays out."""
+    found: dict[str, Any] = json.loads(_read("ledger.pictures.json"))[equation]
+    return found
+
+
+def written_out(record: Record, pictures: dict[str, Any], width: int | None = None) -> str:
+    """One entry: printed, derivation step by step, derived, evidence, effect; formulas as pictures of characters.
+
+    Parameters
+    ----------
+    record : dict
+        Of :func:`load_ledger`.
+    pictures : dict
+        Of :func:`load_pictures`.
+    width : int, optional
+        Columns; the terminal's if not given.  At least 60.
+    """
+    import shutil
+
+    columns = max(60, shutil.get_terminal_size().columns if width is None else width)
     r = record
     lines = [f"({r['id']}) {r['title']}  [{r['place']}]", f"verdict: {r['verdict']}. {r['reason']}", "", "printed"]
-    lines += [f"    {formula}" for formula in r["printed_latex"] or ["nothing: missing from the paper"]]
+    lines += _formulas(pictures["printed"], columns) or ["    nothing: missing from the paper"]
     lines += ["", f"copy of the paper's text: {r['copy']}{': ' + r['copy_doubt'] if r['copy_doubt'] else ''}"]
     lines += [f"    {o['what']}: {o['verdict']}; {o['detail']}" for o in r["other_readings"]]
     if r["severity"]:
@@ -140,10 +160,10 @@ def written_out(record: Record) -> str:
     elif r["conditional"]:
         lines.append("conditional: judged against the reconstruction of the supplement that the paper lacks")
     lines += ["", "derivation"]
-    for number, s in enumerate(r["steps"], 1):
+    for number, (s, shown) in enumerate(zip(r["steps"], pictures["steps"], strict=True), 1):
         lines.append(f"{number:3}. {s['text']} [{_MARKS[s['holds']]}]")
-        lines += [f"        {formula}" for formula in s["latex"]]
-    lines += ["", "derived"] + [f"    {formula}" for formula in r["derived_latex"] or []] + ["", "evidence"]
+        lines += _formulas(shown, columns, 8)
+    lines += ["", "derived", *_formulas(pictures["derived"], columns), "", "evidence"]
     for e in r["evidence"]:
         lines.append(f"    {'for    ' if e['ok'] else 'against'} {e['about']:<9} {e['kind']}: {e['detail']}")
     lines += ["", f"confirmed by: {_systems(r)}"]
@@ -153,4 +173,28 @@ def written_out(record: Record) -> str:
         lines.append(f"computed with: {listed}")
     lines += [f"assumed: {a['taken']}" for a in r["assumptions"]]
     lines += [f"NOT CONFIRMED: {problem}" for problem in r["problems"]]
-    return "\n".join(lines)
+    return "\n".join(part for line in lines for part in _wrapped(line, columns))
+
+
+def _formulas(pictures: list[dict[str, Any]], width: int, indent: int = 4) -> list[str]:
+    """Formulas one below the other, an empty line round those that are taller than one."""
+    from trum_sym.paper.terminal import laid_out
+
+    found: list[str] = []
+    tall = False
+    for picture in pictures:
+        rows = laid_out(picture, width - indent)
+        apart = bool(found) and (tall or len(rows) > 1)
+        tall = len(rows) > 1
+        found += [""] * apart + [(" " * indent + row).rstrip() for row in rows]
+    return found
+
+
+def _wrapped(line: str, width: int) -> list[str]:
+    """A line of words within the width, its continuation indented; what fits, pictures among it, as it is."""
+    import textwrap
+
+    if len(line) <= width:
+        return [line]
+    indent = " " * (len(line) - len(line.lstrip()) + 4)
+    return textwrap.wrap(line, width, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)

@@ -16,6 +16,7 @@ from trum_sym.inputs.drive import Drive, Start
 from trum_sym.inputs.motor import Motor
 from trum_sym.inputs.motor_file import load_motor
 from trum_sym.inputs.plausible import unquestioned
+from trum_sym.model.levels import Compliance
 from trum_sym.paper.findings import ASSUMED, Context, Truth, together
 from trum_sym.paper.readings import POINTS, published
 
@@ -62,9 +63,15 @@ class Region:
 
 
 def region(
-    motor: Motor, start: Start, phase_lead: float, switching_phase: float, inertia: Array, radius: Array
+    motor: Motor,
+    start: Start,
+    phase_lead: float,
+    switching_phase: float,
+    inertia: Array,
+    radius: Array,
+    compliance: Compliance = "layer",
 ) -> Region:
-    """The region of a reading, at the default levels.
+    """The region of a reading, at the default levels but for the compliance.
 
     Parameters
     ----------
@@ -76,6 +83,8 @@ def region(
         Of rotor and load together, more than the rotor's.
     radius : (k,) array, m
         Contact radii.
+    compliance : {"layer", "flange"}
+        What gives in the contact.
     """
     wanted = published(load_motor("trum60"))["mean_speed"]
     own = float(motor.rotor_inertia.value)
@@ -101,7 +110,7 @@ def region(
             switching_phase=switching_phase,
             load_inertia=load[place].reshape(shape),
         )
-        return dict(Context.figures(machine, drive, tolerance, encoder=points))
+        return dict(Context.figures(machine, drive, tolerance, encoder=points, compliance=compliance))
 
     every = np.ones(grid, bool)
     frictions = np.linspace(*ASSUMED["friction_coefficient"], _FRICTIONS)

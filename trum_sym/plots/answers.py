@@ -1,14 +1,22 @@
-"""Answers of commands as pictures: a point, its slopes, a front, a worst case, a speed table."""
+"""Answers of commands as pictures: a point, its slopes, histories, a sweep, a fit, a front, a worst case, a table."""
 
 from __future__ import annotations
 
 from dataclasses import asdict
 from io import BytesIO
+from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from trum_sym.calibration.calibrate import model_of
+from trum_sym.calibration.least_squares import interval_factor
+from trum_sym.calibration.result import Calibration
+from trum_sym.errors import ParameterError
+from trum_sym.inputs.checks import Array
+from trum_sym.inputs.drive import DRIVE_DOMAINS
+from trum_sym.inputs.measurements import UNCERTAINTY
 from trum_sym.inputs.shown import full, quantity_of, readable
 from trum_sym.inputs.units import ARCSEC
 from trum_sym.model.histories import simulate
@@ -16,15 +24,29 @@ from trum_sym.model.operating_point import OperatingPoint
 from trum_sym.model.sensitivities import PARAMETERS, Sensitivities
 from trum_sym.output.files import write_bytes
 from trum_sym.plots.style import COLOURS, GRID, INK, figure_of, legend, panels, styled
+from trum_sym.quantities import QUANTITIES, Quantity
 from trum_sym.studies.pareto import ParetoFront
 from trum_sym.studies.robust import RobustPoint
 from trum_sym.studies.speed_table_result import SpeedTable
 from trum_sym.text import one_line
 
 if TYPE_CHECKING:
+    import xarray as xr
     from matplotlib.figure import Figure
 
-__all__ = ["SUFFIXES", "front", "point", "slopes", "table", "worst_case", "write"]
+__all__ = [
+    "SUFFIXES",
+    "check_swept",
+    "fitted",
+    "front",
+    "histories",
+    "point",
+    "slopes",
+    "swept",
+    "table",
+    "worst_case",
+    "write",
+]
 
 SUFFIXES = (".png", ".svg", ".pdf")
 
@@ -73,6 +95,142 @@ def point(found: OperatingPoint) -> Figure:
     return figure_of(ax)
 
 
+@styled
+def histories(found: xr.Dataset) -> Figure:
+    """Both phases, the contact, and the rotor's speed and angle over the cycles of ``ts.simulate``."""
+    axes = panels(None, 4, 1, 6.4, sharex=True)
+    time = 1e3 * found.time.to_numpy()
+    turn = 180 / np.pi
+    lines = (
+        (axes[0], "w_A", 1e6, "phase A"),
+        (axes[0], "w_B", 1e6, "phase B"),
+        (axes[1], "theta", turn, "half-angle"),
+        (axes[2], "rotor_speed", 1e-6 / ARCSEC, "rotor"),
+        (axes[3], "rotor_angle", 1 / ARCSEC, "rotor"),
+    )
+    for ax, name, scale, label in lines:
+        colour = COLOURS[len(ax.get_lines())]
+        ax.plot(time, scale * found[name].to_numpy(), color=colour, label=label, linewidth=0.8)
+    labels = ("displacement (µm)", "contact (°)", "speed (10⁶ arcsec/s)", "angle (arcsec)")
+    for ax, label in zip(axes, labels, strict=True):
+        ax.set_ylabel(label)
+    mean = float(found.attrs["mean_speed"]) / ARCSEC
+    axes[2].axhline(1e-6 * mean, color=COLOURS[1], linestyle="--", label=f"mean, {mean:.6g} arcsec/s")
+    axes[3].set_xlabel("time since phase A is first switched off (ms)")
+    region = found.region.to_numpy()
+    edges = np.flatnonzero(np.diff(region, prepend=-1, append=-1))
+    for first, last in pairwise(edges):
+        if region[first] < len(_OFF):
+            end = time[last] if last < time.size else time[-1]
+            for ax in axes:
+                named = ax is axes[0] and first < region.size / found.attrs["cycles"]
+                label = _OFF[region[first]] if named else "_"
+                ax.axvspan(time[first], end, color=_SHADES[region[first]], linewidth=0, zorder=0, label=label)
+    for ax in (axes[0], axes[2]):
+        legend(ax)
+    figure_of(axes[0]).suptitle(_plain(found.attrs["title"]), fontsize=9)
+    return figure_of(axes[0])
+
+
+_OFF = ("A off", "B off")
+_SHADES = ("#e9edf1", "#f7f1e3")
+_SHOWN = ("mean_speed", "speed_volatility", "stall_torque", "q_average")  # of a sweep, where all are computed
+
+
+def check_swept(dimensions: int) -> None:
+    """Refuse a sweep that no picture shows.
+
+    Raises
+    ------
+    ParameterError
+        For more than two axes, or none.
+    """
+    if not 1 <= dimensions <= 2:
+        raise ParameterError("--plot", f"{dimensions} axes", "a sweep over one axis, drawn as lines, or two, as maps")
+
+
+@styled
+def swept(found: xr.Dataset) -> Figure:
+    """Figures of a sweep over one axis as lines, over two as maps; at most four of them."""
+    names = [str(name) for name in found.data_vars if name != "status"]
+    names = ([name for name in _SHOWN if name in names] or names)[:4]
+    dimensions = [str(name) for name in found[names[0]].dims]
+    check_swept(len(dimensions))
+    missing = int(np.count_nonzero(found["status"].to_numpy()))
+    rows = -(-len(names) // 2)
+    axes = panels(None, rows, min(2, len(names)), 0.6 + 2.8 * rows)
+    for ax, name in zip(axes, names, strict=False):
+        quantity = quantity_of(name)
+        values = found[name].to_numpy() * readable(name, 1.0)
+        ax.set_xlabel(_axis(found, dimensions[-1]))
+        if len(dimensions) == 1:
+            ax.plot(_along(found, dimensions[0]), values, ".-", markersize=3)
+            ax.set_ylabel(f"{quantity.label} ({quantity.shown})")
+            continue
+        x, y = _along(found, dimensions[1]), _along(found, dimensions[0])
+        mesh = ax.pcolormesh(x, y, values, shading="nearest", rasterized=True)
+        figure_of(ax).colorbar(mesh, ax=ax, label=f"{quantity.label} ({quantity.shown})", location="top")
+        ax.set_ylabel(_axis(found, dimensions[0]))
+        ax.grid(visible=False)
+    for ax in axes[len(names) :]:
+        ax.set_axis_off()
+    blank = f"; blank: {missing} of {found['status'].size} without an answer" * bool(missing)
+    figure_of(axes[0]).suptitle(_plain(found.attrs["motor"]) + blank, fontsize=9)
+    return figure_of(axes[0])
+
+
+def _along(found: xr.Dataset, dimension: str) -> Array:
+    """The values along a dimension; the row where several parameters share it."""
+    return found[dimension].to_numpy() if dimension in found.coords else np.arange(1.0, found.sizes[dimension] + 1)
+
+
+def _axis(found: xr.Dataset, dimension: str) -> str:
+    if dimension not in found.coords:
+        return f"{dimension.replace('_', ' ')} (row)"
+    unit = found[dimension].attrs.get("units", "1")
+    return dimension.replace("_", " ") + (f" ({unit})" if unit != "1" else "")
+
+
+@styled
+def fitted(found: Calibration) -> Figure:
+    """Each measured column with the fit through it, and the band in which the fit lies with the fit's confidence.
+
+    Over the only input that varies, or time; over the rows where several vary.
+    """
+    data, model = found.measurements, model_of(found)
+    values = np.array([estimate.value for estimate in found.estimates])
+    fit = np.split(model.predict(values), len(data.observed))
+    slopes = model.slopes(values)
+    width = interval_factor(found.confidence, found.residuals.degrees_of_freedom)
+    variance = np.einsum("ij,jk,ik->i", slopes, found.covariance, slopes)
+    band = np.split(width * np.sqrt(np.maximum(variance, 0)), len(data.observed))
+    varied = ["time"] if data.is_decay else [n for n in data.inputs if np.ptp(data.columns[n]) > 0]
+    name = varied[0] if len(varied) == 1 else None
+    x = data.columns[name] if name is not None else np.arange(1.0, len(data) + 1)
+    unit = "s" if data.is_decay else DRIVE_DOMAINS[name][1] if name and name in DRIVE_DOMAINS else "1"
+    order = np.argsort(x, kind="stable")
+    axes = panels(None, len(data.observed), 1, 0.8 + 2.6 * len(data.observed), sharex=True)
+    for ax, column, line, half in zip(axes, data.observed, fit, band, strict=True):
+        known = column in QUANTITIES
+        scale = float(readable(column, 1.0)) if known else 1.0
+        quantity = quantity_of(column) if known else Quantity(column, "", "", _SIGNAL[column])
+        low, high = scale * (line - half)[order], scale * (line + half)[order]
+        band_of = f"its {100 * found.confidence:g} % band"
+        ax.plot(x[order], scale * line[order], color=COLOURS[0], label="fit")
+        ax.fill_between(x[order], low, high, color=COLOURS[5], alpha=0.6, linewidth=0, label=band_of)
+        ax.plot(x, scale * data.columns[column], "o", color=COLOURS[1], markersize=3, label="measured")
+        error = data.columns.get(column + UNCERTAINTY)
+        if error is not None:
+            ax.errorbar(x, scale * data.columns[column], scale * error, fmt="none", color=COLOURS[1], linewidth=0.8)
+        ax.set_ylabel(f"{quantity.label} ({quantity.shown})")
+        legend(ax)
+    axes[-1].set_xlabel("row of the data" if name is None else name.replace("_", " ") + f" ({unit})" * (unit != "1"))
+    shown = ", ".join(f"{e.name.replace('_', ' ')} {e.value:.4g}" for e in found.estimates if e.in_motor)
+    figure_of(axes[0]).suptitle(f"{_plain(found.motor.name)} fitted to {_plain(found.data)}: {shown}", fontsize=9)
+    return figure_of(axes[0])
+
+
+_SIGNAL = {"displacement": "m", "velocity": "m/s", "envelope": "as measured"}
 _SHARE = 0.01
 
 

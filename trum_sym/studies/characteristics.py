@@ -14,6 +14,7 @@ from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.measured_points import CURVES, FORMS, MeasuredPoint
 from trum_sym.inputs.motor import Motor
+from trum_sym.inputs.motor_file import load_motor
 from trum_sym.inputs.points import check_point, check_single, numbers_of, one_number
 from trum_sym.model.cycle import response, scaled
 from trum_sym.model.kernels import call
@@ -50,7 +51,7 @@ _VARIABLES = {
 
 
 def characteristics(
-    motor: Motor,
+    motor: Motor | None = None,
     drive: Drive | None = None,
     *,
     points: float = 25,
@@ -66,8 +67,8 @@ def characteristics(
 
     Parameters
     ----------
-    motor : Motor
-        Of plain numbers, no arrays; so is the drive.
+    motor : Motor, optional
+        TRUM-60 if not given.  Of plain numbers, no arrays; so is the drive.
     drive : Drive, optional
         The paper's Table 3 if not given.  Its load is replaced; the plain wave has ``on_periods = periods``.
     points : int
@@ -112,6 +113,7 @@ def characteristics(
     except ImportError as error:
         raise MissingExtraError("characteristics", str(error.name), "data") from None
     count = int(one_number("points", points, "1", _POINTS))
+    motor = load_motor() if motor is None else motor
     drive = Drive() if drive is None else drive
     check_point(motor, drive)
     check_single(numbers_of(motor, drive, None), "one number: characteristics are of one motor and drive")

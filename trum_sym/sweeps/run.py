@@ -20,6 +20,7 @@ from trum_sym.inputs.checks import ArrayLike
 from trum_sym.inputs.choices import path_of
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
+from trum_sym.inputs.motor_file import load_motor
 from trum_sym.inputs.points import period_of
 from trum_sym.model.levels import LEVEL_NAMES, Levels
 from trum_sym.output.progress import Progress
@@ -77,7 +78,7 @@ class Workload:
 
 
 def sweep(
-    motor: Motor,
+    motor: Motor | None = None,
     drive: Drive | None = None,
     *,
     outputs: Sequence[str] | None = None,
@@ -136,7 +137,9 @@ def sweep(
         ranges, sampling_period = {**ranges, "sampling_period": sampling_period}, None
     target = None if out is None else path_of("out", out)
     check_out("out", target)
-    plan = make_plan(motor, drive, levels, sampling_period, tolerance, outputs, chunk, ranges)
+    plan = make_plan(
+        load_motor() if motor is None else motor, drive, levels, sampling_period, tolerance, outputs, chunk, ranges
+    )
     return run("out", plan, target, scheduler, chunk is not None, sys.stderr if progress else None)[0]
 
 

@@ -3,9 +3,10 @@
  * figures and histories come back and are drawn.  The page has the module in #trum-module (base64) and the motor's
  * values in #trum-values (JSON); window.trumMotor is for tests and for the curious. */
 (() => {
-  const SAMPLES_PER_PERIOD = 48, HEIGHT = 170, TOLERANCE = 1e-9;
+  const SAMPLES_PER_PERIOD = 48, HEIGHT = 170, TOLERANCE = 1e-9, LOADS = 24;
 
-  /* Runs in the worker, or here if there is none: answers {values, count} with {settings, figures, histories}. */
+  /* Runs in the worker, or here if there is none: answers {values, count} with {settings, figures, histories},
+   * and {values, loads} with the mean speeds under these loads. */
   function engine(bytes, answer) {
     const library = WebAssembly.instantiate(bytes, {}).then(({ instance }) => {
       const c = instance.exports;
@@ -17,8 +18,7 @@
       const of = (...kinds) => places.filter((place) => kinds.includes(place[0]));
       return { c, text, settings: of("number", "choice"), figures: of("figure"), histories: of("history") };
     });
-    async function solve({ values, count }) {
-      const { c, text, settings, figures, histories } = await library;
+    function enter({ c, settings }, values) {
       c.reset();
       const given = new Float64Array(c.memory.buffer, c.settings(), settings.length);
       for (const [name, value] of Object.entries(values)) {
@@ -27,6 +27,24 @@
         if (place < 0) throw new Error(name + " is no setting");
         given[place] = kind === "choice" ? settings[place].slice(2).indexOf(value) : value;
       }
+      return given;
+    }
+    /* Mean speeds under several loads, NaN where none balances. */
+    async function underLoad({ values, loads, serial }) {
+      const { c, settings, figures } = await library;
+      const at = figures.findIndex((figure) => figure[1] === "mean_speed");
+      const speeds = loads.map((load) => {
+        enter({ c, settings }, { ...values, load_torque: load });
+        c.solve(1);
+        return new Float64Array(c.memory.buffer, c.figures(), figures.length)[at];
+      });
+      return { loads, speeds, serial };
+    }
+    async function solve(job) {
+      if (job.loads) return underLoad(job);
+      const { values, count } = job;
+      const { c, text, settings, figures, histories } = await library;
+      const given = enter({ c, settings }, values);
       const used = Math.min(count, c.most_samples());
       const status = c.solve(used);
       const row = c.most_samples() + 1;
@@ -197,14 +215,28 @@
     say("wave", `The wave is ${shown(height)} micrometres high and touches over plus and minus ${shown(half)} degrees`);
   }
 
+  function drawLoad(root, { loads, speeds }, here) {
+    const svg = root.querySelector('[data-plot="load"]');
+    const box = axes(svg, [loads[0], loads[loads.length - 1]], span(speeds, [0]), ["N m", "rad/s"]);
+    box.frame();
+    box.path(loads, speeds, "line");
+    if (here.load >= loads[0] && here.load <= loads[loads.length - 1]) box.dot(here.load, here.speed);
+    svg.setAttribute("aria-label", `Mean speed from ${shown(speeds[0])} radians per second without load to `
+      + `${shown(finite([...speeds]).at(-1))} at the greatest load that a speed balances; this drive's is ${shown(here.speed)}`);
+  }
+
   /* --- the controls --- */
   function begin(root) {
     const bytes = Uint8Array.from(atob(document.getElementById("trum-module").textContent.trim()), (c) => c.charCodeAt(0));
     const motor = JSON.parse(document.getElementById("trum-values").textContent);
     const inputs = [...root.querySelectorAll("[data-setting]")], note = root.querySelector(".trum-note");
     const waiting = [];
-    let values = {}, state = null, instant = 0.6, busy = false, pending = false;
+    let values = {}, state = null, instant = 0.6, busy = false, pending = false, serial = 0, curve = null;
     const post = background(bytes, (found) => {
+      if (found.loads) {
+        if (found.serial === serial) curve = found, showLoad();
+        return;
+      }
       busy = false;
       if (found.error) {
         note.textContent = `This browser cannot compute the motor: ${found.error}`;
@@ -215,6 +247,9 @@
       show();
       if (busy) return;
       root.classList.remove("trum-busy");
+      const most = Math.abs(motor.friction_coefficient * state.settings.prepressure * motor.contact_radius);
+      post({ values: { ...motor, ...values, tolerance: 1e-4 }, serial: ++serial,
+        loads: Array.from({ length: LOADS }, (_, i) => i / LOADS * (most || 1)) });
       for (const done of waiting.splice(0)) done(state.figures);
     });
     function send() {
@@ -222,6 +257,9 @@
       pending = false;
       const periods = values.periods ?? 20;
       post({ values: { ...motor, tolerance: TOLERANCE, ...values }, count: SAMPLES_PER_PERIOD * periods });
+    }
+    function showLoad() {
+      drawLoad(root, curve, { load: state.settings.load_torque, speed: state.figures.mean_speed });
     }
     function set(changes) {
       values = { ...values, ...changes };
@@ -231,6 +269,15 @@
         if (busy) pending = true;
         else send();
       });
+    }
+    /* a slider over decades: 0 at its left end, then equal steps of the logarithm */
+    function fromSlider(input) {
+      const place = Number(input.value), ends = input.dataset.decades?.split(" ").map(Number);
+      return !ends ? place : place ? Number((10 ** (ends[0] + (ends[1] - ends[0]) * place / input.max)).toPrecision(3)) : 0;
+    }
+    function toSlider(input, value) {
+      const ends = input.dataset.decades?.split(" ").map(Number);
+      return !ends ? value : value > 0 ? input.max * (Math.log10(value) - ends[0]) / (ends[1] - ends[0]) : 0;
     }
     function limit(periods) {
       for (const input of inputs) if (input.dataset.setting === "on_periods") {
@@ -243,7 +290,7 @@
       if (!busy) limit(settings.periods);
       for (const input of inputs) {
         const wanted = values[input.dataset.setting] ?? settings[input.dataset.setting];
-        if (input !== document.activeElement || input.type !== "number") input.value = wanted;
+        if (input !== document.activeElement || input.type !== "number") input.value = toSlider(input, wanted);
       }
       for (const cell of root.querySelectorAll("[data-figure]")) {
         const value = figures[cell.dataset.figure];
@@ -259,8 +306,9 @@
         note.textContent = `${input.dataset.setting.replaceAll("_", " ")}: ${input.validationMessage}`;
         return;
       }
-      const name = input.dataset.setting, value = name === "start" ? input.value : Number(input.value);
-      for (const other of inputs) if (other !== input && other.dataset.setting === name) other.value = input.value;
+      const name = input.dataset.setting, number = fromSlider(input);
+      const value = Number.isNaN(number) ? input.value : number; /* a word, of a choice */
+      for (const other of inputs) if (other !== input && other.dataset.setting === name) other.value = toSlider(other, value);
       const changes = { [name]: value };
       if (name === "periods") {
         const on = values.on_periods ?? state.settings.on_periods;
@@ -282,10 +330,14 @@
     root.querySelector("form").addEventListener("submit", (event) => event.preventDefault());
     let width = 0;
     new ResizeObserver(() => {
-      if (state && root.clientWidth !== width) width = root.clientWidth, draw(root, state, instant);
+      if (state && root.clientWidth !== width) {
+        width = root.clientWidth;
+        draw(root, state, instant);
+        if (curve) showLoad();
+      }
     }).observe(root);
     window.trumMotor = { ready: set({}), set, settings: () => state.settings, figures: () => state.figures,
-      histories: () => state.histories };
+      histories: () => state.histories, underLoad: () => curve ?? {}, serial: () => serial };
   }
   begin(document.getElementById("interactive"));
 })();

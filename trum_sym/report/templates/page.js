@@ -6,6 +6,11 @@
     const dark = root.dataset.theme ? root.dataset.theme === 'dark' : matchMedia('(prefers-color-scheme: dark)').matches;
     root.dataset.theme = dark ? 'light' : 'dark';
   });
+  const wide = [...document.querySelectorAll('.wide')];
+  const hint = () => wide.forEach(box => box.classList.toggle('scrolls', box.scrollWidth > box.clientWidth + 1));
+  addEventListener('resize', hint);
+  document.addEventListener('toggle', hint, true);
+  hint();
   const stops = [...document.querySelectorAll('.stop')];
   document.addEventListener('keydown', event => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest('input, select, textarea')) return;
