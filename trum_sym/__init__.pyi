@@ -15,6 +15,8 @@ from .inputs.motor import Motor as Motor
 from .inputs.motor import Parameter as Parameter
 from .inputs.motor_file import load_motor as load_motor
 from .model.histories import simulate as simulate
+from .model.holding import Holding as Holding
+from .model.holding import holding as holding
 from .model.operating_point import OperatingPoint as OperatingPoint
 from .model.operating_point import evaluate as evaluate
 from .model.sensitivities import Sensitivities as Sensitivities
@@ -35,6 +37,7 @@ __all__ = [
     "ConvergenceError",
     "Distribution",
     "Drive",
+    "Holding",
     "ImplausibleWarning",
     "MissingExtraError",
     "Motor",
@@ -49,6 +52,7 @@ __all__ = [
     "calibrate",
     "characteristics",
     "evaluate",
+    "holding",
     "load_motor",
     "optimize",
     "pareto",

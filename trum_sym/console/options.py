@@ -31,9 +31,11 @@ __all__ = [
     "chosen_drive",
     "chosen_levels",
     "chosen_motor",
+    "chosen_spreads",
     "continuous_options",
     "examples",
     "force_option",
+    "holding_options",
     "number_option",
     "option_name",
     "pairs",
@@ -152,6 +154,36 @@ _LEVELS = tuple(
 _SAMPLING = number_option(
     "--sampling-period", "s", None, "Averaging period of the speed's encoder  [default: continuous]", "S"
 )
+
+
+def holding_options(within: float | None) -> Callable[..., Any]:
+    """The options ``--hold-within`` and ``--spread``; without a default for the first, nothing is held unless asked."""
+
+    def given(command: Callable[..., Any]) -> Callable[..., Any]:
+        hold = number_option(
+            "--hold-within",
+            "1",
+            within,
+            "Say what it takes to hold the speed within this share of it: slopes, drifts, precision, start, return"
+            + (".  [default: not said]" if within is None else "."),
+            "SHARE",
+        )
+        spread = click.option(
+            "--spread",
+            "spreads",
+            multiple=True,
+            metavar="NAME=AMOUNT",
+            help="How far an input may be off: prepressure='+-1 N', friction_coefficient='1 %'; repeat it for more.  "
+            "[default: the motor file's spreads]",
+        )
+        return _given(command, (hold, spread))
+
+    return given
+
+
+def chosen_spreads(spreads: tuple[str, ...]) -> dict[str, str | None] | None:
+    """How far inputs may be off, by name, as ``ts.holding`` takes it."""
+    return pairs("--spread", spreads, "prepressure='+-1 N'") or None
 
 
 def force_option(command: Callable[..., Any]) -> Callable[..., Any]:
