@@ -35,7 +35,7 @@ __all__ = ["evaluate"]
 )
 @point_options
 @tolerance_option
-@holding_options(None)
+@holding_options
 @plot_options("Draw the rotor's speed over two cycles")
 @click.option(
     "--out", type=click.Path(path_type=Path), metavar="FILE", help="Write the figures with their units: .csv or .nc."

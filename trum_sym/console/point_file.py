@@ -62,8 +62,12 @@ class PointFile:
             source = "the point's file"
             ranges = {name: Allowed(float(low), float(high), source) for name, (low, high) in box.items()}
             allowed, spreads = (self.record.get(name) or {} for name in ("allowed", "spreads"))
-            changed["allowed"] = {name: Allowed(float(low), float(high), source) for name, (low, high) in allowed.items()}
-            changed["spreads"] = {name: Amount(float(off), bool(share), source) for name, (off, share) in spreads.items()}
+            changed["allowed"] = {
+                name: Allowed(float(low), float(high), source) for name, (low, high) in allowed.items()
+            }
+            changed["spreads"] = {
+                name: Amount(float(off), bool(share), source) for name, (off, share) in spreads.items()
+            }
             return Motor(name=str(self.record["motor"]), box=ranges, **changed)
 
 

@@ -119,10 +119,6 @@ class Amount(Value):
     share: bool
     source: str
 
-    def of(self, value: float) -> float:
-        """In the input's unit, at a value of it."""
-        return self.value * abs(value) if self.share else self.value
-
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Motor(Value):

@@ -301,5 +301,5 @@ def load_motor(source: str | PathLike[str] = "trum60") -> Motor:
         for table in ("box", "allowed")
     )
     spreads = {name: _read_amount(name, entry) for name, entry in _table(data, "spreads").items()}
-    tables: dict[str, Any] = {"bench": _read_bench(data.get("bench", {})), "box": box, "allowed": allowed}
-    return Motor(name=data["name"], published=published, spreads=spreads, text=text, **tables, **parameters)
+    read: dict[str, Any] = {**parameters, "bench": _read_bench(data.get("bench", {})), "box": box, "allowed": allowed}
+    return Motor(name=data["name"], published=published, spreads=spreads, text=text, **read)

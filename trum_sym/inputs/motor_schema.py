@@ -200,7 +200,12 @@ def schema() -> dict[str, Any]:
     }
     amount = {
         "type": "object",
-        "properties": {"value": {"type": "number", "exclusiveMinimum": 0}, "unit": text, "source": text, "reason": text},
+        "properties": {
+            "value": {"type": "number", "exclusiveMinimum": 0},
+            "unit": text,
+            "source": text,
+            "reason": text,
+        },
         "required": ["value", "unit", "source"],
         "additionalProperties": False,
     }

@@ -81,7 +81,9 @@ def as_table(motor: Motor) -> str:
         lines += ["", f"hardware allows {name} from {allowed.low:g} to {allowed.high:g} ({one_line(allowed.source)})"]
     for name, amount in motor.spreads.items():
         unit = DRIVE_DOMAINS[name][1] if name in DRIVE_DOMAINS else SPECS[name].unit
-        off = f"{100 * amount.value:g} %" if amount.share else f"{amount.value:g} {'' if unit == '1' else unit}".rstrip()
+        off = (
+            f"{100 * amount.value:g} %" if amount.share else f"{amount.value:g} {'' if unit == '1' else unit}".rstrip()
+        )
         lines += ["", f"{name} may be off by {off} ({one_line(amount.source)})"]
     return "\n".join(lines)
 

@@ -13,7 +13,9 @@ __all__ = ["FORMS", "Spread", "half_width", "read_spread"]
 
 Spread = Distribution | float | str | tuple[float | str, float | str] | None
 
-FORMS = "a share such as '10 %', an amount such as '+-1 N', LOW:HIGH, or KIND:NUMBER:... with KIND one of " + ", ".join(KINDS)
+FORMS = "a share such as '10 %', an amount such as '+-1 N', LOW:HIGH, or KIND:NUMBER:... with KIND one of " + ", ".join(
+    KINDS
+)
 """What may be given, in words."""
 
 _SHARE = Domain(low=0.0, high=1.0)

@@ -3,32 +3,42 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any, Unpack
 
 import numpy as np
 
-from trum_sym.errors import ParameterError
-from trum_sym.inputs.checks import ArrayLike
+from trum_sym.inputs.checks import Array
 from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import DRIVE_DOMAINS, SPREADING, Drive
 from trum_sym.inputs.motor import SPECS, Amount, Motor
 from trum_sym.inputs.motor_file import load_motor
 from trum_sym.inputs.plausible import unquestioned
 from trum_sym.inputs.points import check_point, check_single, numbers_of, one_number
-from trum_sym.inputs.spreads import Spread, half_width
+from trum_sym.inputs.spreads import Spread
 from trum_sym.inputs.units import ARCSEC
 from trum_sym.model.inputs import Inputs, remarks_of, units_of
-from trum_sym.model.kernels import call
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.model.operating_point import Case, encoder_deviation_of, prepare
-from trum_sym.model.rotor import RUNAWAY, Orbit, lap_from
+from trum_sym.model.rotor import RUNAWAY, solve_orbit
 from trum_sym.model.sensitivities import orbit_with_slopes
+from trum_sym.model.settling import RimOrbit, rim_orbits, settling_time
+from trum_sym.model.spreading import amounts_at, amounts_of, speeds_off, unit_of
+from trum_sym.model.string import SLACK, least_tension
 from trum_sym.output.result import Result
-from trum_sym.values import Value
+from trum_sym.values import FrozenDict, Value
 
-__all__ = ["SPEED_TIME", "WITHIN", "Holding", "amounts_of", "hold", "hold_each", "holding", "share_of", "unit_of"]
+__all__ = [
+    "SPEED_TIME",
+    "WITHIN",
+    "Asked",
+    "Holding",
+    "asked_of",
+    "compared",
+    "hold",
+    "holding",
+]
 
 WITHIN = 0.01
 """Share of its mean speed that a point is to be held within, where none is given."""
@@ -36,52 +46,72 @@ SPEED_TIME = 1.0
 """Time in s within which a rotor is to come to speed from rest, or back after a disturbance, where none is given."""
 
 _TOLERANCE = 1e-9  # of the orbits
-_DISTURBANCE = 0.1  # of the largest speed
-_EXACT_LAPS = 12  # before the rest is told from how laps draw speeds together
-_LAP_SHARE = 0.01  # of the allowed error, that a lap may be off by
-_PER_DECADE = 2  # laps that tell it, by distance from the orbit
-_COARSEST = 1e5  # times the orbit's own level
-_LEAST = 1e-7  # of a lap, by which it has to draw speeds together
 _SHIFTS = np.array([1.0, -1.0, 2.0, -2.0, 3.0, -3.0])
 _WEIGHTS = np.array([45.0, -45.0, -9.0, 9.0, 1.0, -1.0]) / 60
 _STEP = 1e-3  # of a value, of the differences where no slope is known
 _PHASE_STEP = 4e-3  # rad
 _SHARE = Domain(low=0.0, high=1.0)
+_POSITIVE = Domain(low=0.0)
 
 
-def share_of(name: str, within: object) -> float:
-    """A share of the mean speed, checked."""
-    return one_number(name, within, "1", _SHARE)
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Asked(Value):
+    """What is asked of points that are to be held: how near to their speed, against what, in what time, read how.
 
-
-def unit_of(name: str) -> str:
-    """The SI unit of an input that a speed's slope is by."""
-    return DRIVE_DOMAINS[name][1] if name in DRIVE_DOMAINS else SPECS[name].unit
-
-
-def amounts_of(motor: Motor, spreads: Mapping[str, Spread] | None) -> dict[str, Amount]:
-    """How far inputs may be off: what the motor file states, and what is given in its place.
-
-    Parameters
+    Attributes
     ----------
-    spreads : mapping, optional
-        By the names of :data:`trum_sym.inputs.drive.SPREADING`: an amount ``"+-1 N"``, a share ``0.01`` or ``"1 %"``,
-        or two ends, whose half distance counts.
+    within : float
+        Share of the mean speed.
+    amounts : mapping of Amount
+        How far inputs may be off, by name.
+    sampling_period : float or None
+        Of an encoder, s; None for what the motor file states.
+    speed_time : float
+        From rest, and after a disturbance, s.
+    """
+
+    within: float = WITHIN
+    amounts: Mapping[str, Amount] = field(default_factory=FrozenDict)
+    sampling_period: float | None = None
+    speed_time: float = SPEED_TIME
+
+    def period(self, motor: Motor) -> float | None:
+        """The encoder's sampling period: the one asked for, else the motor file's, else None."""
+        if self.sampling_period is not None or "sampling_period" not in motor.bench:
+            return self.sampling_period
+        return float(np.asarray(motor.bench["sampling_period"].value))
+
+    def of(self, motor: Motor, drive: Drive, levels: Levels) -> Holding:
+        """What it takes to hold a single point."""
+        return hold(prepare(motor, drive, levels, _TOLERANCE, warn=False), self)
+
+    def each(self, motor: Motor, drive: Drive, levels: Levels) -> list[Holding]:
+        """The same of a row of drives, with the exact slopes alone."""
+        case = prepare(motor, drive, levels, _TOLERANCE, warn=False)
+        return _hold_all(case, self, {})
+
+
+def asked_of(
+    motor: Motor,
+    within: object = WITHIN,
+    spreads: Mapping[str, Spread] | None = None,
+    sampling_period: object = None,
+    speed_time: object = SPEED_TIME,
+) -> Asked:
+    """The same from what was given, checked.
 
     Raises
     ------
     ParameterError
-        For a name or a spread that is none.
+        For bad input.
     """
-    if spreads is not None and not isinstance(spreads, Mapping):
-        raise ParameterError("spreads", spreads, "a mapping of names to amounts or shares")
-    found = dict(motor.spreads)
-    for name, given in (spreads or {}).items():
-        if name not in SPREADING:
-            raise ParameterError("spreads", name, f"one of {', '.join(SPREADING)}")
-        value, share = half_width(name, given, unit_of(name))
-        found[name] = Amount(value, share, "set")
-    return found
+    period = None if sampling_period is None else one_number("sampling_period", sampling_period, "s", _POSITIVE)
+    return Asked(
+        within=one_number("within", within, "1", _SHARE),
+        amounts=amounts_of(motor, spreads),
+        sampling_period=period,
+        speed_time=one_number("speed_time", speed_time, "s", _POSITIVE),
+    )
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -99,13 +129,14 @@ class Holding(Result, Value):
     spreads : mapping
         How far inputs may be off to either side: the motor file's ``[spreads]``, or what was given.
     drifts : mapping
-        What each of these moves the mean speed by, to first order; signed, for more of the input.
+        What each of these moves the mean speed by: the larger of the changes with the input off by that much to either
+        side, with its sign.
     precisions : mapping
         How well each input has to be kept, alone, for the speed to stay within ``within``; infinite where it does not
         matter.
     start_time : float
-        From rest under the load until the rotor's speed differs from the orbit's by no more than ``within`` of the mean:
-        whole drive cycles, the last one shared out; in s.
+        From rest under the load until the rotor's speed differs from the orbit's by no more than ``within`` of the
+        mean: whole drive cycles, the last one shared out; in s.
     return_time : float
         The same after a disturbance by a tenth of the largest speed, the slower of more and less.
     starts, returns : bool
@@ -144,7 +175,7 @@ class Holding(Result, Value):
 
     @property
     def drift(self) -> float:
-        """The sum of the drifts' sizes: what all spreads together may move the mean speed by, to first order."""
+        """The sum of the drifts' sizes: what all spreads together may move the mean speed by, as far as they add."""
         return math.fsum(abs(drift) for drift in self.drifts.values())
 
     @property
@@ -256,6 +287,30 @@ class Holding(Result, Value):
         return lines
 
 
+def compared(labels: Sequence[str], holdings: Sequence[Holding], heading: str) -> str:
+    """A table of what it takes to hold several points, a line a point: drifts by input, then start and encoder."""
+    from tabulate import tabulate
+
+    names = list(dict.fromkeys(name for holding in holdings for name in holding.drifts))
+    spreads = [_in_words(name, holdings[0].spreads[name], holdings[0].values[name]) for name in names]
+    headers = [heading, *(f"drift by {off}\n{name}" for off, name in zip(spreads, names, strict=True))]
+    headers += ["all, % of\nthe mean", "from rest\nms", "encoder\n%"]
+    rows = []
+    for label, holding in zip(labels, holdings, strict=True):
+        speed, volatility = abs(holding.mean_speed), holding.encoder_volatility
+        rows.append(
+            (
+                label,
+                *(_signed(holding.drifts[name] / ARCSEC) for name in names),
+                f"{100 * holding.drift / speed:.4g}" if speed else "-",
+                f"{1e3 * holding.start_time:.3g}",
+                "-" if volatility is None else f"{100 * volatility:.4g}",
+            )
+        )
+    table = tabulate(rows, headers, disable_numparse=True, colalign=["right"] * len(headers))
+    return f"to hold these points: what the mean speed drifts by, arcsec/s\n\n{table}"
+
+
 def _per(unit: str) -> str:
     return "rad/s" if unit == "1" else f"rad/s/{unit}" if unit.isalpha() else f"rad/s/({unit})"
 
@@ -320,9 +375,11 @@ def holding(
     -----
     Slopes by prepressure, frequency difference, load, friction, amplitude and resonance are exact
     (:func:`trum_sym.sensitivities`); those by the switching phase and by the motor's other uncertain values are
-    differences of sixth order on orbits at 1e-9.  From rest and from a disturbance the rotor is followed lap by lap.
-    Laps draw speeds together; from the thirteenth on, by how much is told by two laps in every decade of the distance that is
-    left.
+    differences of sixth order on orbits at 1e-9.  A drift is no slope times a spread: next to where the contact opens or
+    closes anew within a cycle slopes change within a thousandth of a newton, and a spread is wider than that.
+
+    From rest and from a disturbance the rotor is followed lap by lap.  Laps draw speeds together; from the thirteenth
+    on, by how much is told by two laps in every decade of the distance that is left.
 
     Examples
     --------
@@ -335,96 +392,50 @@ def holding(
     drive = Drive() if drive is None else drive
     check_point(motor, drive)
     check_single(numbers_of(motor, drive))
-    within = share_of("within", within)
-    limit = one_number("speed_time", speed_time, "s", Domain(low=0.0))
-    if sampling_period is not None:
-        sampling_period = one_number("sampling_period", sampling_period, "s", Domain(low=0.0))
-    return hold(prepare(motor, drive, Levels(**levels), _TOLERANCE), amounts_of(motor, spreads), within, sampling_period, limit)
+    asked = asked_of(motor, within, spreads, sampling_period, speed_time)
+    return hold(prepare(motor, drive, Levels(**levels), _TOLERANCE), asked)
 
 
-def hold(
-    case: Case,
-    amounts: Mapping[str, Amount],
-    within: float = WITHIN,
-    sampling_period: float | None = None,
-    speed_time: float = SPEED_TIME,
-) -> Holding:
+def hold(case: Case, asked: Asked) -> Holding:
     """:func:`holding` of a case that is checked, of single numbers."""
-    (found,) = _hold_all(case, amounts, within, sampling_period, speed_time, _other_slopes(case))
+    (found,) = _hold_all(case, asked, _other_slopes(case))
     return found
 
 
-def hold_each(
-    case: Case,
-    amounts: Mapping[str, Amount],
-    within: float = WITHIN,
-    sampling_period: float | None = None,
-    speed_time: float = SPEED_TIME,
-) -> list[Holding]:
-    """The same of every point of a case whose drive has rows of numbers, with the exact slopes alone."""
-    return _hold_all(case, amounts, within, sampling_period, speed_time, {})
-
-
-@dataclass(frozen=True)
-class _Point:
-    """One point of a case: the driver's arguments, the orbit at the rim, radius, cycle time and tolerance."""
-
-    arguments: Mapping[str, float]
-    raw: Mapping[str, float]
-    radius: float
-    cycle_time: float
-    tolerance: float
-
-    @property
-    def top(self) -> float:
-        """The largest speed of the rim."""
-        return max(abs(self.raw["low"]), abs(self.raw["high"]))
-
-
-def _points(case: Case, orbit: Orbit) -> list[_Point]:
-    """Every point of a case of at most one dimension."""
-    cycle_time = call("trum_drive", case.values)["T"]
-    alone = {"r_c": case.symbols["r_c"], "T": cycle_time}
-    names = [*case.arguments, *alone, *(f"orbit {name}" for name in orbit.raw)]
-    columns = np.broadcast_arrays(*case.arguments.values(), *alone.values(), *orbit.raw.values())
-    found = []
-    for row in zip(*(np.ravel(column) for column in columns), strict=True):
-        given = dict(zip(names, (float(value) for value in row), strict=True))
-        raw = {name: given[f"orbit {name}"] for name in orbit.raw}
-        arguments = {name: given[name] for name in case.arguments}
-        found.append(_Point(arguments, raw, given["r_c"], given["T"], case.tolerance))
-    return found
-
-
-def _hold_all(
-    case: Case,
-    amounts: Mapping[str, Amount],
-    within: float,
-    sampling_period: float | None,
-    speed_time: float,
-    others: Mapping[str, float],
-) -> list[Holding]:
+def _hold_all(case: Case, asked: Asked, others: Mapping[str, float]) -> list[Holding]:
     orbit, by = orbit_with_slopes(case)
-    if sampling_period is None and "sampling_period" in case.motor.bench:
-        sampling_period = float(np.asarray(case.motor.bench["sampling_period"].value))
-    own, rows = _values(case), list[Holding]()
+    amounts = {name: np.ravel(off) for name, off in amounts_at(case, asked.amounts).items()}
+    moved = {name: np.reshape(both, (2, -1)) for name, both in speeds_off(case, asked.amounts).items()}
+    sampling_period = asked.period(case.motor)
+    own = {
+        "amplitude": np.broadcast_to(case.stator.W, case.shape),
+        "resonance_frequency": np.broadcast_to(np.asarray(case.stator.omega_n) / (2 * np.pi), case.shape),
+    }
+    rows = list[Holding]()
     drives = {name: np.broadcast_to(value, case.shape).ravel() for name, value in case.drive.numbers().items()}
     encoder = None if sampling_period is None else np.ravel(encoder_deviation_of(case, orbit, sampling_period))
-    of_orbit = {name: np.ravel(getattr(orbit, name)) for name in ("mean_speed", "min_speed", "max_speed", "stall_torque")}
-    for k, point in enumerate(_points(case, orbit)):
+    of_orbit = {
+        name: np.ravel(getattr(orbit, name)) for name in ("mean_speed", "min_speed", "max_speed", "stall_torque")
+    }
+    reasons = np.where(np.ravel(orbit.runaway), RUNAWAY, "")
+    if case.drive.load == "weight":
+        slack = np.ravel(least_tension(case.arguments, case.symbols, orbit)) < 0
+        reasons = np.where(slack & (reasons == ""), SLACK, reasons)
+    for k, point in enumerate(rim_orbits(case, orbit)):
         figures: dict[str, Any] = {name: float(values[k]) for name, values in of_orbit.items()}
-        figures["reason"] = RUNAWAY if np.ravel(orbit.runaway)[k] else ""
-        figures |= {name: float(own[name].flat[k]) for name in ("amplitude", "resonance_frequency")}
+        figures["reason"] = str(reasons[k])
+        figures |= {name: float(np.ravel(own[name])[k]) for name in own}
         found = {name: float(np.ravel(slope)[k]) for name, slope in by["mean_speed"].items()} | dict(others)
-        values = {name: float(own[name].flat[k]) for name in own}
-        drive = replace(case.drive, **{name: values[k] for name, values in drives.items()}) if case.shape else case.drive
+        at: dict[str, Any] = {name: values[k] for name, values in drives.items()}
+        drive = replace(case.drive, **at) if case.shape else case.drive
         rows.append(
             _holding(
                 point,
                 figures,
                 found,
-                {name: amount.of(values[name]) for name, amount in amounts.items()},
-                (within, speed_time, sampling_period),
+                {name: float(off[k]) for name, off in amounts.items()},
+                {name: _larger(both[:, k] - figures["mean_speed"]) for name, both in moved.items()},
+                asked,
                 None if encoder is None else float(encoder[k]),
                 Inputs(case.motor, drive, case.levels, sampling_period, case.tolerance),
             )
@@ -433,16 +444,17 @@ def _hold_all(
 
 
 def _holding(
-    point: _Point,
+    point: RimOrbit,
     figures: Mapping[str, Any],
     slopes: Mapping[str, float],
     spreads: Mapping[str, float],
-    asked: tuple[float, float, float | None],
+    drifts: Mapping[str, float],
+    asked: Asked,
     deviation: float | None,
     inputs: Inputs,
 ) -> Holding:
     """From numbers of one point to what they mean."""
-    within, speed_time, sampling_period = asked
+    within, speed_time = asked.within, asked.speed_time
     mean, load = figures["mean_speed"], float(np.asarray(inputs.drive.load_torque))
     error = within * abs(mean)
     start_time, return_time = (settling_time(point, begins, error) for begins in (("rest",), ("more", "less")))
@@ -455,7 +467,7 @@ def _holding(
         within=within,
         slopes=shown,
         spreads=spreads,
-        drifts={name: slopes[name] * amount for name, amount in spreads.items()},
+        drifts=drifts,
         precisions=precisions,
         start_time=start_time,
         return_time=return_time,
@@ -463,21 +475,15 @@ def _holding(
         returns=return_time <= speed_time and not pushed_back,
         speed_time=speed_time,
         swing=figures["max_speed"] - figures["min_speed"],
-        sampling_period=sampling_period,
+        sampling_period=inputs.sampling_period,  # type: ignore[arg-type]  # of a single point
         encoder_volatility=deviation / abs(mean) if deviation is not None and mean and np.isfinite(mean) else None,
         figures=figures,
         inputs=inputs,
     )
 
 
-def _values(case: Case) -> dict[str, np.ndarray[Any, Any]]:
-    """The inputs' own values at every point, the amplitude's and the resonance's as they follow."""
-    numbers: Mapping[str, ArrayLike] = {
-        **numbers_of(case.motor, case.drive),
-        "amplitude": case.stator.W,
-        "resonance_frequency": np.asarray(case.stator.omega_n) / (2 * np.pi),
-    }
-    return {name: np.broadcast_to(np.asarray(value, np.float64), case.shape) for name, value in numbers.items()}
+def _larger(changes: Array) -> float:
+    return float(changes[int(np.argmax(np.abs(changes)))])
 
 
 def _other_slopes(case: Case) -> dict[str, float]:
@@ -503,7 +509,8 @@ def _counts(case: Case, name: str, step: float) -> bool:
 def _moved(case: Case, name: str, by: np.ndarray[Any, Any]) -> Case:
     motor, drive = case.motor, case.drive
     if name in DRIVE_DOMAINS:
-        drive = replace(drive, **{name: float(np.asarray(getattr(drive, name))) + by})
+        to: dict[str, Any] = {name: float(np.asarray(getattr(drive, name))) + by}
+        drive = replace(drive, **to)
     else:
         with unquestioned():
             motor = motor.with_values({name: float(np.asarray(getattr(motor, name).value)) + by})
@@ -511,58 +518,6 @@ def _moved(case: Case, name: str, by: np.ndarray[Any, Any]) -> Case:
 
 
 def _difference(case: Case, name: str, step: float) -> float:
-    from trum_sym.model.rotor import solve_orbit
-
     moved = _moved(case, name, step * _SHIFTS)
     orbit = solve_orbit({**moved.arguments, "held": 0.0}, moved.symbols)
     return float(_WEIGHTS @ np.asarray(orbit.mean_speed) / step)
-
-
-def settling_time(point: _Point, begins: tuple[str, ...], error: float) -> float:
-    """Time until the rotor's speed differs from the orbit's by no more than an error, s; infinite if it never does.
-
-    Parameters
-    ----------
-    point : _Point
-    begins : tuple of "rest", "more" or "less"
-        From rest, or from the orbit's start with a tenth of the largest speed more or less; the slowest counts.
-    error : float, rad/s
-    """
-    if not np.isfinite(point.raw["mean"]):
-        return math.inf
-    start, off = point.raw["start"], _DISTURBANCE * point.top
-    allowed = max(error * point.radius, 2 * point.tolerance * point.top)
-    at = {"rest": 0.0, "more": start + off, "less": start - off}
-    return point.cycle_time * max(_cycles(point, at[begin], allowed) for begin in begins)
-
-
-def _cycles(point: _Point, start: float, allowed: float) -> float:
-    """Drive cycles until a rim speed is near the orbit's start, the last one shared out by the logarithm."""
-    known = point.raw["level"] if np.isfinite(point.raw["level"]) else point.tolerance
-    level = known * min(max(_LAP_SHARE * allowed / (point.tolerance * point.top), 1.0), _COARSEST)
-    orbit = point.raw["start"]
-
-    def after(distance: float) -> float:
-        return float(lap_from(point.arguments, point.raw, orbit + distance, 1, level)["speed"][-1]) - orbit
-
-    distance = start - orbit
-    for lap in range(_EXACT_LAPS):
-        if abs(distance) <= allowed:
-            return float(lap)
-        then = after(distance)
-        if abs(then) <= allowed:
-            return lap + math.log(abs(distance) / allowed) / math.log(abs(distance) / max(abs(then), 1e-300))
-        distance = then
-    count = max(2, 1 + math.ceil(_PER_DECADE * math.log10(abs(distance) / allowed)))
-    logs = np.linspace(math.log(allowed), math.log(abs(distance)), count)
-    left = [math.copysign(math.exp(log), distance) for log in logs]
-    kept = np.log(np.clip([after(far) / far for far in left], 1e-300, 1.0))
-    here, laps = math.log(abs(distance)), float(_EXACT_LAPS)
-    while here > logs[0]:
-        change = float(np.interp(here, logs, kept))
-        if change > -_LEAST:  # laps draw nothing together that could be told from rounding
-            return math.inf
-        if here + change <= logs[0]:
-            return laps + (here - logs[0]) / -change
-        here, laps = here + change, laps + 1
-    return laps

@@ -240,8 +240,10 @@ def lap_from(
         From :func:`orbit_values`; for another cycle than its repetition with the free motion before t1 set anew.
     raw : mapping
         ``low`` and ``high`` of the orbit, whose size errors are measured by.
-    start : float, m/s
+    start : float
+        Of the lap, m/s.
     count : int
+        Times.
     level : float
         Error that a step may have, per drive period, over the largest speed.
 
@@ -253,7 +255,9 @@ def lap_from(
     if "grip" in values:
         raise ValueError("a brush has no laps")
     given = {**values, "low": raw["low"], "high": raw["high"], "start": start, "level": level}
-    return {name: np.asarray(value) for name, value in call("rotor_history", {**given, "times": np.empty(count)}).items()}
+    return {
+        name: np.asarray(value) for name, value in call("rotor_history", {**given, "times": np.empty(count)}).items()
+    }
 
 
 def encoder_deviation(distance: Array, cycle_time: float, period: float) -> float:
