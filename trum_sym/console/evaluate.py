@@ -45,7 +45,7 @@ def evaluate(
     motor: str,
     overrides: tuple[str, ...],
     tolerance: float | None,
-    hold_within: float | None,
+    within: float | None,
     spreads: tuple[str, ...],
     plot: Path | None,
     force: bool,
@@ -72,13 +72,13 @@ def evaluate(
     from trum_sym.model.tables import as_table, compared
 
     held = None
-    if hold_within is not None or spreads:
+    if within is not None or spreads:
         from trum_sym.model.holding import WITHIN, holding
 
         held = holding(
             machine,
             drive,
-            within=WITHIN if hold_within is None else hold_within,
+            within=WITHIN if within is None else within,
             spreads=chosen_spreads(spreads),
             sampling_period=period,
             **chosen_levels(options),

@@ -88,10 +88,13 @@ class RangeType(click.ParamType):  # type: ignore[type-arg, unused-ignore]
         return repr(value) if isinstance(value, float | int) else str(value)
 
 
-def number_option(name: str, unit: str, default: float | None, text: str, metavar: str) -> Callable[..., Any]:
-    """An option that takes a quantity."""
+def number_option(
+    name: str, unit: str, default: float | None, text: str, metavar: str, argument: str | None = None
+) -> Callable[..., Any]:
+    """An option that takes a quantity; ``argument`` is what Python calls it, if that is another word."""
     shown = False if default is None else f"{default:g}" + ("" if unit == "1" else f" {unit}")
-    return click.option(name, type=QuantityType(unit), default=default, show_default=shown, help=text, metavar=metavar)
+    names = (name,) if argument is None else (name, argument)
+    return click.option(*names, type=QuantityType(unit), default=default, show_default=shown, help=text, metavar=metavar)
 
 
 def choice_option(name: str, words: tuple[str, ...], text: str) -> Callable[..., Any]:
@@ -213,7 +216,7 @@ def chosen_held(options: dict[str, Any], spreads: tuple[str, ...] | None) -> dic
     return {
         "holds": holds,
         "starts": options.pop("starts"),
-        "within": options.pop("hold_within"),
+        "within": options.pop("within"),
         "sampling_period": options.pop("sampling_period"),
         **({} if spreads is None else {"spreads": chosen_spreads(spreads)}),
     }
@@ -228,6 +231,7 @@ def _holding(within: float | None) -> tuple[Callable[..., Any], Callable[..., An
         "Say what it takes to hold the speed within this share of it: slopes, drifts, precision, start, return"
         + (".  [default: not said]" if within is None else "."),
         "SHARE",
+        "within",
     )
     spread = click.option(
         "--spread",

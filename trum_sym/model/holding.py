@@ -375,8 +375,8 @@ def holding(
     -----
     Slopes by prepressure, frequency difference, load, friction, amplitude and resonance are exact
     (:func:`trum_sym.sensitivities`); those by the switching phase and by the motor's other uncertain values are
-    differences of sixth order on orbits at 1e-9.  A drift is no slope times a spread: next to where the contact opens or
-    closes anew within a cycle slopes change within a thousandth of a newton, and a spread is wider than that.
+    differences of sixth order on orbits at 1e-9.  A drift is no slope times a spread: next to where the contact opens
+    or closes anew within a cycle slopes change within a thousandth of a newton, and a spread is wider than that.
 
     From rest and from a disturbance the rotor is followed lap by lap.  Laps draw speeds together; from the thirteenth
     on, by how much is told by two laps in every decade of the distance that is left.

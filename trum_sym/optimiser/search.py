@@ -12,6 +12,7 @@ from typing import Any, Unpack
 import numpy as np
 
 from trum_sym.errors import ParameterError, ValidityWarning
+from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import BOX_NAMES, DRIVE_DOMAINS, LEAD, Drive
 from trum_sym.inputs.motor import Motor
 from trum_sym.inputs.motor_file import load_motor
@@ -157,7 +158,8 @@ def asked_to(
     motor: Motor, within: object, spreads: Mapping[str, Spread] | None, sampling_period: object, starts: object
 ) -> Asked:
     """What is asked of points that are to be held, with the time to come to speed that ``starts`` states."""
-    return asked_of(motor, within, spreads, sampling_period, SPEED_TIME if starts is None else starts)
+    time = SPEED_TIME if starts is None else one_number("starts", starts, "s", Domain(low=0.0))
+    return asked_of(motor, within, spreads, sampling_period, time)
 
 
 def check_scalars(motor: Motor, drive: Drive) -> None:
