@@ -27,6 +27,8 @@ from .studies.characteristics import characteristics as characteristics
 from .studies.pareto import pareto as pareto
 from .studies.robust import robust as robust
 from .studies.speed_table import speed_table as speed_table
+from .studies.track import Tracking as Tracking
+from .studies.track import track as track
 from .sweeps.run import sweep as sweep
 from .uncertainty.study import spread as spread
 
@@ -47,6 +49,7 @@ __all__ = [
     "ParameterError",
     "Sensitivities",
     "StaleBuildWarning",
+    "Tracking",
     "UnfinishedError",
     "ValidityWarning",
     "calibrate",
@@ -62,4 +65,5 @@ __all__ = [
     "speed_table",
     "spread",
     "sweep",
+    "track",
 ]

@@ -22,6 +22,7 @@ from trum_sym.console.speed_table import speed_table
 from trum_sym.console.spread import spread
 from trum_sym.console.streams import spelling_streams
 from trum_sym.console.sweep import sweep
+from trum_sym.console.track import track
 from trum_sym.text import one_line
 
 __all__ = ["main", "outcome"]
@@ -67,6 +68,7 @@ for _command in (
     pareto,
     robust,
     speed_table,
+    track,
     calibrate,
     motor,
     equations,

@@ -94,7 +94,9 @@ def number_option(
     """An option that takes a quantity; ``argument`` is what Python calls it, if that is another word."""
     shown = False if default is None else f"{default:g}" + ("" if unit == "1" else f" {unit}")
     names = (name,) if argument is None else (name, argument)
-    return click.option(*names, type=QuantityType(unit), default=default, show_default=shown, help=text, metavar=metavar)
+    return click.option(
+        *names, type=QuantityType(unit), default=default, show_default=shown, help=text, metavar=metavar
+    )
 
 
 def choice_option(name: str, words: tuple[str, ...], text: str) -> Callable[..., Any]:
