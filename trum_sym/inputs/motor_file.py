@@ -210,7 +210,7 @@ def _read_amount(name: str, entry: object) -> Amount:
     """How far an input may be off, of the table [spreads]."""
     place = f"spreads.{name}"
     if name not in SPREADING:
-        raise ParameterError("spreads", name, f"one of {', '.join(SPREADING)}")
+        raise ParameterError("motor file: spreads", name, f"one of {', '.join(SPREADING)}")
     if not isinstance(entry, dict) or not {"value", "unit", "source"} <= set(entry) <= {*_OF_AMOUNT}:
         raise ParameterError(place, entry, "a table with value, unit and source, and maybe a reason")
     for key in ("unit", "source", "reason"):

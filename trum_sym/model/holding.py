@@ -48,8 +48,8 @@ SPEED_TIME = 1.0
 _TOLERANCE = 1e-9  # of the orbits
 _SHIFTS = np.array([1.0, -1.0, 2.0, -2.0, 3.0, -3.0])
 _WEIGHTS = np.array([45.0, -45.0, -9.0, 9.0, 1.0, -1.0]) / 60
-_STEP = 1e-3  # of a value, of the differences where no slope is known
-_PHASE_STEP = 4e-3  # rad
+_STEPS = np.array([1.0, 0.25, 0.0625])  # of the differences where no slope is known; next to a cusp only small ones do
+_STEP, _PHASE_STEP = 1e-3, 4e-3  # the largest of them, of a value; rad
 _SHARE = Domain(low=0.0, high=1.0)
 _POSITIVE = Domain(low=0.0)
 
@@ -379,7 +379,7 @@ def holding(
     or closes anew within a cycle slopes change within a thousandth of a newton, and a spread is wider than that.
 
     From rest and from a disturbance the rotor is followed lap by lap.  Laps draw speeds together; from the thirteenth
-    on, by how much is told by two laps in every decade of the distance that is left.
+    on, by how much is told by four laps in every decade of the distance that is left.
 
     Examples
     --------
@@ -518,6 +518,10 @@ def _moved(case: Case, name: str, by: np.ndarray[Any, Any]) -> Case:
 
 
 def _difference(case: Case, name: str, step: float) -> float:
-    moved = _moved(case, name, step * _SHIFTS)
+    """By the two neighbours of three steps that agree best, the smaller step's."""
+    moved = _moved(case, name, (step * _STEPS[:, np.newaxis] * _SHIFTS).ravel())
     orbit = solve_orbit({**moved.arguments, "held": 0.0}, moved.symbols)
-    return float(_WEIGHTS @ np.asarray(orbit.mean_speed) / step)
+    found = np.asarray(orbit.mean_speed).reshape(_STEPS.size, _SHIFTS.size) @ _WEIGHTS / (step * _STEPS)
+    with np.errstate(invalid="ignore"):
+        apart = np.abs(np.diff(found))
+    return float(found[1 + int(np.argmin(apart))])

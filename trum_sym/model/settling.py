@@ -17,7 +17,7 @@ __all__ = ["RimOrbit", "rim_orbits", "settling_time"]
 _DISTURBANCE = 0.1  # of the largest speed
 _EXACT_LAPS = 12  # before the rest is told from how laps draw speeds together
 _LAP_SHARE = 0.01  # of the allowed error, that a lap may be off by
-_PER_DECADE = 2  # laps that tell it, by distance from the orbit
+_PER_DECADE = 4  # laps that tell it, by distance from the orbit
 _COARSEST = 1e5  # times the orbit's own level
 _LEAST = 1e-7  # of a lap, by which it has to draw speeds together
 
@@ -88,7 +88,8 @@ def _cycles(point: RimOrbit, start: float, allowed: float) -> float:
             return float(lap)
         then = after(distance)
         if abs(then) <= allowed:
-            return lap + math.log(abs(distance) / allowed) / math.log(abs(distance) / max(abs(then), 1e-300))
+            least = max(abs(then), point.tolerance * point.top)  # below is rounding
+            return lap + math.log(abs(distance) / allowed) / math.log(abs(distance) / least)
         distance = then
     count = max(2, 1 + math.ceil(_PER_DECADE * math.log10(abs(distance) / allowed)))
     logs = np.linspace(math.log(allowed), math.log(abs(distance)), count)
