@@ -116,7 +116,7 @@ def followed():
     table = table_of(HEAVY, 1e-4, 1.0)
     target = float(np.mean(table.segments[0].speed))
     return track(
-        drive=HEAVY, target_speed=target, duration=0.12, table=table,
+        drive=HEAVY, target_speed=target, duration=0.1, table=table,
         disturbances=["load_torque=+1 %@0.04 s", "friction_coefficient=+0.5 %@0.05:0.06 s", "prepressure=+0.1 N@0.05"],
     )  # fmt: skip
 
@@ -154,7 +154,7 @@ def test_what_is_told_of_it(followed):
     assert "load torque +1 % at 0.04 s" in text
     assert "friction coefficient +0.5 % from 0.05 to 0.06 s" in text
     record = followed.to_dict()
-    assert len(record["closed"]["time"]) == 60
+    assert len(record["closed"]["time"]) == 50
     assert record["units"]["target_speed"] == "rad/s"
     few = replace(followed, encoder_counts=1000)
     assert any("one count in a control period" in remark for remark in few.remarks)
@@ -175,10 +175,9 @@ def test_a_ramp_comes_evenly_and_a_step_at_once():
 def test_the_console_tracks_and_draws(capsys, tmp_path):
     picture = tmp_path / "track.png"
     line = ["track", "--target-speed", "100000 arcsec/s", "--load-torque", "0.1", "--prepressure", "180"]
-    line += ["--duration", "20 ms", "--plot", str(picture)]
-    code = console.main([*line, "--json"])
+    line += ["--duration", "10 ms", "--plot", str(picture)]
+    assert console.main([*line, "--json"]) == 0
     record = json.loads(capsys.readouterr().out)
-    assert code in (0, 1)
     assert record["target_speed"] == pytest.approx(100000 * ARCSEC)
     assert len(record["disturbances"]) == 4
     assert picture.read_bytes().startswith(b"\x89PNG")

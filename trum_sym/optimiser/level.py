@@ -167,21 +167,27 @@ def seek(
             [np.repeat(w.slopes[np.newaxis], len(own), 0) for w, own in zip(active, tried, strict=True)]
         )
         places, _ = look(np.concatenate(tried), near)
-        first, moved = 0, list[_Walk]()
-        for walk, own in zip(active, tried, strict=True):
-            here = [place for place in places[first : first + len(own)] if place is not None]
-            first += len(own)
-            best = min(here, key=lambda place: place.rank, default=None)
-            if best is not None and better(best, walk.best):
-                walk.best = best
-                moved.append(walk)
-            else:
-                walk.radius /= _SHRINK if len(own) == len(_ALONG) else 2.0
+        moved = _moved(active, places, [len(own) for own in tried])
         if moved and level.count:
             _, _, there = level.onto(np.array([walk.best.share for walk in moved]), tolerance)
             for walk, here_slopes in zip(moved, there, strict=True):
                 walk.slopes = here_slopes
     return [walk.best for walk in walks]
+
+
+def _moved(walks: Sequence[_Walk], places: Sequence[Place | None], counts: Sequence[int]) -> list[_Walk]:
+    """The walks of which a place that was tried is better, at that place; the others will try nearer ones."""
+    first, moved = 0, list[_Walk]()
+    for walk, count in zip(walks, counts, strict=True):
+        here = [place for place in places[first : first + count] if place is not None]
+        first += count
+        best = min(here, key=lambda place: place.rank, default=None)
+        if best is not None and better(best, walk.best):
+            walk.best = best
+            moved.append(walk)
+        else:
+            walk.radius /= _SHRINK if count == len(_ALONG) else 2.0
+    return moved
 
 
 def _around(walk: _Walk, rng: np.random.Generator) -> Array:

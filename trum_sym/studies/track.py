@@ -162,6 +162,13 @@ class Tracking(Result, Value):
         return f"<Tracking at {self.target_speed / ARCSEC:.6g} arcsec/s, {self.closed.time.size} control periods>"
 
     @property
+    def beyond(self) -> list[Disturbance]:
+        """The disturbances that no frequency which may be set takes up."""
+        low, high = sorted(self.reach.speeds)
+        pairs = zip(self.disturbances, self.changes, strict=True)
+        return [disturbance for disturbance, change in pairs if not low < self.target_speed - change < high]
+
+    @property
     def remarks(self) -> tuple[str, ...]:
         """What the figures do not say by themselves."""
         found = []
@@ -169,10 +176,7 @@ class Tracking(Result, Value):
         if count > 0.1 * abs(self.target_speed):
             share = 100 * count / abs(self.target_speed)
             found.append(f"one count in a control period is {count / ARCSEC:.4g} arcsec/s, {share:.3g} % of the target")
-        low, high = sorted(self.reach.speeds)
-        for disturbance, change in zip(self.disturbances, self.changes, strict=True):
-            if not low < self.target_speed - change < high:
-                found.append(f"no frequency that may be set takes up {disturbance.text}")
+        found += [f"no frequency that may be set takes up {disturbance.text}" for disturbance in self.beyond]
         if self.loop.gain_margin < 2:
             found.append(f"the loop is unstable where the motor's slope is {self.loop.gain_margin:.2g} times its own")
         return tuple(found)
@@ -340,6 +344,8 @@ def track(
     speeds = np.concatenate([segment.speed for segment in table.segments])
     loops = {}
     for speed in speeds[np.unique(np.linspace(0, speeds.size - 1, 5).round().astype(int))]:
+        if np.isclose(speed, target, rtol=1e-6):
+            continue
         there: dict[str, Any] = table.at(float(speed))
         loops[float(speed)] = loop_at(motor, replace(table.drive, **there), chosen, period)
     reach = _reach(motor, drive, chosen, loop.slope)
