@@ -15,7 +15,17 @@ import sympy as sp
 
 from derivations import collocation
 
-__all__ = ["THEOREMS", "Theorem", "comparison", "deviation", "kronrod", "monotone_weight", "prove", "saturation", "start_speed"]
+__all__ = [
+    "THEOREMS",
+    "Theorem",
+    "comparison",
+    "deviation",
+    "kronrod",
+    "monotone_weight",
+    "prove",
+    "saturation",
+    "start_speed",
+]
 
 x, t, tau, T = sp.symbols("x t tau T", positive=True)
 

@@ -15,6 +15,8 @@ from .inputs.motor import Motor as Motor
 from .inputs.motor import Parameter as Parameter
 from .inputs.motor_file import load_motor as load_motor
 from .model.histories import simulate as simulate
+from .model.holding import Holding as Holding
+from .model.holding import holding as holding
 from .model.operating_point import OperatingPoint as OperatingPoint
 from .model.operating_point import evaluate as evaluate
 from .model.sensitivities import Sensitivities as Sensitivities
@@ -25,6 +27,8 @@ from .studies.characteristics import characteristics as characteristics
 from .studies.pareto import pareto as pareto
 from .studies.robust import robust as robust
 from .studies.speed_table import speed_table as speed_table
+from .studies.track import Tracking as Tracking
+from .studies.track import track as track
 from .sweeps.run import sweep as sweep
 from .uncertainty.study import spread as spread
 
@@ -35,6 +39,7 @@ __all__ = [
     "ConvergenceError",
     "Distribution",
     "Drive",
+    "Holding",
     "ImplausibleWarning",
     "MissingExtraError",
     "Motor",
@@ -44,11 +49,13 @@ __all__ = [
     "ParameterError",
     "Sensitivities",
     "StaleBuildWarning",
+    "Tracking",
     "UnfinishedError",
     "ValidityWarning",
     "calibrate",
     "characteristics",
     "evaluate",
+    "holding",
     "load_motor",
     "optimize",
     "pareto",
@@ -58,4 +65,5 @@ __all__ = [
     "speed_table",
     "spread",
     "sweep",
+    "track",
 ]

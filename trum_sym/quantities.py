@@ -123,6 +123,16 @@ MORE = {
     "reachable": Quantity("reachable speed", "", "rad/s", "arcsec/s", "lowest and highest mean speed of the box"),
     "floor": Quantity("floor", "", "rad/s", "arcsec/s", "speed that errors are taken of where the speed is smaller"),
     "largest_error": Quantity("largest error seen", "", "1", "%", "over the speed"),
+    "swing": Quantity("swing", "", "rad/s", "arcsec/s", "highest less lowest speed"),
+    "drift": Quantity("drift", "", "rad/s", "arcsec/s", "of the mean speed by all spreads together, to first order"),
+    "worst_speed_error": Quantity("worst speed error", "", "rad/s", "arcsec/s", "in the corners of the spreads"),
+    "encoder_deviation": Quantity("standard deviation of an encoder's readings", "", "rad/s", "arcsec/s"),
+    "encoder_volatility": Quantity("volatility of an encoder's readings", "", "1", "%", "over the size of the mean"),
+    "start_time": Quantity("start time", "", "s", "ms", "from rest under the load until the rotor is at its speed"),
+    "return_time": Quantity("return time", "", "s", "ms", "after a disturbance by a tenth of the largest speed"),
+    "speed_time": Quantity(
+        "time to come to speed", "", "s", "ms", "that a rotor has from rest and after a disturbance"
+    ),
 }
 """What answers have beside the figures of an operating point."""
 

@@ -33,6 +33,10 @@ BASE = {
         *("--from", "340000 arcsec/s", "--to", "350000 arcsec/s", "--points", "2", "--error", "0.5"),
         *("--direction", "positive", "--load-torque", "0.05", "--prepressure", "180"),
     ),
+    ("track",): (
+        *("--target-speed", "100000 arcsec/s", "--load-torque", "0.1", "--prepressure", "180"),
+        *("--duration", "8 ms"),
+    ),
     ("equations",): (),
     ("motor", "show"): ("trum60",),
     ("motor", "check"): ("trum60",),
@@ -41,7 +45,14 @@ BASE = {
     ("motor", "schema"): (),
 }
 NO_ANSWER = {("report",): "tests/report makes one; it takes a minute"}
-SLOW = {("optimize",), ("pareto",), ("robust",), ("speed-table",), ("spread",)}  # a search or a study an option
+SLOW = {
+    ("optimize",),
+    ("pareto",),
+    ("robust",),
+    ("speed-table",),
+    ("track",),
+    ("spread",),
+}  # a search or a study an option
 SLOW |= {
     ("simulate",),
     ("sweep",),
@@ -92,6 +103,14 @@ OTHER = {
     "--on-periods": "13",
     "--switching-phase": "0.5",
     "--phase-lead": "-1",
+    "--hold-within": "0.02",
+    "--holds": "friction_coefficient=0.001 %",
+    "--starts": "0.1 us",
+    "--duration": "12 ms",
+    "--control-period": "1 ms",
+    "--encoder-counts": "1000",
+    "--disturb": "load_torque=+2 %@2 ms",
+    **{(command, "--spread"): "prepressure=+-0.2 N" for command in ("evaluate", "optimize", "pareto", "speed-table")},
     ("robust", "--samples"): "cases.csv",
     ("speed-table", "--direction"): "both",
     ("pareto", "--constraint"): "mean_speed >= 400000 arcsec/s",
@@ -307,7 +326,7 @@ def test_a_bad_box_is_refused(console_refuses, motor_file, entry, naming):
 
 
 def test_what_a_command_says_of_its_answer_is_in_its_json(capsys):
-    """At the optimum for 633 arcsec/s a rotor at rest is not set going: in words, and in JSON."""
+    """At the optimum for 633 arcsec/s the load is more than holds the rotor still: in words, and in JSON."""
     line = ["optimize", "--target-speed", "633 arcsec/s", "--prepressure", "177:178"]
     assert console.main(line) == 0
     assert "exceeds the stall torque" in capsys.readouterr().out

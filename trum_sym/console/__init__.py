@@ -28,6 +28,7 @@ _NAMES = (
     "pareto",
     "robust",
     "speed-table",
+    "track",
     "calibrate",
     "c-library",
     "fmu",

@@ -12,7 +12,9 @@ from trum_sym.console.options import (
     chosen_drive,
     chosen_levels,
     chosen_motor,
+    chosen_spreads,
     examples,
+    holding_options,
     plot_options,
     point_options,
     tolerance_option,
@@ -28,10 +30,12 @@ __all__ = ["evaluate"]
         "trum-sym evaluate --load-torque '0.1 N m' --sampling-period '2 ms'",
         "trum-sym evaluate --set friction_coefficient=0.3 --json",
         "trum-sym evaluate --load-torque 0.1 --out point.csv --plot point.png",
+        "trum-sym evaluate --load-torque 0.1 --hold-within '1 %' --spread prepressure='+-0.2 N'",
     )
 )
 @point_options
 @tolerance_option
+@holding_options
 @plot_options("Draw the rotor's speed over two cycles")
 @click.option(
     "--out", type=click.Path(path_type=Path), metavar="FILE", help="Write the figures with their units: .csv or .nc."
@@ -41,6 +45,8 @@ def evaluate(
     motor: str,
     overrides: tuple[str, ...],
     tolerance: float | None,
+    within: float | None,
+    spreads: tuple[str, ...],
     plot: Path | None,
     force: bool,
     out: Path | None,
@@ -65,12 +71,25 @@ def evaluate(
     point = evaluate_point(machine, drive, sampling_period=period, tolerance=tolerance, **chosen_levels(options))
     from trum_sym.model.tables import as_table, compared
 
+    held = None
+    if within is not None or spreads:
+        from trum_sym.model.holding import WITHIN, holding
+
+        held = holding(
+            machine,
+            drive,
+            within=WITHIN if within is None else within,
+            spreads=chosen_spreads(spreads),
+            sampling_period=period,
+            **chosen_levels(options),
+        )
     if as_json:
         from trum_sym.output.json_text import json_text
 
-        say(json_text({**point.to_dict(), "published": compared(point)}))
+        record = {**point.to_dict(), "published": compared(point)}
+        say(json_text(record if held is None else held.joined(record)))
     else:
-        say(as_table(point))
+        say("\n".join([as_table(point), *(["", held.to_text()] if held is not None else [])]))
     if out is not None:
         from trum_sym.output.files import write
 

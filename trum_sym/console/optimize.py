@@ -14,9 +14,11 @@ from trum_sym.console.options import (
     box_options,
     check_plot,
     chosen_box,
+    chosen_held,
     chosen_levels,
     chosen_motor,
     examples,
+    held_options,
     plot_options,
 )
 from trum_sym.console.say import say
@@ -56,6 +58,8 @@ def sought(objective: str | None, target_speed: str | None, constraints: tuple[s
         "trum-sym optimize --target-speed '100000 arcsec/s' --load-torque '0.1 N m'",
         "trum-sym optimize --target-speed '1 rad/s' --prepressure 180 --frequency-difference '2.9 kHz:3.2 kHz' "
         "--load-torque 0.1",
+        "trum-sym optimize --target-speed '100000 arcsec/s' --load-torque 0.1 --prepressure 180 --starts '1 ms' "
+        "--constraint 'encoder_volatility <= 200 %'",
         "trum-sym optimize --objective wear --constraint 'stall_torque >= 0.2 N*m' --load-torque 0.1 --prepressure 180",
         figures=IN_ARITHMETIC,
     )
@@ -64,10 +68,12 @@ def sought(objective: str | None, target_speed: str | None, constraints: tuple[s
 @click.option(
     "--objective",
     metavar="NAME|EXPRESSION",
-    help="volatility, q-volatility, speed-error, ripple, wear, or arithmetic on figures.  [default: volatility]",
+    help="volatility, q-volatility, speed-error, ripple, wear, encoder-volatility, drift, worst-speed-error, or "
+    "arithmetic on figures.  [default: volatility]",
 )
 @target_option('Mean speed to reach, in rad/s or with a unit: "633 arcsec/s"; its sign is the direction.')
 @constraint_option('"stall_torque >= 0.35 N*m": arithmetic on figures, >=, <= or ==, a value.')
+@held_options
 @plot_options("Draw the box: speeds, the target, borders of the constraints, the optimum")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object instead of a table; SI units, speeds in rad/s.")
 def optimize(
@@ -76,6 +82,7 @@ def optimize(
     objective: str | None,
     target_speed: str | None,
     constraints: tuple[str, ...],
+    spreads: tuple[str, ...],
     plot: Path | None,
     force: bool,
     as_json: bool,
@@ -88,6 +95,7 @@ def optimize(
     from trum_sym.optimiser.search import optimize as find
 
     check_plot(plot, force)
+    held = chosen_held(options, spreads)
     machine, (drive, bounds) = chosen_motor(motor, overrides), chosen_box(options)
     aim = sought(objective, target_speed, constraints)
     found = find(
@@ -97,11 +105,12 @@ def optimize(
         target_speed=target_speed,
         bounds=bounds,
         constraints=constraints,
+        **held,
         progress=sys.stderr.isatty(),
         **chosen_levels(options),
     )
     title = f"{one_line(machine.name)}: least {aim}" + (f" at {target_speed}" if target_speed else " at any speed")
-    say(found.to_json() if as_json else found.to_text(f"{title}, {drive.load_text()}"))
+    say(found.to_json() if as_json else found.to_text(f"{title}, {found.load_text()}"))
     if plot is not None:
         from trum_sym.plots.optimum import draw
 

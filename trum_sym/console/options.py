@@ -32,20 +32,33 @@ __all__ = [
     "choice_option",
     "chosen_box",
     "chosen_drive",
+    "chosen_held",
     "chosen_levels",
     "chosen_motor",
+    "chosen_spreads",
     "continuous_options",
     "examples",
     "force_option",
+    "held_options",
+    "holding_options",
     "number_option",
     "option_name",
     "pairs",
     "plot_options",
     "point_options",
+    "robust_held_options",
     "tolerance_option",
 ]
 
-FREED = ("prepressure", "frequency_difference", "switching_phase", "periods", "on_periods")
+FREED = (
+    "prepressure",
+    "frequency_difference",
+    "switching_phase",
+    "load_torque",
+    "periods",
+    "on_periods",
+    "phase_lead",
+)
 """What a search may vary: these options take ``LOW:HIGH``."""
 
 IN_SWEEPS = tuple(QUANTITIES)
@@ -82,11 +95,14 @@ class RangeType(click.ParamType):  # type: ignore[type-arg, unused-ignore]
         return repr(value) if isinstance(value, float | int) else str(value)
 
 
-def number_option(name: str, unit: str, default: float | None, text: str, metavar: str) -> Callable[..., Any]:
-    """An option that takes a quantity."""
+def number_option(
+    name: str, unit: str, default: float | None, text: str, metavar: str, argument: str | None = None
+) -> Callable[..., Any]:
+    """An option that takes a quantity; ``argument`` is what Python calls it, if that is another word."""
     if default is not None:  # click would put a default that is text in brackets
         text += f"  [default: {default:g}{'' if unit == '1' else f' {unit}'}]"
-    return click.option(name, type=QuantityType(unit), default=default, help=text, metavar=metavar)
+    names = (name,) if argument is None else (name, argument)
+    return click.option(*names, type=QuantityType(unit), default=default, help=text, metavar=metavar)
 
 
 def choice_option(name: str, words: tuple[str, ...], text: str) -> Callable[..., Any]:
@@ -106,11 +122,17 @@ def _drive_option(quantity: Field[Any]) -> Callable[..., Any]:
 def _range_option(quantity: Field[Any]) -> Callable[..., Any]:
     """The option of a field of the drive that a search may vary."""
     about, default = quantity.metadata, f"{quantity.default:g}"
-    if about["unit"] != "1":
+    if about.get("unit", "1") != "1":
         default += f" {about['unit']}"
     default = "the motor file's range" if quantity.name in BOX_NAMES else default
     text = f"{about['text'].rstrip('.')}: a value holds it, LOW:HIGH frees it.  [default: {default}]"
-    return click.option(option_name(quantity.name), type=RangeType(), default=None, help=text, metavar="VALUE|LOW:HIGH")
+    # the load has its default here, so that a motor of one's own is told whose it is
+    own = f"{quantity.default:g}" if quantity.name == "load_torque" else None
+    return click.option(option_name(quantity.name), type=RangeType(), default=own, help=text, metavar="VALUE|LOW:HIGH")
+
+
+WITHIN_DEFAULT = 0.01
+"""Of ``--hold-within`` where it has one; that of :func:`trum_sym.holding`, which takes NumPy to import."""
 
 
 def option_name(name: str) -> str:
@@ -161,6 +183,84 @@ _LEVELS = tuple(
 _SAMPLING = number_option(
     "--sampling-period", "s", None, "Averaging period of the speed's encoder  [default: continuous]", "S"
 )
+
+
+_HOLDS = click.option(
+    "--holds",
+    multiple=True,
+    metavar="LIMIT|NAME=LIMIT",
+    help="The most that the spread of an input may move the speed by, as a share of it or a speed: '10 %', "
+    "friction_coefficient='60 arcsec/s'; repeat it for more.",
+)
+_STARTS = click.option(
+    "--starts", metavar="TIME", help="At its speed from rest within this time, and not driven back: '10 ms'."
+)
+
+
+def held_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Give a search what asks for points that can be held: ``--holds``, ``--starts``, ``--spread`` and so on."""
+    return _given(command, (_HOLDS, _STARTS, _SAMPLING, *_holding(WITHIN_DEFAULT)))
+
+
+def robust_held_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """The same without ``--spread``, which says more there."""
+    return _given(command, (_HOLDS, _STARTS, _SAMPLING, _holding(WITHIN_DEFAULT)[0]))
+
+
+def chosen_held(options: dict[str, Any], spreads: tuple[str, ...] | None) -> dict[str, Any]:
+    """What :func:`held_options` gave, as ``ts.optimize`` takes it; ``options`` loses it."""
+    from trum_sym.errors import ParameterError
+
+    holds: Any = None
+    for text in options.pop("holds"):
+        name, equals, limit = (part.strip() for part in text.partition("="))
+        if not equals:
+            if holds is not None:
+                raise ParameterError("--holds", text, "one limit for all inputs, or NAME=LIMIT for each")
+            holds = text
+        elif isinstance(holds, str) or not limit or name in (holds or {}):
+            raise ParameterError("--holds", text, "one limit for all inputs, or NAME=LIMIT for each, each name once")
+        else:
+            holds = {**(holds or {}), name: limit}
+    return {
+        "holds": holds,
+        "starts": options.pop("starts"),
+        "within": options.pop("within"),
+        "sampling_period": options.pop("sampling_period"),
+        **({} if spreads is None else {"spreads": chosen_spreads(spreads)}),
+    }
+
+
+def _holding(within: float | None) -> tuple[Callable[..., Any], Callable[..., Any]]:
+    """``--hold-within`` and ``--spread``; without a default for the first, nothing is said unless asked."""
+    hold = number_option(
+        "--hold-within",
+        "1",
+        within,
+        "Say what it takes to hold the speed within this share of it: slopes, drifts, precision, start, return"
+        + (".  [default: not said]" if within is None else "."),
+        "SHARE",
+        "within",
+    )
+    spread = click.option(
+        "--spread",
+        "spreads",
+        multiple=True,
+        metavar="NAME=AMOUNT",
+        help="How far an input may be off: prepressure='+-1 N', friction_coefficient='1 %'; repeat it for more.  "
+        "[default: the motor file's spreads]",
+    )
+    return hold, spread
+
+
+def holding_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """The options ``--hold-within`` and ``--spread`` of a point, of which nothing is said unless asked."""
+    return _given(command, _holding(None))
+
+
+def chosen_spreads(spreads: tuple[str, ...]) -> dict[str, str | None] | None:
+    """How far inputs may be off, by name, as ``ts.holding`` takes it."""
+    return pairs("--spread", spreads, "prepressure='+-1 N'") or None
 
 
 def force_option(command: Callable[..., Any]) -> Callable[..., Any]:
@@ -312,7 +412,9 @@ def _warn_borrowed(context: click.Context) -> None:
 def chosen_drive(options: dict[str, Any]) -> Drive:
     """The drive that an operating point's options mean."""
     values = {q.name: options[q.name] for q in fields(Drive) if options[q.name] is not None}
-    return Drive(**{**values, "phase_lead": int(values["phase_lead"])})
+    if "phase_lead" in values:
+        values["phase_lead"] = int(values["phase_lead"])
+    return Drive(**values)
 
 
 def chosen_box(options: dict[str, Any]) -> tuple[Drive, dict[str, Any]]:

@@ -14,9 +14,11 @@ from trum_sym.console.options import (
     box_options,
     check_plot,
     chosen_box,
+    chosen_held,
     chosen_levels,
     chosen_motor,
     examples,
+    held_options,
     number_option,
     plot_options,
 )
@@ -48,6 +50,7 @@ __all__ = ["pareto"]
 @target_option('Mean speed to hold, or to be near, in rad/s or with a unit: "633 arcsec/s".')
 @number_option("--points", "1", 11, "Limits along the front.", "K")
 @constraint_option("As for optimize.")
+@held_options
 @plot_options("Draw the front")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object instead of a table; SI units, speeds in rad/s.")
 @box_options
@@ -57,6 +60,7 @@ def pareto(
     target_speed: str | None,
     points: Any,  # noqa: ANN401  # a number, which has to be an integer
     constraints: tuple[str, ...],
+    spreads: tuple[str, ...],
     plot: Path | None,
     force: bool,
     as_json: bool,
@@ -71,6 +75,7 @@ def pareto(
     from trum_sym.studies.pareto import pareto as find
 
     check_plot(plot, force)
+    held = chosen_held(options, spreads)
     machine, (drive, bounds) = chosen_motor(motor, overrides), chosen_box(options)
     aim = sought(objective, target_speed, constraints)
     front = find(
@@ -82,13 +87,14 @@ def pareto(
         points=points,
         bounds=bounds,
         constraints=constraints,
+        **held,
         progress=sys.stderr.isatty(),
         **chosen_levels(options),
     )
     title = f"{one_line(machine.name)}: {aim} against {against}" + (
         f" at {target_speed}" if target_speed else " at any speed"
     )
-    say(front.to_json() if as_json else front.to_text(f"{title}, {drive.load_text()}"))
+    say(front.to_json() if as_json else front.to_text(f"{title}, {front.inputs.drive.load_text()}"))
     if plot is not None and front.points:
         from trum_sym.plots import answers
 

@@ -34,7 +34,7 @@ class PointFile:
         ParameterError
             For names or values that no motor has.
         """
-        from trum_sym.inputs.motor import SPECS, Allowed, Motor, Parameter
+        from trum_sym.inputs.motor import SPECS, Allowed, Amount, Motor, Parameter
         from trum_sym.inputs.motor_file import load_motor
         from trum_sym.inputs.plausible import unquestioned
 
@@ -59,7 +59,15 @@ class PointFile:
             missing = [name for name, spec in SPECS.items() if spec.required and name not in changed]
             if missing:
                 raise ParameterError("--point, motor_values", f"no {missing[0]}", "every required value of a motor")
-            ranges = {name: Allowed(float(ends[0]), float(ends[1]), "the point's file") for name, ends in box.items()}
+            source = "the point's file"
+            ranges = {name: Allowed(float(low), float(high), source) for name, (low, high) in box.items()}
+            allowed, spreads = (self.record.get(name) or {} for name in ("allowed", "spreads"))
+            changed["allowed"] = {
+                name: Allowed(float(low), float(high), source) for name, (low, high) in allowed.items()
+            }
+            changed["spreads"] = {
+                name: Amount(float(off), bool(share), source) for name, (off, share) in spreads.items()
+            }
             return Motor(name=str(self.record["motor"]), box=ranges, **changed)
 
 

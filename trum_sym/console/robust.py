@@ -14,11 +14,13 @@ from trum_sym.console.options import (
     box_options,
     check_plot,
     chosen_box,
+    chosen_held,
     chosen_levels,
     chosen_motor,
     examples,
     pairs,
     plot_options,
+    robust_held_options,
 )
 from trum_sym.console.say import say
 from trum_sym.text import one_line
@@ -56,6 +58,7 @@ __all__ = ["robust"]
 )
 @target_option("Held in the nominal case; for speed-error, in none.  In rad/s or with a unit.")
 @constraint_option("As for optimize, in every case.")
+@robust_held_options
 @plot_options("Draw the objective in every case")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object instead of tables; SI units, speeds in rad/s.")
 @box_options
@@ -81,6 +84,7 @@ def robust(
 
     given = pairs("--spread", spreads, "friction_coefficient='10 %'", bare=True)
     check_plot(plot, force)
+    held = chosen_held(options, None)
     machine, (drive, bounds) = chosen_motor(motor, overrides), chosen_box(options)
     aim = sought(objective, target_speed, constraints)
     found = find(
@@ -92,13 +96,14 @@ def robust(
         target_speed=target_speed,
         bounds=bounds,
         constraints=constraints,
+        **held,
         progress=sys.stderr.isatty(),
         **chosen_levels(options),
     )
     title = f"{one_line(machine.name)}: least worst {aim}" + (
         f" at {target_speed}" if target_speed else " at any speed"
     )
-    say(found.to_json() if as_json else found.to_text(f"{title}, {drive.load_text()}"))
+    say(found.to_json() if as_json else found.to_text(f"{title}, {found.inputs.drive.load_text()}"))
     if plot is not None and found.cases:
         from trum_sym.plots import answers
 

@@ -12,9 +12,11 @@ from trum_sym.console.options import (
     box_options,
     check_plot,
     chosen_box,
+    chosen_held,
     chosen_levels,
     chosen_motor,
     examples,
+    held_options,
     number_option,
     plot_options,
 )
@@ -52,6 +54,7 @@ __all__ = ["speed_table"]
     metavar="FILE",
     help="Write the table: .csv, or .h for a C header that interpolates.",
 )
+@held_options
 @plot_options("Draw the drive against the speed")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object instead of a summary; SI units.")
 @box_options
@@ -62,6 +65,7 @@ def speed_table(
     points: Any,  # noqa: ANN401  # a number, which has to be an integer
     error: float,
     constraints: tuple[str, ...],
+    spreads: tuple[str, ...],
     out: Path | None,
     plot: Path | None,
     force: bool,
@@ -80,6 +84,7 @@ def speed_table(
     if out is not None:
         check_new("--out", out, (".csv", ".h"), force)
     check_plot(plot, force)
+    held = chosen_held(options, spreads)
     machine, (drive, bounds) = chosen_motor(motor, overrides), chosen_box(options)
     table = make(
         machine,
@@ -91,6 +96,7 @@ def speed_table(
         error=error,
         bounds=bounds,
         constraints=constraints,
+        **held,
         progress=sys.stderr.isatty(),
         **chosen_levels(options),
     )

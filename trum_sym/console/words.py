@@ -16,7 +16,7 @@ TYPED = "trum_sym.typed"
 """Where a context keeps what was typed, by the parameter's name: the text, and the number that it became."""
 
 _NO_WORDS = ("slowest", "fastest", "spreads")  # arguments whose name is no option's, and no word of a sentence
-_OF = re.compile(r"(?:bounds|tolerance|spread) of (\w+)")
+_OF = re.compile(r"(bounds|tolerance|spread|holds) of (\w+)")
 
 
 def typed(context: click.Context | None, name: str, text: str, value: float) -> None:
@@ -33,10 +33,10 @@ def in_console_words(error: ParameterError, command: click.Command, meta: Mutabl
     of = _OF.fullmatch(name)
     if name in options:
         name = options[name]
-    elif of and of[1] in options:
-        name = options[of[1]]
-    elif of:
-        name = f"--spread {of[1]}"
+    elif of and of[1] in ("spread", "holds"):
+        name = f"--{of[1]} {of[2]}"
+    elif of and of[2] in options:
+        name = options[of[2]]
     return ParameterError(name, text, _renamed(error.allowed, options))
 
 

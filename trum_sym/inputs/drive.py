@@ -15,7 +15,7 @@ from trum_sym.values import Value
 if TYPE_CHECKING:
     from trum_sym.inputs.checks import ArrayLike
 
-__all__ = ["BOX_NAMES", "DRIVE_DOMAINS", "LEAD", "LOADS", "STARTS", "Drive", "Load", "Start"]
+__all__ = ["BOX_NAMES", "DRIVE_DOMAINS", "LEAD", "LOADS", "SPREADING", "STARTS", "Drive", "Load", "Start"]
 
 Start = Literal["periodic", "steady", "rest"]
 STARTS: tuple[Start, ...] = get_args(Start)
@@ -24,6 +24,17 @@ LOADS: tuple[Load, ...] = get_args(Load)
 
 BOX_NAMES = ("prepressure", "frequency_difference")
 """What searches vary unless they are told otherwise; the motor file states the ranges."""
+
+SPREADING = (
+    "prepressure",
+    "frequency_difference",
+    "load_torque",
+    "load_inertia",
+    "friction_coefficient",
+    "amplitude",
+    "resonance_frequency",
+)
+"""What drifts while a motor works, of drive, load and motor: the motor file may state how far in ``[spreads]``."""
 
 _PULSES = Domain(low=1, low_open=False, high=10_000, high_open=False, integer=True)
 LEAD = Domain(low=-1, low_open=False, high=1, high_open=False)

@@ -18,7 +18,7 @@ from trum_sym.inputs.units import parse_quantity
 from trum_sym.text import one_line
 from trum_sym.values import FrozenDict, Value
 
-__all__ = ["FLANGE", "SPECS", "TO_DO", "Allowed", "Motor", "Parameter", "Published", "spec"]
+__all__ = ["FLANGE", "SPECS", "TO_DO", "Allowed", "Amount", "Motor", "Parameter", "Published", "spec"]
 
 TO_DO = "to do"
 """How the source of a value begins that is a template's and not yet the motor's."""
@@ -108,6 +108,18 @@ class Allowed(Value):
     source: str
 
 
+@dataclass(frozen=True, eq=False)
+class Amount(Value):
+    """How far an input of a motor at work may be off to either side, and who says so.
+
+    ``value`` is in the input's SI unit, or where ``share`` is true a share of the input's own value.
+    """
+
+    value: float
+    share: bool
+    source: str
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Motor(Value):
     """A travelling-wave rotary ultrasonic motor: every number with unit and source.
@@ -115,7 +127,8 @@ class Motor(Value):
     The names are those of the motor file and of ``--set``.  The last eleven are optional: a measured value replaces the
     modelled one, and the rotor's flange is needed where its compliance counts.  ``bench`` has what the file says of the
     bench that the published figures were measured on, by the names of :class:`trum_sym.Drive`; nothing is computed with
-    it unless a drive takes it.
+    it unless a drive takes it.  ``box`` has the ranges that searches vary, ``allowed`` those beyond which the hardware
+    does not go, ``spreads`` how far inputs of a motor at work may be off.
     """
 
     name: str
@@ -177,11 +190,14 @@ class Motor(Value):
     bench: Mapping[str, Parameter] = field(default_factory=FrozenDict)
     published: tuple[Published, ...] = ()
     box: Mapping[str, Allowed] = field(default_factory=dict)  # what searches vary of the drive
+    allowed: Mapping[str, Allowed] = field(default_factory=dict)  # what the hardware can be set to
+    spreads: Mapping[str, Amount] = field(default_factory=dict)
     text: str = field(default="", repr=False, compare=False)  # of the motor file, whatever was set since
 
     def __post_init__(self) -> None:
         """Checks every value, and the sizes that must fit each other; warns of what no such motor has."""
-        object.__setattr__(self, "box", FrozenDict(self.box))
+        for table in ("box", "allowed", "spreads"):
+            object.__setattr__(self, table, FrozenDict(getattr(self, table)))
         if not isinstance(self.name, str):
             raise ParameterError("name", self.name, "the motor's name as text")
         for name, wanted in SPECS.items():

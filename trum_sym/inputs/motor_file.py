@@ -14,8 +14,8 @@ from trum_sym.inputs.choices import path_of
 from trum_sym.inputs.csv_text import read_text
 from trum_sym.inputs.distributions import Distribution, checked
 from trum_sym.inputs.domain import Domain, Spec
-from trum_sym.inputs.drive import BOX_NAMES, DRIVE_DOMAINS
-from trum_sym.inputs.motor import SPECS, Allowed, Motor, Parameter, Published, spec
+from trum_sym.inputs.drive import BOX_NAMES, DRIVE_DOMAINS, SPREADING
+from trum_sym.inputs.motor import SPECS, Allowed, Amount, Motor, Parameter, Published, spec
 from trum_sym.inputs.units import Unit, parse_unit, unit_for
 from trum_sym.quantities import QUANTITIES
 
@@ -46,9 +46,12 @@ BENCH: Mapping[str, Spec] = {
         for name, symbol in (("load_inertia", "J_load"), ("load_radius", "r_s"))
     },
     "sampling_period": Spec("s", "T_s", Domain(low=0.0), required=False),
+    "encoder_counts": Spec("1", "N_e", Domain(low=1.0, low_open=False, integer=True), required=False),
 }
 """What a motor file may say of the bench that its published figures were measured on: of the load and the encoder."""
 
+_TABLES = ("name", "parameters", "bench", "box", "allowed", "spreads", "published")
+_OF_AMOUNT = ("value", "unit", "source", "reason")
 _MAX_BYTES = 1_000_000  # a motor takes 10 000
 _NAMES = ", ".join(SHIPPED)
 _MAX_DOTS = 200  # in a line
@@ -195,11 +198,38 @@ def _read_published(entry: object) -> Published:
     return Published(**entry)
 
 
-def _read_allowed(name: str, entry: object) -> Allowed:
-    """A range of the table [box]."""
-    place = f"box.{name}"
+def _table(data: Mapping[str, Any], name: str) -> Mapping[str, Any]:
+    """A table that a motor file may have."""
+    found = data.get(name, {})
+    if not isinstance(found, dict):
+        raise ParameterError(name, found, f"a table [{name}]")
+    return found
+
+
+def _read_amount(name: str, entry: object) -> Amount:
+    """How far an input may be off, of the table [spreads]."""
+    place = f"spreads.{name}"
+    if name not in SPREADING:
+        raise ParameterError("motor file: spreads", name, f"one of {', '.join(SPREADING)}")
+    if not isinstance(entry, dict) or not {"value", "unit", "source"} <= set(entry) <= {*_OF_AMOUNT}:
+        raise ParameterError(place, entry, "a table with value, unit and source, and maybe a reason")
+    for key in ("unit", "source", "reason"):
+        if not isinstance(entry.get(key, "text"), str) or not entry.get(key, "text").strip():
+            raise ParameterError(f"{place}.{key}", entry[key], "text")
+    share = entry["unit"].strip() == "%"
+    wanted = "1" if share else DRIVE_DOMAINS[name][1] if name in DRIVE_DOMAINS else SPECS[name].unit
+    value = _in_si(f"{place}.value", entry["value"], _unit(f"{place}.unit", entry["unit"], wanted), entry["unit"])
+    number(f"{place}.value", value, Domain(low=0.0), wanted)
+    if entry["source"].strip().casefold() == "assumed" and "reason" not in entry:
+        raise ParameterError(place, "source = 'assumed'", "a reason beside it")
+    return Amount(value, share, entry["source"].strip())
+
+
+def _read_allowed(table: str, name: str, entry: object) -> Allowed:
+    """A range of the tables [box] and [allowed]."""
+    place = f"{table}.{name}"
     if name not in BOX_NAMES:
-        raise ParameterError("box", name, f"one of {', '.join(BOX_NAMES)}")
+        raise ParameterError(table, name, f"one of {', '.join(BOX_NAMES)}")
     if not isinstance(entry, dict) or set(entry) != {"range", "unit", "source"}:
         raise ParameterError(place, entry, "a table with range, unit and source")
     if not isinstance(entry["unit"], str) or not isinstance(entry["source"], str) or not entry["source"].strip():
@@ -252,9 +282,9 @@ def load_motor(source: str | PathLike[str] = "trum60") -> Motor:
     path_of("motor", source, f"{_NAMES} or the path of a TOML file")
     text = motor_text(source)
     data = _read_toml(source, text)
-    unknown = sorted(set(data) - {"name", "parameters", "bench", "box", "published"})
+    unknown = sorted(set(data) - set(_TABLES))
     if unknown:
-        raise ParameterError("motor file", unknown[0], "name, parameters, bench, box and published at the top level")
+        raise ParameterError("motor file", unknown[0], f"{', '.join(_TABLES[:-1])} and {_TABLES[-1]} at the top level")
     if not isinstance(data.get("name"), str) or not data["name"].strip():
         raise ParameterError("motor file: name", data.get("name", "nothing"), "the motor's name as text")
     if not isinstance(data.get("parameters"), dict):
@@ -266,8 +296,10 @@ def load_motor(source: str | PathLike[str] = "trum60") -> Motor:
     if missing:
         raise ParameterError("motor file: parameters", f"no {', '.join(missing)}", "every required parameter")
     published = tuple(_read_published(entry) for entry in data.get("published", []))
-    if not isinstance(data.get("box", {}), dict):
-        raise ParameterError("box", data["box"], "a table [box]")
-    box = {name: _read_allowed(name, entry) for name, entry in data.get("box", {}).items()}
-    bench = _read_bench(data.get("bench", {}))
-    return Motor(name=data["name"], bench=bench, published=published, box=box, text=text, **parameters)
+    box, allowed = (
+        {name: _read_allowed(table, name, entry) for name, entry in _table(data, table).items()}
+        for table in ("box", "allowed")
+    )
+    spreads = {name: _read_amount(name, entry) for name, entry in _table(data, "spreads").items()}
+    read: dict[str, Any] = {**parameters, "bench": _read_bench(data.get("bench", {})), "box": box, "allowed": allowed}
+    return Motor(name=data["name"], published=published, spreads=spreads, text=text, **read)

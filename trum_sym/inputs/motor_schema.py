@@ -6,7 +6,7 @@ import math
 from typing import Any, NamedTuple
 
 from trum_sym.inputs.distributions import KINDS
-from trum_sym.inputs.drive import BOX_NAMES, DRIVE_DOMAINS
+from trum_sym.inputs.drive import BOX_NAMES, DRIVE_DOMAINS, SPREADING
 from trum_sym.inputs.motor import SPECS, TO_DO, Motor
 from trum_sym.inputs.motor_file import BENCH, load_motor
 from trum_sym.inputs.units import parse_unit
@@ -139,6 +139,11 @@ def template(name: str, like: Motor | None = None) -> str:
         '# prepressure = { range = [10.0, 40.0], unit = "N", source = "spring of the housing" }',
         '# frequency_difference = { range = [500.0, 3000.0], unit = "Hz", source = "amplifier" }',
         "",
+        "# How far what drifts while the motor works may be off, to either side; in a unit, or in % of the value",
+        "# [spreads]",
+        '# prepressure = { value = 0.2, unit = "N", source = "force sensor" }',
+        '# friction_coefficient = { value = 1.0, unit = "%", source = "measured" }',
+        "",
         "[parameters]",
     ]
     known = dict(like.parameters())
@@ -195,6 +200,17 @@ def schema() -> dict[str, Any]:
         "required": ["range", "unit", "source"],
         "additionalProperties": False,
     }
+    amount = {
+        "type": "object",
+        "properties": {
+            "value": {"type": "number", "exclusiveMinimum": 0},
+            "unit": text,
+            "source": text,
+            "reason": text,
+        },
+        "required": ["value", "unit", "source"],
+        "additionalProperties": False,
+    }
     drive = {
         name: {"type": "number", "description": domain.describe(unit)} for name, (domain, unit) in DRIVE_DOMAINS.items()
     }
@@ -233,7 +249,14 @@ def schema() -> dict[str, Any]:
                 "required": [name for name, spec in SPECS.items() if spec.required],
                 "additionalProperties": False,
             },
-            "box": {"type": "object", "properties": dict.fromkeys(BOX_NAMES, allowed), "additionalProperties": False},
+            **{
+                table: {"type": "object", "properties": dict.fromkeys(names, entry), "additionalProperties": False}
+                for table, names, entry in (
+                    ("box", BOX_NAMES, allowed),
+                    ("allowed", BOX_NAMES, allowed),
+                    ("spreads", SPREADING, amount),
+                )
+            },
             "bench": {"type": "object", "properties": bench, "additionalProperties": False},
             "published": {"type": "array", "items": published},
         },
@@ -272,6 +295,10 @@ def page() -> str:
         "| `[parameters]` | the parameters below |",
         "| `[box]` | ranges that searches vary: " + " and ".join(f"`{name}`" for name in BOX_NAMES) + ", each "
         "`{ range = [LOW, HIGH], unit = ..., source = ... }`; a motor without them is asked for ranges |",
+        "| `[allowed]` | of the same, what the hardware can be set to; a search that goes beyond warns |",
+        "| `[spreads]` | how far what drifts may be off, to either side: "
+        + ", ".join(f"`{name}`" for name in SPREADING)
+        + ", each `{ value = ..., unit = ..., source = ... }`, with `%` of its own value; what a point has to hold |",
         "| `[bench]` | the bench that the published figures were measured on: "
         + ", ".join(f"`{name}`" for name in BENCH)
         + ", each as a parameter |",

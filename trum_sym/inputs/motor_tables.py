@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from trum_sym.inputs.drive import BOX_NAMES
+from trum_sym.inputs.drive import BOX_NAMES, DRIVE_DOMAINS
 from trum_sym.inputs.motor import SPECS, TO_DO, Motor, Parameter
 from trum_sym.inputs.motor_schema import ENTRIES, in_unit
 from trum_sym.inputs.plausible import doubts, outside_range
@@ -30,6 +30,14 @@ def as_dict(motor: Motor) -> dict[str, Any]:
         "box": {
             name: {"range": [allowed.low, allowed.high], "source": allowed.source}
             for name, allowed in motor.box.items()
+        },
+        "allowed": {
+            name: {"range": [allowed.low, allowed.high], "source": allowed.source}
+            for name, allowed in motor.allowed.items()
+        },
+        "spreads": {
+            name: {"value": amount.value, "share": amount.share, "source": amount.source}
+            for name, amount in motor.spreads.items()
         },
         "published": [
             {"output": e.output, "value": e.value, "unit": e.unit, "source": e.source, "drive": dict(e.drive)}
@@ -69,6 +77,14 @@ def as_table(motor: Motor) -> str:
         lines += ["", f"modelled, unless the file gives a measured value: {', '.join(optional)}"]
     for name, allowed in motor.box.items():
         lines += ["", f"searches vary {name} from {allowed.low:g} to {allowed.high:g} ({one_line(allowed.source)})"]
+    for name, allowed in motor.allowed.items():
+        lines += ["", f"hardware allows {name} from {allowed.low:g} to {allowed.high:g} ({one_line(allowed.source)})"]
+    for name, amount in motor.spreads.items():
+        unit = DRIVE_DOMAINS[name][1] if name in DRIVE_DOMAINS else SPECS[name].unit
+        off = (
+            f"{100 * amount.value:g} %" if amount.share else f"{amount.value:g} {'' if unit == '1' else unit}".rstrip()
+        )
+        lines += ["", f"{name} may be off by {off} ({one_line(amount.source)})"]
     return "\n".join(lines)
 
 

@@ -60,6 +60,8 @@ class Inputs(Value):
             "motor_values": {name: _plain(p.value) for name, p in self.motor.parameters()},
             "assumed": {name: p.range for name, p in self.motor.assumed().items()},
             "box": {name: [allowed.low, allowed.high] for name, allowed in self.motor.box.items()},
+            "allowed": {name: [allowed.low, allowed.high] for name, allowed in self.motor.allowed.items()},
+            "spreads": {name: [off.value, off.share] for name, off in self.motor.spreads.items()},
             "drive": {f.name: _plain(getattr(self.drive, f.name)) for f in fields(Drive)},
             "levels": asdict(self.levels),
             "sampling_period": None if self.sampling_period is None else _plain(self.sampling_period),
@@ -109,7 +111,7 @@ def remarks_of(figures: Mapping[str, Any], load_torque: float) -> tuple[str, ...
     Returns
     -------
     tuple of str
-        Why an orbit is not converged; that the rotor turns backward, or is not set going from standstill.
+        Why an orbit is not converged; that the rotor turns backward, or that the load is more than holds it still.
     """
     found = [str(figures["reason"])] if figures.get("reason") else []
     speed, stall, load = float(figures["mean_speed"]), float(figures["stall_torque"]), float(load_torque)
@@ -119,7 +121,8 @@ def remarks_of(figures: Mapping[str, Any], load_torque: float) -> tuple[str, ...
         found.append("the load exceeds the stall torque and drives the rotor back")
     elif load * stall > 0 and abs(load) > abs(stall):
         found.append(
-            f"the load, {load:g} N*m, exceeds the stall torque, {stall:.4g} N*m: a rotor held still is not set going"
+            f"the load, {load:g} N*m, exceeds the stall torque, {stall:.4g} N*m: it pulls back a rotor that is held "
+            "still; one that is free follows the beats to this speed"
         )
     elif speed * stall < 0:
         found.append("the rotor turns backward, against the direction in which the stator drives it at standstill")

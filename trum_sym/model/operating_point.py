@@ -41,6 +41,7 @@ __all__ = [
     "TOLERANCES",
     "Case",
     "OperatingPoint",
+    "encoder_deviation_of",
     "evaluate",
     "point_of",
     "prepare",
@@ -454,6 +455,13 @@ def _of_orbit(case: Case, cycle_time: ArrayLike, wanted: Collection[str], progre
             error = (deviation_error + found["speed_volatility"] * orbit.mean_speed_error) / least
             found["speed_volatility_error"] = np.where(least <= 0, np.inf, error)
     return found
+
+
+def encoder_deviation_of(case: Case, orbit: Orbit, period: ArrayLike) -> Array:
+    """Standard deviation of an encoder's readings over a period in s, at every point of a case; rad/s."""
+    cycle_time = call("trum_drive", case.values)["T"]
+    readings = _encoder(case.arguments, orbit, cycle_time, period)
+    return np.asarray(readings[..., 0] / np.asarray(case.symbols["r_c"]))
 
 
 def _encoder(arguments: Mapping[str, ArrayLike], orbit: Orbit, cycle_time: ArrayLike, period: ArrayLike) -> Array:

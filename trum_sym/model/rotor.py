@@ -19,6 +19,7 @@ __all__ = [
     "encoder_deviation",
     "encoder_readings",
     "history",
+    "lap_from",
     "orbit_values",
     "reasons",
     "solve_orbit",
@@ -226,6 +227,37 @@ def history(values: Mapping[str, ArrayLike], raw: Mapping[str, ArrayLike], count
     point = {name: raw[name] for name in _OF_HISTORY}
     found = call("rotor_history", {**values, **point, "times": np.empty(count)})
     return {name: np.asarray(value) for name, value in found.items()}
+
+
+def lap_from(
+    values: Mapping[str, ArrayLike], raw: Mapping[str, ArrayLike], start: float, count: int, level: float
+) -> dict[str, Array]:
+    """One drive cycle of the rotor from any rim speed at t1, at ``count`` equal times after t1.
+
+    Parameters
+    ----------
+    values : mapping
+        From :func:`orbit_values`; for another cycle than its repetition with the free motion before t1 set anew.
+    raw : mapping
+        ``low`` and ``high`` of the orbit, whose size errors are measured by.
+    start : float
+        Of the lap, m/s.
+    count : int
+        Times.
+    level : float
+        Error that a step may have, per drive period, over the largest speed.
+
+    Returns
+    -------
+    dict
+        As :func:`history`.
+    """
+    if "grip" in values:
+        raise ValueError("a brush has no laps")
+    given = {**values, "low": raw["low"], "high": raw["high"], "start": start, "level": level}
+    return {
+        name: np.asarray(value) for name, value in call("rotor_history", {**given, "times": np.empty(count)}).items()
+    }
 
 
 def encoder_deviation(distance: Array, cycle_time: float, period: float) -> float:

@@ -19,6 +19,7 @@ from typing import Any
 from trum_sym.errors import ParameterError, shorten
 from trum_sym.inputs.units import Dimension, Kind, parse_quantity, parse_unit
 from trum_sym.optimiser.extra import casadi
+from trum_sym.optimiser.held import DRIFTS, HELD_FIGURES
 from trum_sym.quantities import QUANTITIES
 from trum_sym.values import Value
 
@@ -38,9 +39,16 @@ VARIABLES: Mapping[str, str] = MappingProxyType(
         **{name: output.unit for name, output in QUANTITIES.items()},
         "speed_deviation": "rad/s",
         "peak_pressure": "Pa",
+        **HELD_FIGURES,
         **_INPUTS,
     }
 )
+# what stands for arithmetic on those, with its SI unit
+_MADE = {
+    "swing": "rad/s",
+    "encoder_volatility": "1",
+    "drift": "rad/s",
+}
 _LONGEST = 500
 _DEEPEST = 50
 
@@ -103,6 +111,16 @@ def symbol(name: str) -> Any:  # noqa: ANN401
     return _SYMBOLS[name]
 
 
+def _made(name: str) -> tuple[tuple[str, ...], Any]:
+    """The figures of which one of :data:`_MADE` is made, and how."""
+    if name == "swing":
+        return ("max_speed", "min_speed"), _SYMBOLS["max_speed"] - _SYMBOLS["min_speed"]
+    if name == "encoder_volatility":
+        names = "encoder_deviation", "mean_speed"
+        return names, _SYMBOLS["encoder_deviation"] / casadi.fabs(_SYMBOLS["mean_speed"])
+    return tuple(DRIFTS), sum(_SYMBOLS[drift] for drift in DRIFTS)
+
+
 @dataclass(frozen=True)
 class _Term:
     """A part of an expression.
@@ -156,9 +174,14 @@ class _Reader:
         raise self.refuse(f"not {type(node).__name__.lower()}")
 
     def figure(self, figure: str) -> _Term:
+        if figure in _MADE:
+            names, graph = _made(figure)
+            self.names.update(names)
+            return _Term(graph, parse_unit(_MADE[figure]).kind)
         if figure not in VARIABLES:
-            close = get_close_matches(figure, VARIABLES, n=3, cutoff=0.5)
-            hint = f"close names: {', '.join(close)}" if close else f"names are {', '.join(VARIABLES)}"
+            known = (*VARIABLES, *_MADE)
+            close = get_close_matches(figure, known, n=3, cutoff=0.5)
+            hint = f"close names: {', '.join(close)}" if close else f"names are {', '.join(known)}"
             raise self.refuse(f"no figure is called {shorten(figure)}; {hint}")
         self.names.add(figure)
         return _Term(_SYMBOLS[figure], parse_unit(VARIABLES[figure]).kind)
@@ -245,7 +268,7 @@ def parse_expression(name: str, text: object) -> Expression:
     kind = term.kind or Kind()
     if any(exponent.denominator != 1 for exponent in (*kind.dimension, kind.angle)):
         raise reader.refuse(f"the root of a unit is left, {kind}")
-    unit = VARIABLES[tree.body.id] if isinstance(tree.body, ast.Name) else str(kind)
+    unit = {**VARIABLES, **_MADE}[tree.body.id] if isinstance(tree.body, ast.Name) else str(kind)
     return Expression(text.strip(), term.graph, frozenset(reader.names), unit)
 
 
@@ -265,7 +288,7 @@ def parse_constraint(name: str, text: object) -> Constraint:
         raise ParameterError(name, text, wanted)
     left, right = (side.strip() for side in text.split(operators[0]))
     expression = parse_expression(name, left)
-    if any(figure in right for figure in VARIABLES):
+    if any(figure in right for figure in (*VARIABLES, *_MADE)):
         expression, value = parse_expression(name, f"({left}) - ({right})"), 0.0
     else:
         value = parse_quantity(f"{name} {shorten(left)}", right, expression.unit)

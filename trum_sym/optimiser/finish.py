@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -59,7 +60,7 @@ class Finished:
 
     share: Array
     point: Array
-    figures: Mapping[str, float]
+    figures: Mapping[str, Any]
     objective: float
     constraints: Array
     violation: float

@@ -14,6 +14,7 @@ from trum_sym.inputs.checks import Array
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
 from trum_sym.model.cycle import cycle_sums
+from trum_sym.model.holding import Asked
 from trum_sym.model.kernels import call
 from trum_sym.model.levels import Levels
 from trum_sym.model.operating_point import Case, evaluate, prepare
@@ -22,6 +23,7 @@ from trum_sym.model.rotor import Orbit, solve_orbit
 from trum_sym.model.sensitivities import orbit_with_slopes
 from trum_sym.optimiser.expressions import Expression, symbol
 from trum_sym.optimiser.extra import casadi
+from trum_sym.optimiser.held import COARSE, HELD_FIGURES, held_figures
 from trum_sym.values import Value
 
 __all__ = ["Box", "Functions", "Model", "functions"]
@@ -31,8 +33,9 @@ _DETERMINANT = ("q_ratio", "q_square_ratio", "q_average", "q_volatility")
 _HELD = {"stall_torque", "contact_fraction"}  # the figures of a rotor that is held
 _INPUTS = ("prepressure", "frequency_difference", "switching_phase", "load_torque", "periods", "on_periods")
 _PHASE = "switching_phase"
-_STEPS = {"prepressure": 0.02, "frequency_difference": 0.3, _PHASE: 1e-3}  # of closed forms' differences: N, Hz, rad
-_PHASE_STEP = 4e-3  # of orbits', rad
+# of closed forms' differences, and of orbits': N, Hz, N m, rad
+_STEPS = {"prepressure": 0.02, "frequency_difference": 0.3, "load_torque": 1e-4, _PHASE: 1e-3}
+_ORBIT_STEPS = {"prepressure": 0.02, "frequency_difference": 0.3, "load_torque": 1e-4, _PHASE: 4e-3}
 _FINEST = 1e-9
 
 
@@ -101,6 +104,10 @@ class Model:
     box : Box
     names : set of str
         The figures that are wanted.
+    asked : Asked, optional
+        What is asked of points that are to be held.
+    target : float, optional
+        The mean speed that is wanted, rad/s.
 
     Attributes
     ----------
@@ -108,8 +115,19 @@ class Model:
         Orbits computed so far.
     """
 
-    def __init__(self, motor: Motor, drive: Drive, levels: Levels, box: Box, names: frozenset[str]) -> None:
+    def __init__(
+        self,
+        motor: Motor,
+        drive: Drive,
+        levels: Levels,
+        box: Box,
+        names: frozenset[str],
+        asked: Asked | None = None,
+        target: float | None = None,
+    ) -> None:
         self.motor, self.drive, self.levels, self.box, self.names = motor, drive, levels, box, names
+        self.asked, self.target = Asked() if asked is None else asked, target
+        self._held = names.intersection(HELD_FIGURES)
         self.evaluations = 0
 
     def drives(self, points: Array) -> Drive:
@@ -119,9 +137,14 @@ class Model:
 
     def results(self, points: Array, tolerance: float) -> dict[str, Array]:
         """The wanted figures, mean speed and deviation always among them; NaN where no speed balances the load."""
+        if self._held:
+            tolerance = min(tolerance, COARSE)
         case = self._case(points, tolerance)
         self.evaluations += len(points)
-        return {**self._closed(case), **_speeds(solve_orbit(case.arguments, case.symbols))}
+        if not self._held:
+            return {**self._closed(case), **_speeds(solve_orbit(case.arguments, case.symbols))}
+        orbit, held = held_figures(case, self._held, self.asked, self.target)
+        return {**self._closed(case), **_speeds(orbit), **held}
 
     def results_with_slopes(self, points: Array, tolerance: float) -> tuple[dict[str, Array], dict[str, Array]]:
         """The same and their derivatives by the box's variables, each (n, d)."""
@@ -129,8 +152,12 @@ class Model:
         self.evaluations += len(points)
         orbit, found = orbit_with_slopes(case)
         figures = {**self._closed(case), **_speeds(orbit)}
-        closed = self.names.difference(found)
+        closed = self.names.difference(found, self._held)
         slopes = self._differences(points, range(points.shape[1])) if closed else {}
+        if self._held:
+            figures |= held_figures(case, self._held, self.asked, self.target)[1]
+            by_all = self._differences(points, range(points.shape[1]), orbits=True)
+            slopes |= {name: by_all[name] for name in self._held}
         if _PHASE in self.box.names:
             by_phase = self._differences(points, [self.box.names.index(_PHASE)], orbits=True)
             for of in found:
@@ -139,7 +166,7 @@ class Model:
             slopes[of] = np.stack([found[of][variable] for variable in self.box.names], axis=-1)
         return figures, slopes
 
-    def check(self, point: Array, tolerance: float) -> dict[str, float]:
+    def check(self, point: Array, tolerance: float) -> dict[str, Any]:
         """Every figure of one point by :func:`trum_sym.evaluate`, independent of what found it."""
         drive = self.drives(point)
         self.evaluations += 1
@@ -147,7 +174,11 @@ class Model:
             warnings.simplefilter("ignore", ValidityWarning)
             found = evaluate(self.motor, drive, **vars(self.levels), tolerance=tolerance).figures
             extra = self._closed(self._case(point[np.newaxis], tolerance))
-        figures = {name: value for name, value in found.items() if isinstance(value, float)}
+        if self._held:
+            held = held_figures(self._case(point[np.newaxis], tolerance), self._held, self.asked, self.target)[1]
+            extra |= held
+        figures: dict[str, Any] = {name: value for name, value in found.items() if isinstance(value, float)}
+        figures["reason"] = found["reason"]
         figures["speed_deviation"] = figures["speed_volatility"] * abs(figures["mean_speed"])
         return {**{name: float(value[0]) for name, value in extra.items()}, **figures}
 
@@ -177,7 +208,7 @@ class Model:
         weights = np.array([45.0, -45.0, -9.0, 9.0, 1.0, -1.0]) / 60
         columns: dict[str, list[Array]] = {}
         for k in axes:
-            step = _PHASE_STEP if orbits else _STEPS[self.box.names[k]]
+            step = (_ORBIT_STEPS if orbits else _STEPS)[self.box.names[k]]
             moved = np.repeat(points[np.newaxis], 6, axis=0)
             moved[:, :, k] += shifts[:, np.newaxis] * step
             if orbits:

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 from trum_sym.inputs.shown import full, quantity_of, readable
 from trum_sym.inputs.units import ARCSEC
-from trum_sym.model.inputs import Inputs, remarks_of, units_of
+from trum_sym.model.holding import Holding
+from trum_sym.model.inputs import Inputs, units_of
 from trum_sym.output.digits import with_error
 from trum_sym.output.json_text import finite
 from trum_sym.output.result import Result
@@ -19,6 +20,16 @@ if TYPE_CHECKING:
     from trum_sym.optimiser.solve import Problem
 
 __all__ = ["Evidence", "Optimum"]
+
+_PLACE = (
+    "prepressure",
+    "frequency_difference",
+    "on_periods",
+    "periods",
+    "switching_phase",
+    "load_torque",
+    "phase_lead",
+)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -41,7 +52,7 @@ class Evidence(Value):
         Slope of the objective across the box, over the objective, that the constraints and edges leave where IPOPT
         ended; above 3e-3 a kink has stopped it, and a compass search has gone on from there.
     pulses : int
-        Pairs of periods and on_periods in the ranges.
+        Combinations of periods, on_periods and phase lead in the ranges.
     pruned : int
         Those that a coarse map ruled out.
     reachable_speed : (float, float) or None
@@ -70,7 +81,7 @@ class Optimum(Result, Value):
         constraints nor evidence that there is none.
     objective : float or None
         At the optimum; None unless solved.
-    prepressure, frequency_difference, on_periods, periods, switching_phase : float or None
+    prepressure, frequency_difference, on_periods, periods, switching_phase, load_torque, phase_lead : float or None
         The optimum; of what is infeasible, the nearest point that can be reached; None where no speed balances the
         load anywhere in the box.
     mean_speed, speed_volatility, q_average, q_volatility : float or None
@@ -97,6 +108,8 @@ class Optimum(Result, Value):
     on_periods: int | None
     periods: int | None
     switching_phase: float | None
+    load_torque: float | None
+    phase_lead: int | None
     mean_speed: float | None
     speed_volatility: float | None
     q_average: float | None
@@ -105,7 +118,7 @@ class Optimum(Result, Value):
     evaluations: int
     message: str
     evidence: Evidence
-    figures: Mapping[str, float]
+    figures: Mapping[str, Any]
     problem: Problem
     objective_unit: str = "1"
 
@@ -131,18 +144,33 @@ class Optimum(Result, Value):
 
         problem, place = self.problem, {}
         if self.prepressure is not None:
-            names = ("prepressure", "frequency_difference", "on_periods", "periods", "switching_phase")
-            place = {name: getattr(self, name) for name in names}
+            place = {name: getattr(self, name) for name in _PLACE}
         return Inputs(problem.motor, replace(problem.drive, **place), problem.levels, None, TOLERANCE)
+
+    def load_text(self) -> str:
+        """The load at the optimum in words, or the range that it was sought in."""
+        box = self.problem.box
+        if "load_torque" in box.names and self.prepressure is None:
+            k = box.names.index("load_torque")
+            return f"load {full(box.low[k])} to {full(box.high[k])} N m"
+        return self.inputs.drive.load_text()
 
     @property
     def remarks(self) -> tuple[str, ...]:
         """What the figures do not say by themselves."""
-        return remarks_of(self.figures, float(self.problem.drive.load_torque)) if self.figures else ()
+        return () if self.holding is None else self.holding.remarks
+
+    @property
+    def holding(self) -> Holding | None:
+        """What it takes to hold the point; None where no speed balances the load anywhere."""
+        if self.prepressure is None:
+            return None
+        inputs = self.inputs
+        return self.problem.asked.of(inputs.motor, inputs.drive, inputs.levels)
 
     def to_dict(self) -> dict[str, Any]:
         """Inputs, answer, every figure, remarks and units by name, in SI units: what ``optimize --json`` prints."""
-        problem, inputs = self.problem, self.inputs.record()
+        problem, inputs, holding = self.problem, self.inputs.record(), self.holding
         if self.prepressure is None:
             inputs["drive"] = {**inputs["drive"], "prepressure": None, "frequency_difference": None}
         found = {
@@ -153,13 +181,14 @@ class Optimum(Result, Value):
                 name: [float(low), float(high)]
                 for name, low, high in zip(problem.box.names, problem.box.low, problem.box.high, strict=True)
             },
-            "constraints": [str(constraint) for constraint in problem.constraints],
-            "remarks": self.remarks,
+            "constraints": [constraint.text for constraint in problem.constraints],
+            "remarks": [],
         }
-        return {**found, "units": units_of(found)}
+        found = {**found, "units": units_of(found)}
+        return found if holding is None else holding.joined(found)
 
 
-def _shown(name: str, figures: Mapping[str, float]) -> tuple[str, str, str, str]:
+def _shown(name: str, figures: Mapping[str, Any]) -> tuple[str, str, str, str]:
     quantity = quantity_of(name)
     value, error = readable(name, figures[name]), figures.get(f"{name}_error")
     text = (f"{value:.8g}", "") if error is None else with_error(value, readable(name, error))
@@ -178,6 +207,8 @@ def _as_table(optimum: Optimum, title: str) -> str:
         ("periods in a cycle", f"{optimum.periods}", "", ""),
         ("of them on", f"{optimum.on_periods}", "", ""),
         ("switching phase", full(optimum.switching_phase or 0.0), "", "rad"),
+        ("phase lead", f"{optimum.phase_lead:+d}", "", ""),
+        ("load torque", full(optimum.load_torque or 0.0), "", "N*m"),
     ]
     names = (
         "mean_speed",
@@ -194,14 +225,17 @@ def _as_table(optimum: Optimum, title: str) -> str:
     evidence = optimum.evidence
     grid = " x ".join(map(str, evidence.map_shape))
     notes = [
-        f"map of {grid} places; basins meeting the constraints: {evidence.basins}, starts of IPOPT: {evidence.starts}",
+        f"map of {grid} places; basins meeting the constraints: {evidence.basins}, starts: {evidence.starts}",
         f"distinct local optima: {_optima(optimum)}",
     ]
     if evidence.pulses > 1:
-        notes.append(f"pulse counts: {evidence.pulses} pairs, {evidence.pruned} ruled out by a coarse map")
+        what = "pulse counts and phase leads"
+        notes.append(f"{what}: {evidence.pulses} combinations, {evidence.pruned} ruled out by a coarse map")
+    holding = optimum.holding
+    held = [] if holding is None else ["", *holding.lines()]
     table = tabulate(rows, disable_numparse=True, colalign=("left", "right", "left", "left"), tablefmt="plain")
-    remarks = [f"remark: {remark}" for remark in optimum.remarks]
-    return "\n".join([heading, "", table, "", *remarks, *[""] * bool(remarks), *notes])
+    remarks = [f"remark: {remark}" for remark in ([] if holding is None else holding.remarks)]
+    return "\n".join([heading, "", table, *held, "", *remarks, *[""] * bool(remarks), *notes])
 
 
 def _optima(optimum: Optimum) -> str:

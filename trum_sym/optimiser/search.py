@@ -12,14 +12,20 @@ from typing import Any, Unpack
 import numpy as np
 
 from trum_sym.errors import ParameterError, ValidityWarning
-from trum_sym.inputs.drive import BOX_NAMES, DRIVE_DOMAINS, Drive
+from trum_sym.inputs.domain import Domain
+from trum_sym.inputs.drive import BOX_NAMES, DRIVE_DOMAINS, LEAD, Drive
 from trum_sym.inputs.motor import Motor
 from trum_sym.inputs.motor_file import load_motor
 from trum_sym.inputs.points import check_point, check_single, numbers_of, one_number
+from trum_sym.inputs.shown import full
+from trum_sym.inputs.spreads import Spread
 from trum_sym.inputs.units import ARCSEC
+from trum_sym.model.holding import SPEED_TIME, WITHIN, Asked, asked_of
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.optimiser.chart import basins, chart
 from trum_sym.optimiser.expressions import Constraint, Expression, parse_constraint, parse_expression, symbol
+from trum_sym.optimiser.held import check_asked
+from trum_sym.optimiser.limits import Holds, binding, limits_of
 from trum_sym.optimiser.model import Box, functions
 from trum_sym.optimiser.result import Evidence, Optimum
 from trum_sym.optimiser.solve import Answer, Problem, solve
@@ -28,7 +34,9 @@ from trum_sym.output.progress import said, shown
 __all__ = [
     "OBJECTIVES",
     "Bound",
+    "Counts",
     "aim_of",
+    "asked_to",
     "box_of",
     "check_scalars",
     "optimize",
@@ -42,10 +50,16 @@ OBJECTIVES: Mapping[str, str] = MappingProxyType(
         "speed-error": "speed_volatility",
         "ripple": "(max_speed - min_speed) / abs(mean_speed)",
         "wear": "peak_pressure",
+        "encoder-volatility": "encoder_volatility",
+        "drift": "drift",
+        "worst-speed-error": "worst_speed_error",
     }
 )
-_VARIABLES = ("prepressure", "frequency_difference", "switching_phase")
+_VARIABLES = ("prepressure", "frequency_difference", "switching_phase", "load_torque")
 _PULSES = ("periods", "on_periods")
+_COUNTED = (*_PULSES, "phase_lead")  # what is gone through value by value
+Counts = tuple[int, int, int]
+"""Periods, on_periods and phase lead."""
 _COARSE = 8  # divisions of the maps that rank pulse counts
 _MARGIN = 0.25  # by which such a map may overrate a pair's objective
 _BEYOND = 0.1  # of the range of speeds, by which it may miss the target
@@ -61,6 +75,11 @@ def optimize(
     target_speed: float | str | None = None,
     bounds: Mapping[str, Bound] | None = None,
     constraints: Sequence[str] = (),
+    holds: Holds | None = None,
+    starts: float | str | None = None,
+    within: float | str = WITHIN,
+    spreads: Mapping[str, Spread] | None = None,
+    sampling_period: float | str | None = None,
     progress: bool = False,
     **levels: Unpack[LevelChoice],
 ) -> Optimum:
@@ -77,16 +96,26 @@ def optimize(
     objective : str
         ``"volatility"`` (speed_volatility, eq. 40), ``"q-volatility"`` (the magnitude of Q_vib, eq. 44),
         ``"speed-error"`` (distance of the mean speed from the target, and among points without, the volatility),
-        ``"ripple"`` (highest less lowest speed over the mean), ``"wear"`` (highest contact pressure), or arithmetic on
-        figures, ``"speed_volatility + 1e-3 * prepressure"``: see :mod:`trum_sym.optimiser.expressions`.
+        ``"ripple"`` (highest less lowest speed over the mean), ``"wear"`` (highest contact pressure),
+        ``"encoder-volatility"`` (of an encoder's readings), ``"drift"`` (sum of what the spreads of single inputs move
+        the mean speed by), ``"worst-speed-error"`` (distance from the target with all inputs off, towards what by
+        itself gives more speed, or less), or arithmetic on figures,
+        ``"speed_volatility + 1e-3 * prepressure"``: see :mod:`trum_sym.optimiser.expressions`.
     target_speed : float or str, rad/s, optional
         Mean speed that the point is to have; text may carry a unit, ``"633 arcsec/s"``.  Its sign is the direction.
     bounds : mapping, optional
         ``{"prepressure": (160, 210), "frequency_difference": ("2.8 kHz", "3.3 kHz")}``: by default the ranges that the
-        motor file states in ``[box]``.  One number holds a variable there.  ``periods`` and ``on_periods`` may have
-        bounds too and are enumerated.
+        motor file states in ``[box]``.  One number holds a variable there.  ``switching_phase`` and ``load_torque`` may
+        have bounds, too; ``periods``, ``on_periods`` and ``phase_lead``, which is freed by (-1, 1), are enumerated.
     constraints : sequence of str
         ``"stall_torque >= 0.35 N*m"``: arithmetic on figures, ``>=``, ``<=`` or ``==``, a value or more arithmetic.
+    holds : float, str or mapping, optional
+        The most that the spread of any one input may move the mean speed by: a share of the speed, ``"10 %"``,
+        or a speed, ``"60 arcsec/s"``; by input, ``{"friction_coefficient": "10 %"}``, of these only.
+    starts : float or str, s, optional
+        The rotor is to be at its speed within this time from rest under the load, and not driven back by it.
+    within, spreads, sampling_period
+        As for :func:`trum_sym.holding`: what the answer says of holding it, and what limits and objectives count with.
     progress : bool
         Whether to say on the standard error what is done, with a bar while pulse counts are gone through.
     contact, resonance, foundation, amplitude
@@ -113,13 +142,24 @@ def optimize(
     check_scalars(motor, drive)
     target = None if target_speed is None else one_number("target_speed", target_speed, "rad/s")
     box, pulses, drive = box_of(motor, drive, bounds)
+    asked = asked_to(motor, within, spreads, sampling_period, starts)
     aim, limits = aim_of(objective, target, constraints)
-    problem = Problem(motor, drive, Levels(**levels), box, aim, limits)
+    limits = (*limits, *limits_of(asked, target, holds, starts))
+    problem = Problem(motor, drive, Levels(**levels), box, aim, limits, asked, target)
+    check_asked(problem.names, asked, target, motor)
     warn_outside_fit(problem)
     best, chosen, pruned, evaluations = _over_pulses(
         problem, pulses, ("maps", "pulse counts", "optimize") if progress else (None, None, None)
     )
     return _optimum(objective, target, chosen, best, len(pulses), pruned, evaluations)
+
+
+def asked_to(
+    motor: Motor, within: object, spreads: Mapping[str, Spread] | None, sampling_period: object, starts: object
+) -> Asked:
+    """What is asked of points that are to be held, with the time to come to speed that ``starts`` states."""
+    time = SPEED_TIME if starts is None else one_number("starts", starts, "s", Domain(low=0.0))
+    return asked_of(motor, within, spreads, sampling_period, time)
 
 
 def check_scalars(motor: Motor, drive: Drive) -> None:
@@ -128,8 +168,8 @@ def check_scalars(motor: Motor, drive: Drive) -> None:
     check_single(numbers_of(motor, drive), "one number; optimize each case by itself")
 
 
-def box_of(motor: Motor, drive: Drive, bounds: Mapping[str, Bound] | None) -> tuple[Box, list[tuple[int, int]], Drive]:
-    """The box of what varies, the pairs of periods and on_periods, and the drive with what is held."""
+def box_of(motor: Motor, drive: Drive, bounds: Mapping[str, Bound] | None) -> tuple[Box, list[Counts], Drive]:
+    """The box of what varies, what is enumerated, and the drive with what is held."""
     if bounds is not None and not isinstance(bounds, Mapping):
         raise ParameterError("bounds", bounds, "a mapping of names to (low, high)")
     stated: dict[str, Any] = {name: (allowed.low, allowed.high) for name, allowed in motor.box.items()}
@@ -137,8 +177,8 @@ def box_of(motor: Motor, drive: Drive, bounds: Mapping[str, Bound] | None) -> tu
     ranges: dict[str, tuple[float, float]] = {}
     held: dict[str, float] = {}
     for name, value in given.items():
-        if name not in (*_VARIABLES, *_PULSES):
-            raise ParameterError("bounds", name, f"one of {', '.join((*_VARIABLES, *_PULSES))}")
+        if name not in (*_VARIABLES, *_COUNTED):
+            raise ParameterError("bounds", name, f"one of {', '.join((*_VARIABLES, *_COUNTED))}")
         if isinstance(value, tuple | list):
             ranges[name] = _range(name, value)
         else:
@@ -149,23 +189,47 @@ def box_of(motor: Motor, drive: Drive, bounds: Mapping[str, Bound] | None) -> tu
             raise ParameterError(f"bounds of {name}", "none", allowed)
     continuous: dict[str, Any] = {name: value for name, value in held.items() if name not in _PULSES}
     drive = replace(drive, **continuous)
+    _warn_beyond_hardware(motor, drive, ranges)
     names = tuple(name for name in _VARIABLES if name in ranges)
     if not names:
         raise ParameterError(
-            "bounds", "every variable held", "a range for prepressure, frequency_difference or switching_phase"
+            "bounds", "every variable held", f"a range for {', '.join(_VARIABLES[:-1])} or {_VARIABLES[-1]}"
         )
     ends = np.array([ranges[name] for name in names])
-    return Box(names, ends[:, 0], ends[:, 1]), _pulse_counts(drive, ranges, held), drive
+    leads = [-1, 1] if "phase_lead" in ranges else [int(np.asarray(drive.phase_lead))]
+    counts = [(m, n, lead) for m, n in _pulse_counts(drive, ranges, held) for lead in leads]
+    return Box(names, ends[:, 0], ends[:, 1]), counts, drive
+
+
+def _warn_beyond_hardware(motor: Motor, drive: Drive, ranges: Mapping[str, tuple[float, float]]) -> None:
+    """Warn of a search beyond what the motor file says that the hardware can be set to."""
+    for name, allowed in motor.allowed.items():
+        alone = float(getattr(drive, name))
+        low, high = ranges.get(name, (alone, alone))
+        if low < allowed.low or high > allowed.high:
+            where = f"{low:g}" if low == high else f"{low:g} to {high:g}"
+            unit = DRIVE_DOMAINS[name][1]
+            warnings.warn(
+                f"{name}: {where} {unit} reaches outside {allowed.low:g} to {allowed.high:g} {unit}, which the "
+                f"hardware can be set to ({allowed.source})",
+                ValidityWarning,
+                stacklevel=4,
+            )
 
 
 def _checked(label: str, name: str, value: object) -> float:
+    if name == "phase_lead":
+        lead = one_number(label, value, "1", LEAD)
+        if lead not in (-1.0, 1.0):
+            raise ParameterError(label, full(lead), "1 or -1; -1 to 1 frees it")
+        return lead
     domain, unit = DRIVE_DOMAINS[name]
     return one_number(label, value, unit, domain)
 
 
 def _range(name: str, value: Sequence[object]) -> tuple[float, float]:
     """The ends of a variable's range, checked."""
-    label, unit = f"bounds of {name}", DRIVE_DOMAINS[name][1]
+    label, unit = f"bounds of {name}", "1" if name == "phase_lead" else DRIVE_DOMAINS[name][1]
     if len(value) != 2:
         raise ParameterError(label, value, "two numbers, low and high")
     low, high = (_checked(label, name, end) for end in value)
@@ -247,15 +311,16 @@ def warn_outside_fit(problem: Problem) -> None:
 
 
 def _over_pulses(
-    problem: Problem, pulses: list[tuple[int, int]], bars: tuple[str | None, str | None, str | None]
+    problem: Problem, pulses: list[Counts], bars: tuple[str | None, str | None, str | None]
 ) -> tuple[Answer, Problem, int, int]:
-    """The best answer over all pairs of periods and on_periods.
+    """The best answer over all periods, on_periods and phase leads.
 
-    A coarse map ranks the pairs; those whose estimate is worse than the best answer by a margin are not solved.
+    A coarse map ranks them; those whose estimate is worse than the best answer by a margin are not solved.
     """
 
-    def at(pair: tuple[int, int]) -> Problem:
-        return replace(problem, drive=replace(problem.drive, periods=pair[0], on_periods=pair[1]))
+    def at(pair: Counts) -> Problem:
+        counted: dict[str, Any] = dict(zip(_COUNTED, pair, strict=True))
+        return replace(problem, drive=replace(problem.drive, **counted))
 
     if len(pulses) == 1:
         chosen = at(pulses[0])
@@ -345,6 +410,8 @@ def _optimum(
             "on_periods": int(drive.on_periods),
             "periods": int(drive.periods),
             "switching_phase": float(drive.switching_phase),
+            "load_torque": float(drive.load_torque),
+            "phase_lead": int(np.asarray(drive.phase_lead)),
             **{name: figures[name] for name in ("mean_speed", "speed_volatility", "q_average", "q_volatility")},
             "constraint_violation": best.violation,
         }
@@ -355,6 +422,8 @@ def _optimum(
         "on_periods",
         "periods",
         "switching_phase",
+        "load_torque",
+        "phase_lead",
         "mean_speed",
         "speed_volatility",
         "q_average",
@@ -364,9 +433,9 @@ def _optimum(
     return Optimum(
         status=status,
         objective=value if status == "solved" else None,
-        **{name: known.get(name) for name in names},  # type: ignore[arg-type]
+        **{name: known.get(name) for name in names},
         evaluations=evaluations,
-        message=_message(status, objective, target, answer, reachable),
+        message=_message(status, objective, target, answer, reachable, problem),
         evidence=evidence,
         figures=figures,
         problem=problem,
@@ -375,7 +444,12 @@ def _optimum(
 
 
 def _message(
-    status: str, objective: str, target: float | None, answer: Answer, reachable: tuple[float, float] | None
+    status: str,
+    objective: str,
+    target: float | None,
+    answer: Answer,
+    reachable: tuple[float, float] | None,
+    problem: Problem,
 ) -> str:
     if status == "solved":
         count = len(answer.optima)
@@ -389,5 +463,6 @@ def _message(
             "arcsec/s; the point given is the nearest"
         )
     if status == "infeasible":
-        return "no point of the box meets all constraints; the one given violates them the least"
+        limits = binding(problem.constraints, answer.best.constraints)
+        return f"no point of the box meets all constraints; the one given violates them the least: {limits}"
     return "no point that meets the constraints was found, nor evidence that there is none; the nearest is given"

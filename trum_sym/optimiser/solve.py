@@ -5,31 +5,39 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from trum_sym.inputs.checks import Array
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
+from trum_sym.model.holding import Asked
 from trum_sym.model.levels import Levels
 from trum_sym.optimiser.chart import Chart, basins, chart
 from trum_sym.optimiser.descent import Task, Visit, descend
-from trum_sym.optimiser.expressions import Constraint, Expression
+from trum_sym.optimiser.expressions import Constraint, Expression, symbol
 from trum_sym.optimiser.extra import casadi
 from trum_sym.optimiser.finish import ALLOWED, TOLERANCE, Bounds, Finished, checked, finish
+from trum_sym.optimiser.held import HELD_FIGURES
 from trum_sym.optimiser.kinks import compass, stationarity
+from trum_sym.optimiser.level import Place, seek
 from trum_sym.optimiser.model import Box, Functions, Model, functions
 from trum_sym.output.progress import duration
 from trum_sym.values import Value
 
-__all__ = ["Answer", "Problem", "solve"]
+__all__ = ["Answer", "Problem", "map_of", "solve"]
 
 _MOST_STARTS = 8
 _DESCENT = 1e-6  # tolerance of IPOPT's orbits
 _CLOSE = 1e-3  # objectives closer than this share are finished too; optima closer than this in the box are one
 _STEPS = 60  # of a bisection
 _STATIONARY = 3e-3  # slope of the scaled objective across the box that is left to a minimum
+_DENSE = {1: 65, 2: 25, 3: 9, 4: 6}  # places along a side of the map where drifts and the like are sought
+_HELD_STARTS, _FINISHED = 6, 3  # starts; ends of its searches that are gone on from on the finest orbits
+_NEAR = 0.1  # of the best one's figures, by which others are worse that are gone on from
+_ROUGH, _FINE = 2e-3, 3e-9  # last radii of these, of the box's side
+_ROUGHER = 1e-5  # tolerance of the orbits of the first of them
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,6 +50,8 @@ class Problem(Value):
     box: Box
     objective: Expression
     constraints: tuple[Constraint, ...] = ()
+    asked: Asked = field(default_factory=Asked)
+    target: float | None = None  # the mean speed that is wanted, rad/s, whether or not a constraint holds it
 
     @property
     def names(self) -> frozenset[str]:
@@ -50,7 +60,7 @@ class Problem(Value):
 
     def model(self) -> Model:
         """The figures of this problem's points; problems that differ in the constraints' bounds only may share it."""
-        return Model(self.motor, self.drive, self.levels, self.box, self.names)
+        return Model(self.motor, self.drive, self.levels, self.box, self.names, self.asked, self.target)
 
 
 @dataclass(frozen=True)
@@ -143,8 +153,9 @@ def solve(
     """
     begin = time.monotonic()
     model = problem.model() if model is None else model
+    held = bool(problem.names & set(HELD_FIGURES))
     tell("a map of the box")
-    known = chart(model) if known is None else known
+    known = map_of(problem, model) if known is None else known
     tell(f"descents from its basins, about {duration(2 * (time.monotonic() - begin))}")
     rows = functions([problem.objective, *(constraint.expression for constraint in problem.constraints)])
     values = rows.values(known.figures)
@@ -156,6 +167,8 @@ def solve(
     if not np.isfinite(known.figures["mean_speed"]).any():
         return search.answer("infeasible", None)
     places, objective, violation = basins(known, rows, low, high, span)
+    if held:
+        return _solve_held(search, places, violation)
     met = violation <= 1e-12
     search.basins = int(met.sum())
     best = _descend_and_finish(search, places[met], objective[met]) if met.any() else None
@@ -167,6 +180,60 @@ def solve(
     if best is not None and best.feasible:
         return search.answer("solved", best)
     return search.answer("infeasible" if _excluded(search, best) else "failed", best)
+
+
+def map_of(problem: Problem, model: Model) -> Chart:
+    """The map of a problem's box, denser where drifts and the like are sought."""
+    dense = _DENSE[len(problem.box.names)] if problem.names & set(HELD_FIGURES) else None
+    return chart(model, dense)
+
+
+def _solve_held(search: _Search, places: Array, violation: Array) -> Answer:
+    """The least objective, or the least violation, where figures have no slopes that are worth their price."""
+    model, rows, bounds, constraints = search.model, search.functions, search.bounds, search.problem.constraints
+    search.basins = int((violation <= 1e-12).sum())
+    spacing = 1.0 / (max(search.map.shape) - 1)
+    starts = places[:_HELD_STARTS]
+    search.starts = len(starts)
+    ends: list[Place] = []
+    for end in sorted(
+        seek(model, rows, constraints, bounds, starts, (spacing, _ROUGH), _ROUGHER), key=lambda e: e.rank
+    ):
+        if all(np.max(np.abs(end.share - other.share)) > _CLOSE for other in ends):
+            ends.append(end)
+    if not ends:
+        return _without_level(search)
+    begun = np.array([end.share for end in ends[:_FINISHED] if _near(end, ends[0])])
+    found = sorted(seek(model, rows, constraints, bounds, begun, (_ROUGH, _FINE), TOLERANCE), key=lambda end: end.rank)
+    others = [end for end in ends if not any(np.array_equal(end.share, share) for share in begun)]
+    met = sorted((end for end in (*found, *others) if end.violation <= ALLOWED), key=lambda end: end.rank)
+    search.optima = [(end.share, float(end.values[0])) for end in met]
+    points = [checked(model, rows, bounds, end.share) for end in found or ends[:1]]
+    best = min(points, key=_order)
+    if not best.feasible:  # by a hair, which Newton's method may leave
+        (looked,) = _looked(search, rows, best.share[np.newaxis])
+        brought = finish(model, rows, bounds, looked)
+        best = brought if brought.feasible else best
+    return search.answer("solved" if best.feasible else "infeasible", best)
+
+
+def _near(end: Place, best: Place) -> bool:
+    """Whether what is left of a search may still end better than the best so far."""
+    if end.violation > ALLOWED or best.violation > ALLOWED:
+        return end.violation <= (1 + _NEAR) * best.violation + _NEAR * ALLOWED
+    return bool(end.values[0] <= best.values[0] + _NEAR * abs(best.values[0]))
+
+
+def _without_level(search: _Search) -> Answer:
+    """Where no search has met the equalities: what those say by themselves."""
+    problem = search.problem
+    equal = tuple(c for c in problem.constraints if c.low == c.high)
+    aim = Expression("speed_deviation", symbol("speed_deviation"), frozenset({"speed_deviation"}), "rad/s")
+    alone = solve(replace(problem, objective=aim, constraints=equal))
+    search.model.evaluations += alone.evaluations
+    search.ranges = alone.ranges
+    nearest = None if alone.best is None else checked(search.model, search.functions, search.bounds, alone.best.share)
+    return search.answer("infeasible" if alone.status == "infeasible" else "failed", nearest)
 
 
 def _extent(values: Array) -> tuple[Array, Array]:

@@ -28,6 +28,7 @@ from trum_sym.quantities import QUANTITIES, Quantity
 from trum_sym.studies.pareto import ParetoFront
 from trum_sym.studies.robust import RobustPoint
 from trum_sym.studies.speed_table_result import SpeedTable
+from trum_sym.studies.track import Tracking
 from trum_sym.text import one_line
 
 if TYPE_CHECKING:
@@ -44,6 +45,7 @@ __all__ = [
     "slopes",
     "swept",
     "table",
+    "tracked",
     "worst_case",
     "write",
 ]
@@ -309,3 +311,31 @@ def table(found: SpeedTable) -> Figure:
     axes[-1].set_xlabel("mean speed (arcsec/s)" + "; grey: speeds that the table does not have" * bool(found.gaps))
     axes[0].set_title(f"{_plain(found.motor)}: {len(found)} entries")
     return figure_of(axes[0])
+
+
+@styled
+def tracked(found: Tracking) -> Figure:
+    """Speed in closed and in open loop, the frequency that is set, and how the disturbances come."""
+    top, middle, bottom = panels(None, 3, 1, 6.6, sharex=True)
+    target = found.target_speed / ARCSEC
+    for run, colour, name in ((found.open, COLOURS[1], "open loop"), (found.closed, COLOURS[0], "closed loop")):
+        few = min(5, run.time.size)
+        means = np.convolve(run.speed, np.full(few, 1 / few), "valid") / ARCSEC
+        top.plot(1e3 * run.time, run.speed / ARCSEC, color=colour, linewidth=0.4, alpha=0.5)
+        top.plot(1e3 * run.time[few - 1 :], means, color=colour, label=f"{name}, mean of {few} periods")
+        middle.plot(1e3 * run.time, run.frequency_difference, color=colour, drawstyle="steps-post", label=name)
+    top.axhline(target, color=INK, linewidth=0.8, linestyle=":", label=f"target, {target:.6g} arcsec/s")
+    top.set_ylabel("mean speed (arcsec/s)")
+    middle.set_ylabel("frequency difference (Hz)")
+    for disturbance, colour in zip(found.disturbances, (*COLOURS[2:], *COLOURS[:2]), strict=False):
+        bottom.plot(1e3 * found.closed.time, found.set_values(disturbance), color=colour, label=disturbance.text)
+    bottom.set_ylabel("share that has come")
+    bottom.set_xlabel("time (ms)")
+    legend(top)
+    legend(bottom, ncols=2)
+    figure_of(top).suptitle(
+        f"{_plain(found.inputs.motor.name)}: PI every {1e3 * found.control_period:g} ms, "
+        f"{found.encoder_counts} counts, {found.inputs.drive.load_text()}",
+        fontsize=9,
+    )
+    return figure_of(top)

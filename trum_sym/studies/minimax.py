@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -36,7 +37,7 @@ class Outcome:
     point: Array
     objectives: list[float]
     violations: list[float]
-    figures: list[Mapping[str, float]]
+    figures: list[Mapping[str, Any]]
 
     @property
     def feasible(self) -> bool:

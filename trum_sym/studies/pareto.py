@@ -16,17 +16,19 @@ from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
 from trum_sym.inputs.points import one_number
 from trum_sym.inputs.shown import full
+from trum_sym.inputs.spreads import Spread
 from trum_sym.inputs.units import ARCSEC
-from trum_sym.model.inputs import Inputs, remarks_of, units_of
+from trum_sym.model.holding import WITHIN, Asked, Holding, compared
+from trum_sym.model.inputs import Inputs, units_of
 from trum_sym.model.levels import LevelChoice, Levels
-from trum_sym.optimiser.chart import chart
 from trum_sym.optimiser.expressions import Constraint, Expression, parse_expression
 from trum_sym.optimiser.finish import TOLERANCE, Finished
+from trum_sym.optimiser.limits import Holds
 from trum_sym.optimiser.model import Model, functions
-from trum_sym.optimiser.solve import Answer, Problem, solve
+from trum_sym.optimiser.solve import Answer, Problem, map_of, solve
 from trum_sym.output.progress import shown
 from trum_sym.output.result import Result
-from trum_sym.studies.posed import Bound, posed
+from trum_sym.studies.posed import Bound, Held, posed
 from trum_sym.text import one_line
 from trum_sym.values import Value
 
@@ -52,7 +54,7 @@ class ParetoPoint(Value):
     speed_volatility: float
     stall_torque: float
     constraint_violation: float
-    figures: Mapping[str, float]
+    figures: Mapping[str, Any]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -87,27 +89,41 @@ class ParetoFront(Result, Value):
     evaluations: int
     message: str
     inputs: Inputs = field(repr=False)
+    terms: Asked = field(repr=False, default_factory=Asked)
+
+    @property
+    def holdings(self) -> list[Holding]:
+        """What it takes to hold each point."""
+        if not self.points:
+            return []
+        names = ("prepressure", "frequency_difference", "switching_phase")
+        rows: dict[str, Any] = {name: np.array([p.figures[name] for p in self.points]) for name in names}
+        inputs = self.inputs
+        return self.terms.each(inputs.motor, replace(inputs.drive, **rows), inputs.levels)
 
     def __repr__(self) -> str:
         return f"<ParetoFront {self.status}: {self.message}>"
 
     def to_dict(self) -> dict[str, Any]:
         """Inputs, points with their drives and remarks, and units by name, in SI units."""
+        holdings = self.holdings
         keys = [name for name in ParetoPoint.__dataclass_fields__ if name != "figures"]
-        load = float(self.inputs.drive.load_torque)
         points = [
             {
                 **{key: getattr(point, key) for key in keys},
                 "drive": {
                     name: point.figures[name] for name in ("prepressure", "frequency_difference", "switching_phase")
                 },
-                "remarks": remarks_of(point.figures, load),
+                "holding": holding.entries(),
+                "remarks": holding.remarks,
             }
-            for point in self.points
+            for point, holding in zip(self.points, holdings, strict=True)
         ]
-        own = {name: getattr(self, name) for name in self.__dataclass_fields__ if name not in ("points", "inputs")}
+        hidden = ("points", "inputs", "terms")
+        own = {name: getattr(self, name) for name in self.__dataclass_fields__ if name not in hidden}
         found = {**self.inputs.record(), **own, "points": points, "remarks": []}
-        return {**found, "units": units_of(found)}
+        units = {**units_of(found), "holding": holdings[0].units} if holdings else units_of(found)
+        return {**found, "units": units}
 
     def to_text(self, title: str = "") -> str:
         """For people."""
@@ -139,9 +155,11 @@ class ParetoFront(Result, Value):
         lines = [title or one_line(self.inputs.motor.name), "", f"{self.status}: {self.message}"]
         if rows:
             lines += ["", tabulate(rows, headers, disable_numparse=True, colalign=("right",) * 8)]
-        load = float(self.inputs.drive.load_torque)
-        for number, point in enumerate(self.points, 1):
-            lines += [f"remark on #{number}: {remark}" for remark in remarks_of(point.figures, load)]
+        holdings = self.holdings
+        if holdings:
+            lines += ["", compared([f"{k}" for k in range(1, len(holdings) + 1)], holdings, "#"), ""]
+        for number, holding in enumerate(holdings, 1):
+            lines += [f"remark on #{number}: {remark}" for remark in holding.remarks]
         lines += [f"gap: nothing between {self.against} {low:.6g} and {high:.6g}" for low, high in self.gaps]
         return "\n".join([*lines, "", f"{self.asked} problems, {self.evaluations} orbits computed"])
 
@@ -156,6 +174,11 @@ def pareto(
     points: int = 11,
     bounds: Mapping[str, Bound] | None = None,
     constraints: Sequence[str] = (),
+    holds: Holds | None = None,
+    starts: float | str | None = None,
+    within: float | str = WITHIN,
+    spreads: Mapping[str, Spread] | None = None,
+    sampling_period: float | str | None = None,
     progress: bool = False,
     **levels: Unpack[LevelChoice],
 ) -> ParetoFront:
@@ -167,7 +190,7 @@ def pareto(
 
     Parameters
     ----------
-    motor, drive, target_speed, bounds, constraints, contact, resonance, foundation, amplitude
+    motor, drive, target_speed, bounds, constraints, holds, starts, within, spreads, sampling_period
         As for :func:`trum_sym.optimize`; pulse counts have one value each.
     objective : str
         What is to be small, as there.
@@ -194,7 +217,8 @@ def pareto(
     if against == "speed-error" and target is None:
         raise ParameterError("target_speed", "none", "a speed in rad/s for speed-error")
     held = None if against == "speed-error" else target
-    problem = posed(motor, drive, Levels(**levels), objective, held, bounds, constraints)
+    terms = Held(holds, starts, within, spreads, sampling_period, target)
+    problem = posed(motor, drive, Levels(**levels), objective, held, bounds, constraints, terms)
     expression, sign = _against(against, target)
     walk = _walk(problem, expression, sign, target if against == "speed-error" else None, count, progress)
     best, answers = walk.answers[0], walk.answers
@@ -213,6 +237,7 @@ def pareto(
         evaluations=walk.model.evaluations,
         message=message,
         inputs=Inputs(problem.motor, problem.drive, problem.levels, None, TOLERANCE),
+        terms=problem.asked,
     )
 
 
@@ -264,8 +289,9 @@ def _figure(expression: Expression, point: Finished) -> float:
 def _walk(
     problem: Problem, expression: Expression, sign: float, target: float | None, count: int, progress: bool
 ) -> _Walk:
-    model = Model(problem.motor, problem.drive, problem.levels, problem.box, problem.names | expression.names)
-    known = chart(model)
+    shared = replace(problem, constraints=(*problem.constraints, Constraint(expression, -math.inf, math.inf)))
+    model = shared.model()
+    known = map_of(shared, model)
 
     def ask(objective: Expression, *extra: Constraint) -> Answer:
         limited = replace(problem, objective=objective, constraints=(*problem.constraints, *extra))

@@ -20,15 +20,17 @@ from trum_sym.inputs.points import one_number
 from trum_sym.inputs.shown import full
 from trum_sym.inputs.spreads import Spread, read_spread
 from trum_sym.inputs.units import ARCSEC
+from trum_sym.model.holding import WITHIN, Asked, Holding
 from trum_sym.model.inputs import Inputs, remarks_of, units_of
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.optimiser.finish import TOLERANCE
+from trum_sym.optimiser.limits import Holds
 from trum_sym.optimiser.model import Model
 from trum_sym.optimiser.solve import Problem, solve
 from trum_sym.output.progress import shown
 from trum_sym.output.result import Result
 from trum_sym.studies.minimax import Minimax, Outcome
-from trum_sym.studies.posed import Bound, posed
+from trum_sym.studies.posed import Bound, Held, posed
 from trum_sym.text import one_line
 from trum_sym.values import Value
 
@@ -51,6 +53,7 @@ class RobustCase(Value):
     speed_volatility: float
     stall_torque: float
     violation: float
+    reason: str = ""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -94,15 +97,26 @@ class RobustPoint(Result, Value):
     evaluations: int
     message: str
     inputs: Inputs = field(repr=False)
+    terms: Asked = field(repr=False, default_factory=Asked)
+
+    @property
+    def holding(self) -> Holding | None:
+        """What it takes to hold the point in the nominal case; None where none was found."""
+        inputs = self.inputs
+        return self.terms.of(inputs.motor, inputs.drive, inputs.levels) if self.cases else None
 
     @property
     def remarks(self) -> tuple[str, ...]:
         """What the figures of the cases do not say by themselves."""
-        return tuple(
+        return self._remarks(self.holding)
+
+    def _remarks(self, held: Holding | None) -> tuple[str, ...]:
+        fragile = () if held is None or not held.fragile else (f"nominal: {held.fragile}",)
+        return fragile + tuple(
             f"{_words(case.changed)}: {remark}"
             for case in self.cases
             for remark in remarks_of(
-                {"mean_speed": case.mean_speed, "stall_torque": case.stall_torque},
+                {"mean_speed": case.mean_speed, "stall_torque": case.stall_torque, "reason": case.reason},
                 case.changed.get("load_torque", float(self.inputs.drive.load_torque)),
             )
         )
@@ -112,10 +126,14 @@ class RobustPoint(Result, Value):
 
     def to_dict(self) -> dict[str, Any]:
         """Inputs, the point, every case, remarks and units by name, in SI units."""
-        own = {name: getattr(self, name) for name in self.__dataclass_fields__ if name not in ("cases", "inputs")}
+        hidden = ("cases", "inputs", "terms")
+        own = {name: getattr(self, name) for name in self.__dataclass_fields__ if name not in hidden}
         cases = [{key: getattr(case, key) for key in RobustCase.__dataclass_fields__} for case in self.cases]
-        found = {**self.inputs.record(), **own, "cases": cases, "remarks": self.remarks}
-        return {**found, "units": units_of(found)}
+        held = self.holding
+        remarks = self._remarks(held)
+        found = {**self.inputs.record(), **own, "cases": cases, "remarks": remarks}
+        found = {**found, "units": units_of(found)}
+        return found if held is None else {**held.joined(found), "remarks": remarks}
 
     def to_text(self, title: str = "") -> str:
         """For people: the point, then every case."""
@@ -138,7 +156,9 @@ class RobustPoint(Result, Value):
             ]
             headers = ("case", self.objective, "mean arcsec/s", "volatility %", "stall N m", "violation")
             lines += ["", tabulate(rows, headers, disable_numparse=True, colalign=("left", *["right"] * 5)), ""]
-            lines += [f"remark on {remark}" for remark in self.remarks]
+            held = self.holding
+            lines += [*held.lines(), ""] if held is not None else []
+            lines += [f"remark on {remark}" for remark in self._remarks(held)]
             if math.isfinite(self.worst_inside):
                 lines.append(f"worst of {_INSIDE} random cases inside the spreads: {self.worst_inside:.6g}")
             if math.isfinite(self.worst_of_nominal_optimum):
@@ -160,6 +180,10 @@ def robust(
     target_speed: float | str | None = None,
     bounds: Mapping[str, Bound] | None = None,
     constraints: Sequence[str] = (),
+    holds: Holds | None = None,
+    starts: float | str | None = None,
+    within: float | str = WITHIN,
+    sampling_period: float | str | None = None,
     progress: bool = False,
     **levels: Unpack[LevelChoice],
 ) -> RobustPoint:
@@ -170,7 +194,7 @@ def robust(
 
     Parameters
     ----------
-    motor, drive, objective, target_speed, bounds, constraints, contact, resonance, foundation, amplitude
+    motor, drive, objective, target_speed, bounds, constraints, holds, starts, within, sampling_period
         As for :func:`trum_sym.optimize`; pulse counts have one value each.  With a target, volatility is the speed's
         standard deviation over the target's magnitude in every case.
     spreads : mapping
@@ -194,7 +218,8 @@ def robust(
     if error and target is None:
         raise ParameterError("target_speed", "none", "a speed in rad/s for the objective speed-error")
     aim, held = ("mean_speed", None) if error else (objective, target)
-    problem = posed(motor, drive, Levels(**levels), aim, held, bounds, constraints)
+    terms = Held(holds, starts, within, None, sampling_period, target)
+    problem = posed(motor, drive, Levels(**levels), aim, held, bounds, constraints, terms)
     ranges = _ranges(problem, spreads, samples)
     cases = _cases(problem, ranges, samples)
     models = [_model(problem, case) for case in cases]
@@ -288,7 +313,7 @@ def _model(problem: Problem, case: Mapping[str, float]) -> Model:
     drive = replace(problem.drive, **{name: values.pop(name) for name in _OF_LOAD if name in values})
     with unquestioned():
         motor = problem.motor.with_values(values)
-    return Model(motor, drive, problem.levels, problem.box, problem.names)
+    return Model(motor, drive, problem.levels, problem.box, problem.names, problem.asked, problem.target)
 
 
 def _result(
@@ -335,12 +360,13 @@ def _result(
         inputs=Inputs(problem.motor, replace(problem.drive, **at), problem.levels, None, TOLERANCE),
         constraint_violation=max(found.violations),
         evaluations=evaluations,
+        terms=problem.asked,
         cases=tuple(
             RobustCase(
                 changed=case,
                 objective=value,
                 violation=violation,
-                **{name: figures[name] for name in ("mean_speed", "speed_volatility", "stall_torque")},
+                **{name: figures[name] for name in ("mean_speed", "speed_volatility", "stall_torque", "reason")},
             )
             for case, value, violation, figures in zip(
                 cases, found.objectives, found.violations, found.figures, strict=True

@@ -13,12 +13,15 @@ from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
 from trum_sym.inputs.points import one_number
+from trum_sym.inputs.spreads import Spread
+from trum_sym.model.holding import WITHIN
 from trum_sym.model.inputs import Inputs
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.optimiser.chart import chart
+from trum_sym.optimiser.limits import Holds
 from trum_sym.optimiser.model import Model
 from trum_sym.output.progress import said
-from trum_sym.studies.posed import Bound, posed
+from trum_sym.studies.posed import Bound, Held, posed
 from trum_sym.studies.speed_table_result import Gap, Segment, SpeedTable
 from trum_sym.studies.table_builder import TOLERANCE, Builder, TableEntry
 
@@ -40,6 +43,11 @@ def speed_table(
     error: float = 0.01,
     bounds: Mapping[str, Bound] | None = None,
     constraints: Sequence[str] = (),
+    holds: Holds | None = None,
+    starts: float | str | None = None,
+    within: float | str = WITHIN,
+    spreads: Mapping[str, Spread] | None = None,
+    sampling_period: float | str | None = None,
     progress: bool = False,
     **levels: Unpack[LevelChoice],
 ) -> SpeedTable:
@@ -52,7 +60,7 @@ def speed_table(
 
     Parameters
     ----------
-    motor, drive, bounds, constraints, contact, resonance, foundation, amplitude
+    motor, drive, bounds, constraints, holds, starts, within, spreads, sampling_period
         As for :func:`trum_sym.optimize`; pulse counts have one value each.
     slowest, fastest : float or str, rad/s
         Magnitudes of the speeds; text may carry a unit.
@@ -85,7 +93,8 @@ def speed_table(
     count = int(one_number("points", points, "1", _COUNT))
     error = one_number("error", error, "1", Domain(low=1e-6, low_open=False, high=0.5, high_open=False))
     choice("direction", direction, _DIRECTIONS)
-    problem = posed(motor, drive, Levels(**levels), "speed_deviation", None, bounds, constraints)
+    terms = Held(holds, starts, within, spreads, sampling_period)
+    problem = posed(motor, drive, Levels(**levels), "speed_deviation", None, bounds, constraints, terms)
     sizes = np.geomspace(low, high, count)
     speeds = {"both": np.concatenate([-sizes[::-1], sizes]), "positive": sizes, "negative": -sizes[::-1]}[direction]
     model = problem.model()
@@ -111,6 +120,7 @@ def speed_table(
         evaluations=model.evaluations,
         inputs=Inputs(problem.motor, problem.drive, problem.levels, None, TOLERANCE),
         reachable=(float(np.nanmin(found)), float(np.nanmax(found))),
+        terms=problem.asked,
     )
 
 

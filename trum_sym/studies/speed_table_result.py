@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from os import PathLike
 from typing import Any
 
@@ -15,6 +15,7 @@ from trum_sym.inputs.choices import path_of
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.points import one_number
 from trum_sym.inputs.units import ARCSEC
+from trum_sym.model.holding import Asked, Holding, compared
 from trum_sym.model.inputs import Inputs, units_of
 from trum_sym.output.result import Result
 from trum_sym.text import one_line
@@ -88,6 +89,16 @@ class SpeedTable(Result, Value):
     reachable: tuple[float, float]
     evaluations: int
     inputs: Inputs = field(repr=False)
+    terms: Asked = field(repr=False, default_factory=Asked)
+
+    def holdings(self, places: Sequence[int] | None = None) -> list[Holding]:
+        """What it takes to hold the entries, counted through all segments; of all of them if no places are given."""
+        rows: dict[str, Any] = {
+            name: np.concatenate([segment.drive[name] for segment in self.segments]) for name in self.variables
+        }
+        chosen = range(len(self)) if places is None else places
+        drives = {name: column[list(chosen)] for name, column in rows.items()}
+        return self.terms.each(self.inputs.motor, replace(self.drive, **drives), self.inputs.levels) if chosen else []
 
     def __len__(self) -> int:
         return sum(segment.speed.size for segment in self.segments)
@@ -202,12 +213,30 @@ def _as_text(table: SpeedTable) -> str:
             *body,
             "",
             *table.about()[2:],
+            *_held(table),
             f"mean speeds on the map of the box: {low:.6g} to {high:.6g} arcsec/s; {table.evaluations} orbits computed",
         ]
     )
 
 
+_SHOWN = 7  # entries of which the summary says what it takes to hold them
+
+
+def _held(table: SpeedTable) -> list[str]:
+    """What it takes to hold some entries, evenly over the table, and their remarks."""
+    if not len(table):
+        return []
+    places = np.unique(np.linspace(0, len(table) - 1, _SHOWN).round().astype(int)).tolist()
+    speeds = np.concatenate([segment.speed for segment in table.segments])[places] / ARCSEC
+    labels, holdings = [f"{speed:.6g}" for speed in speeds], table.holdings(places)
+    lines = ["", compared(labels, holdings, "arcsec/s"), ""]
+    for label, holding in zip(labels, holdings, strict=True):
+        lines += [f"remark on {label} arcsec/s: {remark}" for remark in holding.remarks]
+    return lines
+
+
 def _as_dict(table: SpeedTable) -> dict[str, Any]:
+    holdings = iter(table.holdings())
     record = {
         **table.inputs.record(),
         "variables": list(table.variables),
@@ -225,7 +254,12 @@ def _as_dict(table: SpeedTable) -> dict[str, Any]:
             for segment in table.segments
         ],
         "points": [
-            {"mean_speed": float(segment.speed[k]), "drive": {name: float(x[k]) for name, x in segment.drive.items()}}
+            {
+                "mean_speed": float(segment.speed[k]),
+                "drive": {name: float(x[k]) for name, x in segment.drive.items()},
+                "holding": (held := next(holdings)).entries(),
+                "remarks": held.remarks,
+            }
             for segment in table.segments
             for k in range(segment.speed.size)
         ],
