@@ -37,6 +37,8 @@ BASE = {
         *("--target-speed", "100000 arcsec/s", "--load-torque", "0.1", "--prepressure", "180"),
         *("--duration", "8 ms"),
     ),
+    ("c-library",): ("new.library",),
+    ("fmu",): ("new.fmu", "--sources-only"),
     ("equations",): (),
     ("motor", "show"): ("trum60",),
     ("motor", "check"): ("trum60",),
@@ -130,6 +132,7 @@ FILES = {
 NO_FIGURE = {
     ("equations", "--open"): "a page in a browser: below",
     ("sweep", "--chunk"): "how the work is divided: tests/sweeps",
+    ("fmu", "--sources-only"): "it takes a compiler: tests/driver/test_export.py",
 }
 INPUTS = ("motor_values", "drive", "levels", "assumed", "sampling_period", "tolerance", "units", "motor", "start")
 
@@ -199,7 +202,8 @@ def answered(capsys, folder, words, line):
         found = json.loads(out)
         record = {k: v for k, v in found.items() if k not in INPUTS} if isinstance(found, dict) else found
     written = (*folder.glob("new.*"), *folder.glob("*.csv"), *folder.glob("my.toml"))
-    files = {path.name: path.read_bytes() for path in written if path.is_file()}
+    inside = [file for path in written for file in (path.rglob("*") if path.is_dir() else (path,))]
+    files = {str(file): file.read_bytes() for file in inside if file.is_file()}
     return code, record if record is not None else out, files
 
 
