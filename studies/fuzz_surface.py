@@ -132,7 +132,7 @@ broken = st.lists(edits, min_size=1, max_size=3).map(
     lambda found: "".join(_edited(TOML, at, gone, new) for at, gone, new in found[:1])
 )
 columns = some(("prepressure", "amplitude", "resonance_frequency", "time", "displacement", "x"), values, 3)
-evaluations = some(("spread", "sampling_period"), values, 1) | levels
+evaluations = some(("tolerance", "sampling_period"), values, 1) | levels
 
 
 def _edited(text: str, at: int, gone: int, new: str) -> str:

@@ -31,23 +31,25 @@ static inline void board_start(void) {}
 static inline uint32_t board_count(void) { return 0u; }
 #endif
 
-/* A stretch of stack below the caller, painted, and how much of it was written to since. */
-#define BOARD_STACK 32768u
+/* A stretch of stack below all frames of the caller, painted, and how much of it was written to since.  A frame's own address
+ * may lie above its variables, so it is a callee that paints. */
+#define BOARD_STACK 32768
 #define BOARD_PAINT 0xA5u
 #if defined(__arm__) || defined(__riscv)
-#define BOARD_STACK_END(from) ((volatile unsigned char*)(from) - BOARD_STACK)
-static inline void board_paint(void* from) {
-  volatile unsigned char* p = BOARD_STACK_END(from);
-  for (; p < (volatile unsigned char*)from - 128; ++p) *p = BOARD_PAINT;
+static volatile unsigned char* board_base;
+static __attribute__((noinline)) void board_paint(void) {
+  volatile unsigned char here = 0, *p;
+  board_base = &here - 64;
+  for (p = board_base - BOARD_STACK; p < board_base; ++p) *p = BOARD_PAINT;
 }
-static inline uint32_t board_depth(void* from) {
-  volatile unsigned char* p = BOARD_STACK_END(from);
-  while (p < (volatile unsigned char*)from && *p == BOARD_PAINT) ++p;
-  return (uint32_t)((volatile unsigned char*)from - p);
+static inline uint32_t board_depth(void) {
+  volatile unsigned char* p = board_base - BOARD_STACK;
+  while (p < board_base && *p == BOARD_PAINT) ++p;
+  return (uint32_t)(board_base - p) + 64u;
 }
 #else
-static inline void board_paint(void* from) { (void)from; }
-static inline uint32_t board_depth(void* from) { return (void)from, 0u; }
+static inline void board_paint(void) {}
+static inline uint32_t board_depth(void) { return 0u; }
 #endif
 
 #endif

@@ -28,11 +28,11 @@ int main(void) {
 #ifdef TOLERANCE
     drive.tolerance = TRUM_C(TOLERANCE);
 #endif
-    board_paint(__builtin_frame_address(0));
+    board_paint();
     before = board_count();
     status = (int)trum_evaluate(&my_motor, &drive, &point);
     after = board_count();
-    depth = board_depth(__builtin_frame_address(0));
+    depth = board_depth();
     printf("%ld,%d,%ld,%.0f,%lu", i, status, (long)point.steps, (double)(after - before) * BOARD_UNIT, (unsigned long)depth);
 #define PRINT(name, unit) printf(",%.9g", (double)point.name);
     TRUM_FIGURES(PRINT)

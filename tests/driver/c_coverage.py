@@ -156,6 +156,7 @@ def edges() -> list[str]:
         "phase_lead=0",
         "tolerance=1",
         "tolerance=1e-12",
+        *(f"max_steps={x}" for x in (-1, 1, 3000, 100000)),
         "beam_density=1e300",
         "voltage=1e30 amplitude=forced",
         "voltage=1e-30 amplitude=forced",
@@ -226,6 +227,7 @@ def script() -> str:
     lines += friction()
     lines += [f"simulate {count} load_torque=0.05 {more}" for count in (0, 1, 1000) for more in ("", "contact=hertz")]
     lines += ["simulate 100 load_torque=0.05 on_periods=20 tangential=brush"]
+    lines += [f"simulate 10 load_torque=0.05 tolerance=1e-3 max_steps={x}" for x in (2454, 4928)]
     lines += ["simulate 700 load_torque=0.05 start=rest tolerance=1e-6", "simulate 3 load_torque=2", "edges"]
     return "\n".join(lines) + "\n"
 

@@ -132,7 +132,7 @@ def write_folder(name: str, files: Mapping[str, str], folder: Path) -> None:
         If they cannot be written.
     """
     try:
-        if folder.is_dir() and any(folder.iterdir()):
+        if folder.is_dir():  # which may be where somebody stands
             _fill(name, files, folder)
             return
         real = Path(os.path.realpath(folder))
@@ -142,8 +142,6 @@ def write_folder(name: str, files: Mapping[str, str], folder: Path) -> None:
             mask = os.umask(0)
             os.umask(mask)
             beside.chmod(0o777 & ~mask)
-            if real.is_dir():
-                real.rmdir()
             beside.rename(real)
         finally:
             shutil.rmtree(beside, ignore_errors=True)
