@@ -65,8 +65,8 @@ PROBLEMS = (
     (2, "volatility", "prepressure_drift", 0.5),
     (2, "worst-speed-error", "friction_coefficient_drift", 1 - HAIR),
     (3, "drift", "start_time", 0.5),
-    (3, "volatility", "start_time", 1 - HAIR),
-    (3, "volatility", "start_time", 1 + HAIR),
+    (3, "volatility", "start_time", 0.3),
+    (3, "encoder-volatility", "start_time", 0.7),
     (3, "drift", None, None),
     (3, "encoder-volatility", "load_torque_drift", 0.5),
 )

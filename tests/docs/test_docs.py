@@ -114,6 +114,20 @@ def test_the_page_on_the_optimiser_shows_how_sharp_its_optima_are():
     alike(shown("docs/optimise.md", "examples/knife_edge.py"), done.stdout)
 
 
+@pytest.mark.slow
+def test_the_page_on_points_to_be_held_shows_what_its_example_prints():
+    command = [sys.executable, ROOT / "examples" / "holdable.py"]
+    done = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", check=True)
+    alike(shown("docs/holding.md", "examples/holdable.py"), done.stdout)
+
+
+@pytest.mark.slow
+def test_the_page_on_points_to_be_held_shows_what_track_prints(capsys):
+    marker = re.search(r"<!-- (trum-sym track .*) -->", (ROOT / "docs/holding.md").read_text("utf-8"))[1]
+    assert main(shlex.split(marker)[1:]) == 0
+    alike(shown("docs/holding.md", marker), capsys.readouterr().out)
+
+
 def test_the_python_of_the_page_on_the_optimiser_runs(capsys):
     text = (ROOT / "docs/optimise.md").read_text("utf-8")
     exec(re.search(r"```python\n(.*?)```", text, re.DOTALL)[1], {})

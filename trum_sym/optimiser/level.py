@@ -22,7 +22,7 @@ __all__ = ["Place", "better", "seek"]
 
 _NEWTON = 8
 _MET = 1e-9  # of an equality's bound
-_NOISE = 3.0  # times the orbits' tolerance, of the largest speed: what rough orbits leave
+_NOISE = 0.1  # times the orbits' tolerance, of the largest speed: what rough orbits leave
 _ROUNDS = 60
 _SHRINK = 9.0
 _ALONG = np.array([1.0, -1.0, 1 / 3, -1 / 3, 1 / 9, -1 / 9])  # of the radius, where one direction is left
