@@ -29,7 +29,10 @@ FOLDERS = [ROOT / "generated", DRIVER, ROOT / "examples" / "c"]
 ONE_LANE = "one lane: the batches of the Python package take it"
 LAPS = "a limit of the search for the orbit that no point tried has met"
 NEVER = {
-    "trum_point.h": {"point->speed_volatility_error": "no mean speed that was tried has an open sign"},
+    "trum_point.h": {
+        "point->speed_volatility_error": "no mean speed that was tried has an open sign",
+        "} else if (error <= drive->tolerance)": "rounding alone has met every tolerance that was tried",
+    },
     "trum_brush.h": {"for (k = 0; k < 16": "a bristle sticks and slides three times at most"},
     "trum_cycle.h": {"for (i = 0; i < 200": "a bracket halved this often is closed before"},
     "orbit": {
@@ -56,8 +59,8 @@ NEVER = {
         "if (!(b->high > start": LAPS,
         "if (!(b->low < start": LAPS,
         "if (s->known && next > b->sure_low": LAPS,
-        "if (!lanes->slopes && !met": LAPS,
-        "if (excess > 1.0 &&": LAPS,
+        "if (!with_slopes(lanes) && !met": LAPS,
+        "if (excess > 1 &&": LAPS,
         "if (s->certain) return next;": LAPS,
         "if (width <= TRUM_C(0.5) * allowed": LAPS,
         "next = search->bracket.high - middle": LAPS,
