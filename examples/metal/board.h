@@ -37,7 +37,7 @@ static inline uint32_t board_count(void) { return 0u; }
 #define BOARD_PAINT 0xA5u
 #if defined(__arm__) || defined(__riscv)
 static volatile unsigned char* board_base;
-static __attribute__((noinline)) void board_paint(void) {
+static __attribute__((noinline, unused)) void board_paint(void) {
   volatile unsigned char here = 0, *p;
   board_base = &here - 64;
   for (p = board_base - BOARD_STACK; p < board_base; ++p) *p = BOARD_PAINT;
