@@ -167,7 +167,7 @@ def test_height_over_full_height_falls_with_the_prepressure_and_rises_with_the_a
     (by_amplitude,) = found(r"TRUM_BY_AMPLITUDE\) height = speed = REAL\((-?\d+)\);")
     assert (int(by_prepressure), int(by_amplitude)) == (-1, 1)
     engaged = rotor.filling()["engagement"]
-    (of_layer,) = found(r"if \(!lanes->hertz\) friction\.E_height = REAL\((-?\d+)\);")
+    (of_layer,) = found(r"if \(!with_hertz\(lanes\)\) friction\.E_height = REAL\((-?\d+)\);")
     assert logarithmic(engaged, nomenclature.sym("W_c")[0]) == int(of_layer)
 
 
@@ -213,7 +213,7 @@ def test_extremes_are_zeros_of_the_rate_by_its_derivative_and_the_speed_is_its_i
 
 def test_no_bristle_sticks_from_the_speed_on_that_the_brush_takes_for_it():
     """There the span in which one would slide on is nothing, and all of the circle at its negative."""
-    (square,) = found(r"trum_brush_fastest\(trum_real grip\) \{ return \(trum_real\)sqrt\(([^;]*)\);")
+    (square,) = found(r"trum_brush_fastest\(trum_real grip\) \{ return trum_sqrt\(([^;]*)\);")
     grip, ratio = nomenclature.sym("grip ratio")
     fastest = sp.sqrt(c_expression(square).subs(sp.Symbol("grip"), grip))
     for value in (sp.Rational(1, 7), 3, 1000):

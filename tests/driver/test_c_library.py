@@ -74,7 +74,7 @@ def single(tmp_path_factory):
 def harness(tmp_path_factory):
     """The harness of the coverage run, under both sanitizers."""
     return c_coverage.build(
-        tmp_path_factory.mktemp("sanitized"), ["-O0", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
+        tmp_path_factory.mktemp("sanitized"), ["-O1", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
     )
 
 
@@ -222,6 +222,8 @@ def test_the_c_library_refuses_what_the_package_refuses(example):
         numbers = [a for a in arguments if a.count("=") == 1 and a.split("=")[1] and "tolerance" not in a]
         if len(numbers) < len(arguments) or not numbers or "nothing" in line or "forced" in line:
             continue
+        if any(a.startswith("max_steps=") for a in arguments):
+            continue  # the package has no such bound
         optional = [name for name, spec in SPECS.items() if not spec.required]
         if any(f"{name}=0" == a for name in optional for a in arguments):
             continue  # in C, 0 stands for not measured
@@ -233,8 +235,10 @@ def test_the_c_library_refuses_what_the_package_refuses(example):
         assert (run(example, "tolerance=1e-2", *arguments).returncode == 2) == refused, line
 
 
-def test_sanitizers_find_nothing_on_any_level_edge_or_hostile_input(harness):
+@pytest.mark.parametrize("every", [3, pytest.param(1, marks=pytest.mark.slow)])
+def test_sanitizers_find_nothing_on_any_level_edge_or_hostile_input(harness, every):
     lines = [line for line in c_coverage.script().splitlines() if "tolerance=" not in line]
+    lines = [line for k, line in enumerate(lines) if k % every == 0 or not line.startswith("point ")]
     done = subprocess.run([harness], input="\n".join(lines) + "\n", text=True, capture_output=True)
     assert "Sanitizer" not in done.stderr
     assert "runtime error" not in done.stderr

@@ -30,6 +30,8 @@ INPUTS = [
         "motor_values",
         "assumed",
         "box",
+        "allowed",
+        "spreads",
         "drive",
         "levels",
         "sampling_period",

@@ -61,7 +61,7 @@ def test_derivatives_are_those_of_evaluate(trum60, start, contact):
             assert found[figure][name] == pytest.approx(difference, rel=2e-4, abs=scale), (figure, name)
 
 
-@pytest.mark.parametrize("seed", [3, 16, 23, 25, 37, 38])
+@pytest.mark.parametrize("seed", [3, 16, *(pytest.param(k, marks=pytest.mark.slow) for k in (23, 25, 37, 38))])
 def test_slopes_of_random_points_are_exact_to_1e_7(seed):
     """Motors and drives whose events took most care: rotors that almost follow, grazed crests, standing waves."""
     errors = np.array(list(slopes_study.record(seed)["errors"].values()))

@@ -29,7 +29,9 @@ def test_an_optimum_with_a_plate_creeps_at_the_speed_asked_for(trum60):
 
 
 def test_a_worst_case_takes_the_loads_inertia(trum60):
-    posed = SimpleNamespace(motor=trum60, drive=PLATE, levels=None, box=None, names=frozenset())
+    posed = SimpleNamespace(
+        motor=trum60, drive=PLATE, levels=None, box=None, names=frozenset(), asked=None, target=None
+    )
     case = robust._model(posed, {"load_inertia": 8e-4, "friction_coefficient": 0.22})
     assert case.drive == replace(PLATE, load_inertia=8e-4)
     assert case.motor.friction_coefficient.value == 0.22

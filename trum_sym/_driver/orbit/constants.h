@@ -41,7 +41,7 @@ static const trum_real trum_least_decay = TRUM_EITHER(1e-14, FLT_EPSILON);
 static const trum_real trum_unmeasured = TRUM_EITHER(1e300, 1e30);
 
 /* Factor of safety on all bounds */
-static const trum_real trum_bound_safety = 4;
+static const trum_real trum_bound_safety = TRUM_EITHER(4, 2); /* in single precision rounding is most of a bound */
 
 /* Errors that are known to the first order in the defects are known but for this share */
 static const trum_real trum_first_order_share = TRUM_C(0.25);
