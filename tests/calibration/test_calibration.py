@@ -447,3 +447,12 @@ def test_speed_under_load_identifies_the_contact_stiffness():
         assert found[name].low < value < found[name].high
         assert found[name].high - found[name].low < 0.3 * value
     assert found.motor.contact_stiffness.interval == (found["contact_stiffness"].low, found["contact_stiffness"].high)
+
+
+@pytest.mark.filterwarnings("ignore::trum_sym.ImplausibleWarning")
+def test_a_fit_that_no_motor_gives_ends_at_ten_times_what_is_usual():
+    """Speeds of the Winkler contact read as those of the Hertz width drove friction on for ever."""
+    data = {"load_torque": [-0.1, 0.0, 0.1], "mean_speed": [4.409, 2.727, 1.069]}
+    found = ts.calibrate(data, parameters=("friction_coefficient",), contact="hertz")
+    assert found["friction_coefficient"].value == pytest.approx(15.0)
+    assert "friction_coefficient to the end of its range" in found.message

@@ -215,3 +215,42 @@ def test_the_random_points_study_sees_what_is_wrong(monkeypatch, figure, value, 
     monkeypatch.setattr(ts, "evaluate", wrong)
     found = fuzz_points.study(20, 1)
     assert any(kind in name for name in found), found
+
+
+ONCE_BEYOND = {  # values of the motor, a drive, its share of the limit and a tolerance
+    "a light rotor that the surface slips away from": (
+        {"rotor_inertia": 5.663656185497067e-09, "friction_coefficient": 0.2069647210934692},
+        {"prepressure": 165.6647235333009, "frequency_difference": -2532.716775333568, "periods": 10, "on_periods": 6},
+        {"switching_phase": 5.365836425896212, "phase_lead": -1, "start": "steady"},
+        (0.9974659679980307, 1e-6),
+    ),
+    "a peak that the first step hides": (
+        {},
+        {"prepressure": 121.68427327699902, "frequency_difference": 50.257859250019465, "periods": 10, "on_periods": 9},
+        {"switching_phase": 4.699348499753745, "phase_lead": 1, "start": "periodic"},
+        (-0.9938250707310864, 5.764559181804873e-4),
+    ),
+    "a peak where a light rotor meets a wave that begins": (
+        {"rotor_inertia": 1.3793599369902426e-09, "friction_coefficient": 0.21497368905223946},
+        {
+            "prepressure": 119.19442562101754,
+            "frequency_difference": -1093.095624499495,
+            "periods": 25,
+            "on_periods": 21,
+        },
+        {"switching_phase": 0.0, "phase_lead": -1, "start": "rest"},
+        (0.7255624981894631, 2.394739572848287e-06),
+    ),
+}
+
+
+@pytest.mark.parametrize("case", ONCE_BEYOND)
+def test_what_was_once_off_by_more_than_it_stated_is_within(trum60, case):
+    values, place, rest, (share, tolerance) = ONCE_BEYOND[case]
+    motor = trum60.with_values(values)
+    limit = float(motor.friction_coefficient.value) * place["prepressure"] * float(motor.contact_radius.value)
+    drive = ts.Drive(**place, **rest, load_torque=share * limit)
+    coarse, fine = (ts.evaluate(motor, drive, tolerance=t) for t in (tolerance, 1e-9))
+    for name in ("mean_speed", "min_speed", "max_speed"):
+        allowed = getattr(coarse, f"{name}_error") + getattr(fine, f"{name}_error")
+        assert abs(getattr(coarse, name) - getattr(fine, name)) <= allowed, name
