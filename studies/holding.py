@@ -11,11 +11,9 @@ where few laps are needed, else lap by lap on the kernels.
 
 from __future__ import annotations
 
-import argparse
 import json
 import math
 import sys
-import warnings
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
@@ -23,6 +21,7 @@ from pathlib import Path
 import numpy as np
 
 import trum_sym as ts
+from studies import records
 from trum_sym.inputs.plausible import unquestioned
 from trum_sym.model.kernels import call
 from trum_sym.model.levels import Levels
@@ -209,23 +208,5 @@ def report(file):
     print(f"times: off by median {np.nanmedian(off):.1e}, largest {np.nanmax(off):.1e}; {alone} by the reference")
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("file", type=Path)
-    parser.add_argument("count", type=int, nargs="?", default=200)
-    parser.add_argument("--first", type=int, default=0)
-    chosen = parser.parse_args()
-    warnings.simplefilter("ignore", ts.ValidityWarning)
-    done = set()
-    if chosen.file.exists():
-        done = {json.loads(line)["seed"] for line in chosen.file.read_text().splitlines()}
-    for seed in range(chosen.first, chosen.first + chosen.count):
-        if seed not in done:
-            line = json.dumps(record(seed))
-            with chosen.file.open("a") as stream:
-                stream.write(line + "\n")
-    report(chosen.file)
-
-
 if __name__ == "__main__":
-    main()
+    records.collect(__doc__, 200, record, report)

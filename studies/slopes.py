@@ -10,16 +10,14 @@ theirs.  Errors are over the slope or the figure per parameter, whichever is lar
 
 from __future__ import annotations
 
-import argparse
 import json
-import warnings
 from dataclasses import replace
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 
 import trum_sym as ts
+from studies import records
 from trum_sym.inputs.plausible import unquestioned
 from trum_sym.model.levels import Levels
 from trum_sym.model.operating_point import prepare, results
@@ -130,23 +128,5 @@ def report(file):
     print(tabulate(rows, heads, floatfmt=".1e"))
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("file", type=Path)
-    parser.add_argument("count", type=int, nargs="?", default=500)
-    parser.add_argument("--first", type=int, default=0)
-    chosen = parser.parse_args()
-    warnings.simplefilter("ignore", ts.ValidityWarning)
-    done = set()
-    if chosen.file.exists():
-        done = {json.loads(line)["seed"] for line in chosen.file.read_text().splitlines()}
-    for seed in range(chosen.first, chosen.first + chosen.count):
-        if seed not in done:
-            line = json.dumps(record(seed))
-            with chosen.file.open("a") as stream:
-                stream.write(line + "\n")
-    report(chosen.file)
-
-
 if __name__ == "__main__":
-    main()
+    records.collect(__doc__, 500, record, report)

@@ -248,8 +248,8 @@ ONCE_BEYOND = {  # values of the motor, a drive, its share of the limit and a to
 def test_what_was_once_off_by_more_than_it_stated_is_within(trum60, case):
     values, place, rest, (share, tolerance) = ONCE_BEYOND[case]
     motor = trum60.with_values(values)
-    limit = float(motor.friction_coefficient.value) * place["prepressure"] * float(motor.contact_radius.value)
-    drive = ts.Drive(**place, **rest, load_torque=share * limit)
+    friction, radius = float(motor.friction_coefficient.value), float(motor.contact_radius.value)
+    drive = ts.Drive(**place, **rest, load_torque=share * friction * place["prepressure"] * radius)
     coarse, fine = (ts.evaluate(motor, drive, tolerance=t) for t in (tolerance, 1e-9))
     for name in ("mean_speed", "min_speed", "max_speed"):
         allowed = getattr(coarse, f"{name}_error") + getattr(fine, f"{name}_error")
