@@ -275,25 +275,27 @@ def _hides_an_end(c, at, begin_short, coarse):
 
 
 @njit(cache=True)
-def _embedded(e, values, first, mean):
-    """The embedded formula's estimate of a step's error in the mean of some values, over the step."""
+def _embedded(e, values, first, mean, smooth):
+    """The embedded formula's estimate of a step's error in the mean of some values, over the step; unless these are
+    smooth the better formula is taken to be no better."""
     total, reference = 0.0, abs(mean)
     for i in range(_S):
         total += e[i + 1] * (values[i] - first)
         reference = max(reference, abs(values[i] - first - mean))
-    return abs(total) * min(1.0, abs(total) / (reference + 1e-300)) ** 0.6
+    return abs(total) * (min(1.0, abs(total) / (reference + 1e-300)) ** 0.6 if smooth else 1.0)
 
 
 @njit(cache=True)
 def _step_error(a, e, p, at, fs, slopes, force, begin_theta, step, push_only):
     """Estimate of a step's error of the speed; if the contact is asked for, too, of theta as if it pushed."""
-    mean, damped = 0.0, 0.0
+    mean, damped, saturated = 0.0, 0.0, 0
     for i in range(_S):
+        saturated += slopes[i] == 0.0
         mean += a[_S - 1, i] * (fs[i] - force)
         damped -= step * a[_S - 1, i] * slopes[i]
-    error = step * _embedded(e, fs, force, mean) / (1.0 + damped)
+    error = step * _embedded(e, fs, force, mean, saturated in (0, _S)) / (1.0 + damped)
     if push_only:
-        error = max(error, step * _embedded(e, at[:, 2], begin_theta, 0.0) * p[10] / math.pi)
+        error = max(error, step * _embedded(e, at[:, 2], begin_theta, 0.0, True) * p[10] / math.pi)
     return error
 
 

@@ -56,6 +56,26 @@ def test_a_hertz_contact_near_the_limit_is_the_same_at_every_tolerance(trum60, t
     assert abs(point.mean_speed - 56.848) <= point.mean_speed_error + 5e-4
 
 
+@pytest.mark.parametrize("tolerance", [1.7e-7, 1e-7])
+def test_steps_that_newton_closes_at_once_are_held_by_their_error(trum60, tolerance):
+    """Steps after a brief end of saturation: the first change is small, and friction at the nodes is bent all the same."""
+    force = 195.3869747678116
+    drive = ts.Drive(
+        prepressure=force,
+        frequency_difference=-1544.892903773416,
+        periods=4,
+        on_periods=2,
+        switching_phase=5.1795400351385235,
+        load_torque=-0.999984393861415 * 0.25 * force * 0.0265,
+        start="steady",
+    )
+    point = ts.evaluate(trum60, drive, contact="hertz", tolerance=tolerance)
+    exact = ts.evaluate(trum60, drive, contact="hertz", tolerance=1e-9)
+    assert exact.mean_speed == pytest.approx(1.3606523532 / 0.0265, abs=1e-8)  # studies/witness.py
+    assert point.converged
+    assert abs(point.mean_speed - exact.mean_speed) <= point.mean_speed_error
+
+
 def random_drives(seed, count, nearest):
     rng = np.random.default_rng(seed)
     periods, force = rng.integers(1, 31, count), rng.uniform(100, 220, count)

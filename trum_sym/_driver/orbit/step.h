@@ -79,7 +79,7 @@ static void trum_solve_collocation(const trum_lanes* lanes, trum_trial_step* tri
     trial->events[j][EVENT_SMALLER_PRESSURE] = REAL(0);
   }
   for (tries = 0; tries < 12 && any_lane(trial->not_converged); ++tries) {
-    real change = REAL(0), slope[NODES];
+    real change = REAL(0), bend = REAL(0), slope[NODES];
     slope[0] = REAL(0);
     for (j = 1; j < NODES; ++j) {
       real f, f_v, larger, smaller;
@@ -103,18 +103,29 @@ static void trum_solve_collocation(const trum_lanes* lanes, trum_trial_step* tri
     trum_substitute(&equations, right, y);
     for (j = 1; j < NODES; ++j) {
       const real next = trum_limited(lanes, trial, j, trial->x[j] + y[j]);
+      const real f_change = trial->f_v[j] * (next - trial->x[j]);
+      const real to_saturation = REAL(1) - maximum(absolute(trial->f[j]), absolute(trial->f[j] + f_change));
       change = maximum(change, absolute(next - trial->x[j]));
-      trial->f[j] = where(trial->not_converged, trial->f[j] + trial->f_v[j] * (next - trial->x[j]), trial->f[j]);
+      bend = maximum(bend, absolute(trial->T[j]) * (f_change * f_change * reciprocal(maximum(to_saturation, REAL(trum_tiny)))));
+      trial->f[j] = where(trial->not_converged, trial->f[j] + f_change, trial->f[j]);
       trial->x[j] = where(trial->not_converged, next, trial->x[j]);
     }
-    /* the next change is smaller in the same ratio at least, as f is convex or concave between its events */
+    /* the next change is smaller in the same ratio at least, as f is convex or concave between its events; the first
+     * has no ratio: near saturation 1 - |f| goes as a root of the speed, so f'' is about f'^2 / (1 - |f|) */
+    bend = lanes->equation.push * bend;
     trial->unsolved =
         where(trial->not_converged,
-              where(less_than(change, last_change), change * (change * reciprocal(last_change)), change), trial->unsolved);
+              tries == 0 ? bend
+                         : where(less_than(change, last_change), change * (change * reciprocal(last_change)), change),
+              trial->unsolved);
     last_change = where(trial->not_converged, change, last_change);
     /* a first change says nothing of the next where friction is steep */
-    trial->not_converged = trial->not_converged & mask_not(at_most(change, lanes->tolerances.newton) &
-                                                           (tries > 0 ? mask_all(1) : mask_not(trial->damped)));
+    trial->not_converged =
+        trial->not_converged &
+        mask_not(at_most(change, lanes->tolerances.newton) &
+                 (tries > 0 ? mask_all(1)
+                            : at_most(bend * lanes->tolerances.inverse_step, REAL(trum_newton_share) * lanes->equation.push) &
+                                  mask_not(trial->damped)));
   }
   for (j = 1; j < NODES; ++j) T_f[j] = trial->T[j] * trial->f[j];
   trial->f[0] = where(trial->damped, trum_extrapolate_first(T_f) * reciprocal(where(trial->damped, trial->T[0], REAL(1))),
