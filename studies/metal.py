@@ -86,6 +86,12 @@ def _arm(cpu: str, fpu: str, board: str, bits: int, every: int) -> Machine:
     return Machine("arm-none-eabi-gcc", flags, (*_HOSTED, *_memory("0x00000000", "0x20000000")), run, bits, every)
 
 
+def _newlib(machine: Machine, every: int) -> Machine:
+    flags = (*machine.flags[:-1], "--specs=rdimon.specs")
+    link = (f"-T{METAL / 'newlib.ld'}", str(METAL / "newlib_reset.c"))
+    return Machine(machine.compiler, flags, link, machine.run, machine.bits, every)
+
+
 def _riscv(isa: str, abi: str, bits: int, every: int) -> Machine:
     flags = (f"-march={isa}", f"-mabi={abi}", "--specs=picolibc.specs")
     run = ("qemu-system-riscv32", "-M", "virt", "-bios", "none", *_QEMU)
@@ -96,6 +102,7 @@ _QEMU = ("-semihosting-config", "enable=on", "-nographic", "-monitor", "none", "
 _HOSTED = ("--oslib=semihost", "--crt0=hosted")
 MACHINES = {
     "Cortex-M4F, float": _arm("cortex-m4", "fpv4-sp-d16", "mps2-an386", 32, 1),
+    "Cortex-M4F, float, newlib": _newlib(_arm("cortex-m4", "fpv4-sp-d16", "mps2-an386", 32, 1), 10),
     "Cortex-M7, float": _arm("cortex-m7", "fpv5-d16", "mps2-an500", 32, 10),
     "RV32IMAFC, float": _riscv("rv32imafc", "ilp32f", 32, 50),
     "Cortex-M7, double": _arm("cortex-m7", "fpv5-d16", "mps2-an500", 64, 50),
