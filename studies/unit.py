@@ -1,9 +1,9 @@
-"""``python -m studies.unit [COUNT]``: the co-simulation unit beside ``simulate``, and its start-up beside an integration.
+"""``python -m studies.unit [COUNT]``: the co-simulation unit beside ``simulate``, and from rest beside an integration.
 
-Random drives of the stock motor (150 to 210 N, 1 to 5 kHz off resonance, 4 to 30 periods, loads to 0.9 of the limit).  On the
-orbit every sample of speed and angle over two cycles is compared with :func:`trum_sym.simulate`; from rest the speed at
-the end of each of twelve cycles with the integrator of ``tests/orbit_reference.py``, which shares nothing with either.
-Differences are over the largest speed, and over the angle of a cycle at that speed.  FMPy runs the unit.
+Random drives of the stock motor (150 to 210 N, 1 to 5 kHz off resonance, 4 to 30 periods, loads to 0.9 of the limit).
+On the orbit every sample of speed and angle over two cycles is compared with :func:`trum_sym.simulate`; from rest the
+speed at the end of each of twelve cycles with the integrator of ``tests/orbit_reference.py``, which shares nothing with
+either.  Differences are over the largest speed, and over the angle of a cycle at that speed.  FMPy runs the unit.
 """
 
 from __future__ import annotations

@@ -212,9 +212,17 @@ def simulated(unit, stop, step, start_values=None, **more):
     )
 
 
-def test_the_unit_is_valid(unit):
+def test_the_unit_is_valid_and_gives_the_same_bits_under_both_versions_of_the_standard(unit, tmp_path):
     validation = pytest.importorskip("fmpy.validation")
     assert validation.validate_fmu(str(unit)) == []
+    older = tmp_path / "motor.fmu"
+    assert main(["fmu", str(older), "--load-torque", "0.05", "--fmi", "2"]) == 0
+    assert validation.validate_fmu(str(older)) == []
+    values = {"prepressure": 177.0, "settled": False, "encoder_counts": 4096}
+    new, old = (simulated(each, 2e-3, 1e-5, values) for each in (unit, older))
+    assert len(new) > 100
+    for name in new.dtype.names:
+        assert np.array_equal(new[name], old[name]), name
 
 
 def test_the_unit_follows_simulate_and_starts_up_as_an_integration_does():
@@ -243,6 +251,8 @@ def test_the_unit_refuses_input_outside_its_domain(unit):
     with pytest.raises(Exception, match="fmi3"):
         simulated(unit, 1e-3, 1e-4, {"prepressure": -1.0}, logger=lambda *words: said.append(str(words)))
     assert any("prepressure" in words for words in said)
+    with pytest.raises(Exception, match="fmi3"):
+        simulated(unit, 1e-3, 1e-4, {"encoder_counts": 0})
 
 
 def test_a_unit_with_a_string_is_refused(console_refuses, tmp_path):

@@ -58,7 +58,7 @@ def test_a_hertz_contact_near_the_limit_is_the_same_at_every_tolerance(trum60, t
 
 @pytest.mark.parametrize("tolerance", [1.7e-7, 1e-7])
 def test_steps_that_newton_closes_at_once_are_held_by_their_error(trum60, tolerance):
-    """Steps after a brief end of saturation: the first change is small, and friction at the nodes is bent all the same."""
+    """After a brief end of saturation the first change is small, and friction at the nodes is bent all the same."""
     force = 195.3869747678116
     drive = ts.Drive(
         prepressure=force,

@@ -1,4 +1,4 @@
-"""``trum-sym fmu``: the motor as a co-simulation unit of FMI 3.0, with its C source."""
+"""``trum-sym fmu``: the motor as a co-simulation unit of FMI 3.0 or 2.0, with its C source."""
 
 from __future__ import annotations
 
@@ -69,38 +69,76 @@ _UNITS = {
 }
 
 
-def description(motor: Motor, drive: Drive, token: str) -> str:
-    """``modelDescription.xml``."""
-    lines = ['<?xml version="1.0" encoding="UTF-8"?>']
-    lines.append(
-        f'<fmiModelDescription fmiVersion="3.0" modelName={quoteattr(motor.name)} instantiationToken="{token}" '
+def _variability(variable: Variable) -> str:
+    if variable.causality == "output":
+        return "discrete" if variable.type == "Int64" else "continuous"
+    return {"parameter": "fixed", "input": "discrete"}[variable.causality]
+
+
+def _start(variable: Variable, drive: Drive) -> str:
+    start = f"{float(getattr(drive, variable.name))!r}" if variable.causality == "input" else variable.start
+    return f' start="{start}"' if start else ""
+
+
+def _about(motor: Motor) -> str:
+    return (
+        f"modelName={quoteattr(motor.name)} "
         'description="Travelling-wave ultrasonic motor under superimposed pulse driving" '
-        f'version="{version("trum-sym")}" license="MIT" generationTool="trum-sym">'
+        f'version="{version("trum-sym")}" license="MIT" generationTool="trum-sym"'
     )
+
+
+_COMMON = [
+    "  <UnitDefinitions>",
+    *(f'    <Unit name="{name}"><BaseUnit {base}/></Unit>' for name, base in _UNITS.items()),
+    "  </UnitDefinitions>",
+    '  <LogCategories><Category name="logStatusError"/></LogCategories>',
+    '  <DefaultExperiment startTime="0" stopTime="0.01" stepSize="0.0001"/>',
+    "  <ModelVariables>",
+]
+_OUTPUTS = [place for place, variable in enumerate(VARIABLES, 1) if variable.causality == "output"]
+
+
+def description(motor: Motor, drive: Drive, token: str) -> str:
+    """``modelDescription.xml`` of FMI 3.0."""
+    lines = ['<?xml version="1.0" encoding="UTF-8"?>']
+    lines.append(f'<fmiModelDescription fmiVersion="3.0" instantiationToken="{token}" {_about(motor)}>')
     lines.append(
         f'  <CoSimulation modelIdentifier="{_MODEL}" canHandleVariableCommunicationStepSize="true" '
         'canBeInstantiatedOnlyOncePerProcess="false"/>'
     )
-    lines.append("  <UnitDefinitions>")
-    lines += [f'    <Unit name="{name}"><BaseUnit {base}/></Unit>' for name, base in _UNITS.items()]
-    lines += ["  </UnitDefinitions>", '  <LogCategories><Category name="logStatusError"/></LogCategories>']
-    lines.append('  <DefaultExperiment startTime="0" stopTime="0.01" stepSize="0.0001"/>')
-    lines.append("  <ModelVariables>")
     time = 'name="time" valueReference="0" causality="independent" variability="continuous" unit="s"'
-    lines.append(f"    <Float64 {time}/>")
+    lines += [*_COMMON, f"    <Float64 {time}/>"]
     for place, variable in enumerate(VARIABLES, 1):
-        kind = {"parameter": "fixed", "input": "discrete", "output": "continuous"}[variable.causality]
-        if variable.type == "Int64" and variable.causality == "output":
-            kind = "discrete"
-        start = f"{float(getattr(drive, variable.name))!r}" if variable.causality == "input" else variable.start
         parts = [f'name="{variable.name}"', f'valueReference="{place}"', f'causality="{variable.causality}"']
-        parts += [f'variability="{kind}"', f'description="{variable.text}"']
-        parts += [f'unit="{variable.unit}"'] * bool(variable.unit) + [f'start="{start}"'] * bool(start)
-        lines.append(f"    <{variable.type} {' '.join(parts)}/>")
-    outputs = [place for place, variable in enumerate(VARIABLES, 1) if variable.causality == "output"]
+        parts += [f'variability="{_variability(variable)}"', f'description="{variable.text}"']
+        parts += [f'unit="{variable.unit}"'] * bool(variable.unit)
+        lines.append(f"    <{variable.type} {' '.join(parts)}{_start(variable, drive)}/>")
     lines += ["  </ModelVariables>", "  <ModelStructure>"]
-    lines += [f'    <Output valueReference="{place}"/>' for place in outputs]
-    lines += [f'    <InitialUnknown valueReference="{place}"/>' for place in outputs]
+    lines += [f'    <Output valueReference="{place}"/>' for place in _OUTPUTS]
+    lines += [f'    <InitialUnknown valueReference="{place}"/>' for place in _OUTPUTS]
+    return "\n".join([*lines, "  </ModelStructure>", "</fmiModelDescription>", ""])
+
+
+def description_2(motor: Motor, drive: Drive, token: str) -> str:
+    """``modelDescription.xml`` of FMI 2.0, whose whole numbers have 32 bits: encoder counts are real there."""
+    lines = ['<?xml version="1.0" encoding="UTF-8"?>']
+    lines.append(f'<fmiModelDescription fmiVersion="2.0" guid="{token}" {_about(motor)}>')
+    lines.append(f'  <CoSimulation modelIdentifier="{_MODEL}" canHandleVariableCommunicationStepSize="true">')
+    lines.append('    <SourceFiles><File name="trum_fmi2.c"/></SourceFiles>')
+    lines += ["  </CoSimulation>", *_COMMON]
+    for place, variable in enumerate(VARIABLES, 1):
+        parts = [f'name="{variable.name}"', f'valueReference="{place}"', f'causality="{variable.causality}"']
+        parts += [f'variability="{_variability(variable)}"', f'description="{variable.text}"']
+        parts += ['initial="calculated"'] * (variable.causality == "output")
+        kind = {"Float64": "Real", "Int64": "Integer"}.get(variable.type, variable.type)
+        if variable.name == "encoder":
+            kind = "Real"
+        unit = f' unit="{variable.unit}"' if variable.unit else ""
+        lines.append(f"    <ScalarVariable {' '.join(parts)}><{kind}{unit}{_start(variable, drive)}/></ScalarVariable>")
+    unknown = [f'      <Unknown index="{place}"/>' for place in _OUTPUTS]
+    lines += ["  </ModelVariables>", "  <ModelStructure>", "    <Outputs>", *unknown, "    </Outputs>"]
+    lines += ["    <InitialUnknowns>", *unknown, "    </InitialUnknowns>"]
     return "\n".join([*lines, "  </ModelStructure>", "</fmiModelDescription>", ""])
 
 
@@ -117,34 +155,36 @@ _BUILD = f"""\
 """
 
 
-def sources(motor: Motor, drive: Drive, levels: LevelChoice) -> tuple[dict[str, str], str]:
+def sources(motor: Motor, drive: Drive, levels: LevelChoice, fmi: int) -> tuple[dict[str, str], str]:
     """The unit's C files, and its token: a hash of them."""
     files = amalgamated(configured(library(), {"TRUM_REAL_BITS": "64"}))
     names = ("TRUM_MY_MOTOR_H", "MY_MOTOR_NAME", "my_motor", "my_drive")
     numbers = "\n".join([*motor_header(motor, drive, levels, names), ""])
-    files |= {"motor.h": numbers, "trum_fmi3.c": unit()}
+    files |= {"motor.h": numbers, **unit(fmi)}
     digest = hashlib.sha256("".join(files[name] for name in sorted(files)).encode()).hexdigest()
     token = "{" + "-".join((digest[:8], digest[8:12], digest[12:16], digest[16:20], digest[20:32])) + "}"
     files["motor.h"] = f'#define TRUM_TOKEN "{token}"\n{numbers}'
     return files, token
 
 
-def _platform() -> tuple[str, str] | None:
+def _platform(fmi: int) -> tuple[str, str] | None:
     """The folder in a unit for this machine, and the ending of its libraries; None where that is not known."""
     machine = {"AMD64": "x86_64", "arm64": "aarch64"}.get(platform.machine(), platform.machine())
-    system = {"linux": ("linux", ".so"), "darwin": ("darwin", ".dylib")}.get(sys.platform)
-    return None if system is None else (f"{machine}-{system[0]}", system[1])
+    system, ending = {"linux": ("linux", ".so"), "darwin": ("darwin", ".dylib")}.get(sys.platform, ("", ""))
+    if not system or (fmi == 2 and machine != "x86_64"):
+        return None
+    return (f"{machine}-{system}" if fmi == 3 else f"{system}64"), ending
 
 
-def compiled(files: Mapping[str, str]) -> dict[str, bytes]:
-    """The unit compiled for this machine, by its place in the archive; empty where there is no compiler.
+def compiled(files: Mapping[str, str], fmi: int) -> dict[str, bytes]:
+    """The unit compiled for this machine, by its place in the archive; empty where there is no compiler, or no place.
 
     Raises
     ------
     ParameterError
         If the compiler fails.
     """
-    here, compiler = _platform(), shutil.which("cc")
+    here, compiler = _platform(fmi), shutil.which("cc")
     if here is None or compiler is None:
         return {}
     with tempfile.TemporaryDirectory() as name:
@@ -154,7 +194,7 @@ def compiled(files: Mapping[str, str]) -> dict[str, bytes]:
         target = folder / f"{_MODEL}{here[1]}"
         command = [compiler, "-std=c99", "-O2", "-ffp-contract=off", "-fPIC", "-shared", "-fvisibility=hidden"]
         done = subprocess.run(
-            [*command, "trum_fmi3.c", "-o", target.name, "-lm"], cwd=folder, capture_output=True, text=True
+            [*command, f"trum_fmi{fmi}.c", "-o", target.name, "-lm"], cwd=folder, capture_output=True, text=True
         )
         if done.returncode:
             said = next((line for line in done.stderr.splitlines() if "error:" in line), "it fails")
@@ -162,7 +202,9 @@ def compiled(files: Mapping[str, str]) -> dict[str, bytes]:
         return {f"binaries/{here[0]}/{target.name}": target.read_bytes()}
 
 
-def built(motor: Motor, drive: Drive, levels: LevelChoice, *, binary: bool = True) -> tuple[bytes, list[str]]:
+def built(
+    motor: Motor, drive: Drive, levels: LevelChoice, *, fmi: int = 3, binary: bool = True
+) -> tuple[bytes, list[str]]:
     """The archive's bytes, and the names in it.
 
     Parameters
@@ -171,6 +213,8 @@ def built(motor: Motor, drive: Drive, levels: LevelChoice, *, binary: bool = Tru
         Of one point, whose numbers are the inputs' start values: no arrays.
     levels : LevelChoice
         Words of the model's levels.
+    fmi : 3 or 2
+        Version of the standard.
     binary : bool
         Compile it for this machine as well.
 
@@ -181,12 +225,14 @@ def built(motor: Motor, drive: Drive, levels: LevelChoice, *, binary: bool = Tru
     """
     if drive.load != "torque":
         raise ParameterError("load", drive.load, "torque: the unit does not follow a string that may go slack")
-    files, token = sources(motor, drive, levels)
-    content: dict[str, bytes] = {"modelDescription.xml": description(motor, drive, token).encode()}
-    content["sources/buildDescription.xml"] = _BUILD.encode()
+    files, token = sources(motor, drive, levels, fmi)
+    model = description(motor, drive, token) if fmi == 3 else description_2(motor, drive, token)
+    content: dict[str, bytes] = {"modelDescription.xml": model.encode()}
+    if fmi == 3:
+        content["sources/buildDescription.xml"] = _BUILD.encode()
     content |= {f"sources/{name}": text.encode() for name, text in files.items()}
     if binary:
-        content |= compiled(files)
+        content |= compiled(files, fmi)
     archive = io.BytesIO()
     with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as target:
         for name, data in content.items():

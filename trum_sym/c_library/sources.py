@@ -14,7 +14,7 @@ ONE_HEADER, ONE_SOURCE = "trum.h", "trum.c"
 _PACKAGE = Path(__file__).parents[1]
 _INSTALLED = _PACKAGE / "data" / "c"
 _TREE = _PACKAGE.parent
-_OTHERS = {"trum_lanes.h", "trum_elementary.h", "trum_browser.c", "trum_fmi3.c"}
+_OTHERS = {"trum_lanes.h", "trum_elementary.h", "trum_browser.c", "trum_unit.h", "trum_fmi2.c", "trum_fmi3.c"}
 _INCLUDE = re.compile(r'^#include "([^"]+)".*\n', re.M)
 _CALL = re.compile(r"^static inline void (trum_call_\w+)\(.*?^}\n\n", re.M | re.S)
 # What an exported copy is compiled for stands in the header that every other includes first
@@ -54,9 +54,9 @@ def example() -> str:
     return place.read_text("utf-8")
 
 
-def unit() -> str:
-    """The source of the co-simulation unit around ``trum.c``."""
-    return (_folders()[1] / "trum_fmi3.c").read_text("utf-8")
+def unit(fmi: int) -> dict[str, str]:
+    """The sources of the co-simulation unit around ``trum.c`` under FMI 2 or 3; the last one is compiled."""
+    return {name: (_folders()[1] / name).read_text("utf-8") for name in ("trum_unit.h", f"trum_fmi{fmi}.c")}
 
 
 def derivations_hash() -> str:
