@@ -81,7 +81,8 @@ def table():
     from trum_sym.model.levels import Levels
     from trum_sym.studies.speed_table_result import Segment, SpeedTable
 
-    rows = {"speed": np.array([1.0, 2.0]), "deviation": np.array([0.1, 0.1]), "drive_frequency": np.array([4e4, 4e4])}
+    rows = {"speed": [1.0, 2.0], "deviation": [0.1, 0.1], "drive_frequency": [4e4, 4e4], "speed_error": [1e-9, 1e-9]}
+    rows = {name: np.array(row) for name, row in rows.items()}
     segment = Segment(**rows, drive={"prepressure": np.array([180.0, 181.0])})
     inputs = Inputs(ts.load_motor(), ts.Drive(), Levels())
     made = SpeedTable(
@@ -97,11 +98,11 @@ def test_a_speed_tables_csv_has_one_comment_and_no_formula(hostile, table, tmp_p
     assert not CONTROL.search(text)
     first, *rest = text.splitlines()
     assert first.startswith("# speed table of ")
-    assert [line[0] for line in rest] == ["#", "#", "s", "1", "1"]
+    assert [line[0] for line in rest] == ["#", "#", "#", "s", "1", "1"]
     for separator in ",;":
         for row in csv.reader(io.StringIO(text), delimiter=separator):
             assert not any(cell[:1] in ("=", "+", "-", "@", "\t", "\r") for cell in row)
-    assert len(list(csv.reader(io.StringIO(text)))) == 6
+    assert len(list(csv.reader(io.StringIO(text)))) == 7
 
 
 @pytest.mark.parametrize("compiler", [name for name in ("gcc", "clang") if shutil.which(name)])

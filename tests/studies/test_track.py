@@ -31,6 +31,7 @@ def table_of(drive, low, high):
     order = np.argsort(point.mean_speed)
     entries = Segment(
         speed=np.asarray(point.mean_speed)[order],
+        speed_error=np.zeros(2),
         deviation=np.zeros(2),
         drive_frequency=np.asarray(point.drive_frequency)[order],
         drive={"frequency_difference": differences[order]},

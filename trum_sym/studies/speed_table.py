@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 from typing import Unpack
 
 import numpy as np
@@ -17,9 +18,11 @@ from trum_sym.inputs.spreads import Spread
 from trum_sym.model.holding import WITHIN
 from trum_sym.model.inputs import Inputs
 from trum_sym.model.levels import LevelChoice, Levels
+from trum_sym.model.operating_point import evaluate
 from trum_sym.optimiser.chart import chart
 from trum_sym.optimiser.limits import Holds
 from trum_sym.optimiser.model import Model
+from trum_sym.optimiser.solve import Problem
 from trum_sym.output.progress import said
 from trum_sym.studies.posed import Bound, Held, posed
 from trum_sym.studies.speed_table_result import Gap, Segment, SpeedTable
@@ -107,7 +110,7 @@ def speed_table(
             "load_torque", float(problem.drive.load_torque), "a load that friction can carry in the box"
         )
     table = Builder(model, known, problem.constraints, speeds, low, error, say)
-    segments = tuple(_segment(model, entries) for entries in table.build())
+    segments = tuple(_segment(problem, model, entries) for entries in table.build())
     return SpeedTable(
         motor=problem.motor.name,
         drive=problem.drive,
@@ -124,10 +127,13 @@ def speed_table(
     )
 
 
-def _segment(model: Model, entries: list[TableEntry]) -> Segment:
+def _segment(problem: Problem, model: Model, entries: list[TableEntry]) -> Segment:
     points = model.box.at(np.array([entry.share for entry in entries]))
+    speed = np.array([entry.speed for entry in entries])
+    found = evaluate(problem.motor, model.drives(points), tolerance=TOLERANCE, **asdict(problem.levels))
     return Segment(
-        speed=np.array([entry.speed for entry in entries]),
+        speed=speed,
+        speed_error=np.abs(found.mean_speed - speed) + found.mean_speed_error,
         deviation=np.array([entry.deviation for entry in entries]),
         drive_frequency=np.array([entry.drive_frequency for entry in entries]),
         drive={name: points[:, k] for k, name in enumerate(model.box.names)},

@@ -31,9 +31,11 @@ class Segment(Value):
     """A stretch of speeds along which the drive varies continuously; arrays of one length, speeds rising.
 
     Speeds and their standard deviation in rad/s, drive frequency in Hz; ``drive`` has what varies, in SI units.
+    ``speed_error`` bounds how far the mean speed at an entry's drive is from the entry's, rad/s.
     """
 
     speed: Array
+    speed_error: Array
     deviation: Array
     drive_frequency: Array
     drive: Mapping[str, Array]
@@ -161,6 +163,9 @@ class SpeedTable(Result, Value):
             lines.append(f"gap: {gap.low / ARCSEC:.9g} to {gap.high / ARCSEC:.9g} arcsec/s: {gap.reason}")
         if not self.gaps:
             lines.append("no gaps")
+        if self.segments:
+            most = max(float(segment.speed_error.max()) for segment in self.segments)
+            lines.append(f"at the entries themselves the mean speed is off by {most / ARCSEC:.2g} arcsec/s at most")
         return lines
 
     def save(self, target: str | PathLike[str], name: str = "speed table") -> None:
@@ -178,7 +183,7 @@ class SpeedTable(Result, Value):
         check_target(name, path, (".csv", ".h"))
         if not self.segments:
             raise ParameterError(name, "a table without entries", "a range of speeds that the box has")
-        rows = [Rows(segment.speed, self.values(segment), segment.deviation) for segment in self.segments]
+        rows = [Rows(s.speed, self.values(s), s.deviation, s.speed_error) for s in self.segments]
         csv = path.suffix == ".csv"
         text = (
             as_csv(self.about(), self.columns(), rows) if csv else as_c(path.stem, self.about(), self.columns(), rows)
@@ -250,6 +255,7 @@ def _as_dict(table: SpeedTable) -> dict[str, Any]:
                 "mean_speed": segment.speed.tolist(),
                 **{name: column.tolist() for name, column in zip(table.columns(), table.values(segment), strict=True)},
                 "speed_deviation": segment.deviation.tolist(),
+                "mean_speed_error": segment.speed_error.tolist(),
             }
             for segment in table.segments
         ],

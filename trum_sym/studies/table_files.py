@@ -22,11 +22,12 @@ def _as_text(line: str) -> str:
 
 
 class Rows(NamedTuple):
-    """The entries of one segment: speeds and their deviation in rad/s, and the other columns."""
+    """The entries of one segment: speeds, deviations and bounds of errors in rad/s, and the other columns."""
 
     speed: Array
     values: Sequence[Array]
     deviation: Array
+    error: Array
 
 
 def as_csv(about: Sequence[str], columns: Mapping[str, str], segments: Sequence[Rows]) -> str:
@@ -42,10 +43,10 @@ def as_csv(about: Sequence[str], columns: Mapping[str, str], segments: Sequence[
         With a value for each of the columns.
     """
     names = (f"{name} [{unit}]" for name, unit in columns.items())
-    header = ["segment", "mean_speed [arcsec/s]", *names, "speed_deviation [arcsec/s]"]
+    header = ["segment", "mean_speed [arcsec/s]", *names, "speed_deviation [arcsec/s]", "mean_speed_error [arcsec/s]"]
     lines = [*(f"# {_as_text(line)}" for line in about), ",".join(header)]
     for number, segment in enumerate(segments, 1):
-        entries = [segment.speed / ARCSEC, *segment.values, segment.deviation / ARCSEC]
+        entries = [segment.speed / ARCSEC, *segment.values, segment.deviation / ARCSEC, segment.error / ARCSEC]
         lines += [",".join([str(number), *(f"{value:.15g}" for value in row)]) for row in zip(*entries, strict=True)]
     return "\n".join(lines) + "\n"
 
