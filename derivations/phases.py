@@ -97,8 +97,10 @@ def steady(phase: str) -> State:
     angle = sp.Symbol("angle", real=True)
     shape = sp.cos(angle)
     if phase == "B":
-        shape = sp.expand_trig(sp.cos(angle + s * sp.pi / 2))
-        shape = shape.subs({sp.cos(s * sp.pi / 2): 0, sp.sin(s * sp.pi / 2): s})
+        quarter = s * sp.pi / 2
+        shape = sp.expand_trig(sp.cos(angle + quarter)).subs({sp.cos(quarter): 0, sp.sin(quarter): s})
+        if any(shape.subs(s, side) != sp.cos(angle + quarter.subs(s, side)) for side in (1, -1)):
+            raise ArithmeticError("phase B is not a quarter period from phase A")
     w = W * shape.subs(angle, drive_frequency() * tau + psi)
     return w, w.diff(tau)
 
