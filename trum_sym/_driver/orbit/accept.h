@@ -179,9 +179,8 @@ static mask trum_advance_step(trum_lanes* lanes) {
     /* a step cut short by an event or a region's end does not make the next one shorter */
     lanes->step.free_h = where(accepted, where(cut_short, minimum(longest, maximum(lanes->step.free_h, grown)), grown),
                                lanes->step.free_h);
-#if TRUM_REAL_BITS == 32 /* where errors are mostly rounding, they are no reason to go on ever more slowly */
+    /* where errors are mostly rounding, they are no reason to go on ever more slowly */
     lanes->step.free_h = maximum(lanes->step.free_h, REAL(trum_min_step) * lanes->equation.period);
-#endif
     lanes->step.tau = where(accepted, lanes->step.tau + lanes->step.h, lanes->step.tau);
     lanes->step.time_left =
         where(accepted, where(finished, REAL(0), lanes->step.time_left - lanes->step.h), lanes->step.time_left);

@@ -56,7 +56,13 @@ static real trum_limited(const trum_lanes* lanes, const trum_trial_step* trial, 
   return maximum(drift - reach, minimum(drift + reach, next));
 }
 
-/* Solves x_i = x_0 + sum_j A_ij T_j (push f(x_j) - drag) for the three nodes after the first. */
+/* Solves x_i = x_0 + sum_j A_ij T_j (push f(x_j) - drag) for the three nodes after the first.
+ *
+ * What Newton leaves: the next change is smaller in the same ratio at least, as f is convex or concave between its events.
+ * The first change has no ratio, and near saturation, where 1 - |f| goes as a root of the speed, changes shrink without
+ * end on the way to a saturation that they never reach: friction is off by f'' y^2 with f'' about f'^2 / (1 - |f|), which
+ * counts for a first change y, and for one that takes f more than half of the way to saturation; at most f goes on to
+ * saturation, or not at all. */
 static void trum_solve_collocation(const trum_lanes* lanes, trum_trial_step* trial) {
   static const trum_real A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS, c[NODES] = TRUM_COLLOCATION_POINTS;
   trum_factors equations;
@@ -79,7 +85,7 @@ static void trum_solve_collocation(const trum_lanes* lanes, trum_trial_step* tri
     trial->events[j][EVENT_SMALLER_PRESSURE] = REAL(0);
   }
   for (tries = 0; tries < 12 && any_lane(trial->not_converged); ++tries) {
-    real change = REAL(0), bend = REAL(0), slope[NODES];
+    real change = REAL(0), bent = REAL(0), slope[NODES];
     slope[0] = REAL(0);
     for (j = 1; j < NODES; ++j) {
       real f, f_v, larger, smaller;
@@ -103,29 +109,30 @@ static void trum_solve_collocation(const trum_lanes* lanes, trum_trial_step* tri
     trum_substitute(&equations, right, y);
     for (j = 1; j < NODES; ++j) {
       const real next = trum_limited(lanes, trial, j, trial->x[j] + y[j]);
-      const real f_change = trial->f_v[j] * (next - trial->x[j]);
-      const real to_saturation = REAL(1) - maximum(absolute(trial->f[j]), absolute(trial->f[j] + f_change));
-      change = maximum(change, absolute(next - trial->x[j]));
-      bend = maximum(bend, absolute(trial->T[j]) * (f_change * f_change * reciprocal(maximum(to_saturation, REAL(trum_tiny)))));
-      trial->f[j] = where(trial->not_converged, trial->f[j] + f_change, trial->f[j]);
+      const real f_change = trial->f_v[j] * y[j], to_saturation = REAL(1) - absolute(trial->f[j]);
+      const real left = REAL(1) - maximum(absolute(trial->f[j]), absolute(trial->f[j] + f_change));
+      const real bend = absolute(trial->T[j]) *
+                        minimum(absolute(f_change) + absolute(to_saturation),
+                                f_change * f_change * reciprocal(maximum(left, REAL(trum_tiny))));
+      const mask within = at_most(absolute(f_change), REAL(0.5) * to_saturation);
+      change = maximum(change, absolute(y[j])); /* not of what it is limited to, which may end at the limit */
+      bent = maximum(bent, tries == 0 ? bend : where(within, REAL(0), bend));
+      trial->f[j] = where(trial->not_converged, trial->f[j] + trial->f_v[j] * (next - trial->x[j]), trial->f[j]);
       trial->x[j] = where(trial->not_converged, next, trial->x[j]);
     }
-    /* the next change is smaller in the same ratio at least, as f is convex or concave between its events; the first
-     * has no ratio: near saturation 1 - |f| goes as a root of the speed, so f'' is about f'^2 / (1 - |f|) */
-    bend = lanes->equation.push * bend;
+    bent = lanes->equation.push * bent;
     trial->unsolved =
         where(trial->not_converged,
-              tries == 0 ? bend
-                         : where(less_than(change, last_change), change * (change * reciprocal(last_change)), change),
+              maximum(bent, tries == 0                      ? REAL(0)
+                            : where(less_than(change, last_change), change * (change * reciprocal(last_change)), change)),
               trial->unsolved);
     last_change = where(trial->not_converged, change, last_change);
     /* a first change says nothing of the next where friction is steep */
     trial->not_converged =
         trial->not_converged &
         mask_not(at_most(change, lanes->tolerances.newton) &
-                 (tries > 0 ? mask_all(1)
-                            : at_most(bend * lanes->tolerances.inverse_step, REAL(trum_newton_share) * lanes->equation.push) &
-                                  mask_not(trial->damped)));
+                 at_most(bent * lanes->tolerances.inverse_step, REAL(trum_newton_share) * lanes->equation.push) &
+                 (tries > 0 ? mask_all(1) : mask_not(trial->damped)));
   }
   for (j = 1; j < NODES; ++j) T_f[j] = trial->T[j] * trial->f[j];
   trial->f[0] = where(trial->damped, trum_extrapolate_first(T_f) * reciprocal(where(trial->damped, trial->T[0], REAL(1))),
