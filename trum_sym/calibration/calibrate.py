@@ -73,7 +73,7 @@ def calibrate(
         (then logarithms are compared).  An uncertainty column multiplies either.
     confidence : float
         Of the intervals.
-    contact, resonance, foundation, amplitude, sampling_period
+    contact, resonance, foundation, amplitude, compliance, tangential, sampling_period
         As for :func:`trum_sym.evaluate`.
     progress : bool
         Whether to count the steps on the standard error.
@@ -81,6 +81,7 @@ def calibrate(
     Returns
     -------
     Calibration
+        Estimates with intervals, residuals, what the data cannot tell apart, and the motor with the fitted values.
 
     Raises
     ------
@@ -90,6 +91,18 @@ def calibrate(
         If the fit does not settle, or the model has no answer where the search begins.
     MissingExtraError
         Without SciPy.
+
+    Notes
+    -----
+    Fits to the paper's Table 2 and to made data: docs/calibrate.md.
+
+    Examples
+    --------
+    >>> import trum_sym as ts
+    >>> data = {"prepressure": [160, 180, 200, 210], "amplitude": [6.1e-6, 5.5e-6, 5.2e-6, 5.0e-6]}
+    >>> found = ts.calibrate(data, parameters=["amplitude_factor"])
+    >>> found.status, f"{found['amplitude_factor'].value:.2f}"
+    ('solved', '14.95')
     """
     measured = _measurements(data)
     machine = motor if isinstance(motor, Motor) else load_motor(motor)
