@@ -33,7 +33,7 @@ html_static_path = [str(Path(__file__).parent / "static")]
 html_css_files = ["site.css"]
 html_show_sourcelink = False
 html_copy_source = False
-html_sidebars = {"index": [], "ledger/*": ["sidebar-nav-bs"]}
+html_sidebars = {"index": [], "tutorial": []}
 html_theme_options = {
     "show_prev_next": False,
     "navigation_with_keys": False,

@@ -92,7 +92,12 @@ def test_a_gap_is_noticed():
     assert {"no Raises", "no Examples", "tolerance is not described", "no Returns"} <= set(said)
 
 
-@pytest.mark.parametrize("name", PUBLIC)
+LONGER = ("characteristics", "pareto", "robust", "speed_table", "track")  # which .ci/run runs beside the site
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=pytest.mark.slow if name in LONGER else ()) for name in PUBLIC]
+)
 def test_the_examples_run(name):
     of = PUBLIC[name]
     found = [t for t in doctest.DocTestFinder(recurse=False).find(of, name, module=False, globs={}) if t.examples]

@@ -143,6 +143,13 @@ class Drive(Value):
             m, n = int(periods[wrong].flat[0]), int(on_periods[wrong].flat[0])
             raise ParameterError("on_periods", n, f"an integer from periods/2 to periods, with periods = {m}")
 
+    def _table(self) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+        units = {name: unit for name, (_, unit) in DRIVE_DOMAINS.items() if unit != "1"}
+        rows: list[tuple[str, ...]] = [
+            (f.name, f"{getattr(self, f.name)}", units.get(f.name, "")) for f in fields(self)
+        ]
+        return ("drive", "value", "unit"), rows
+
     def numbers(self) -> dict[str, ArrayLike]:
         """The numeric fields by name."""
         return {field.name: getattr(self, field.name) for field in fields(self) if field.name not in _WORDS}

@@ -268,6 +268,13 @@ class Motor(Value):
         assumed = len(self.assumed())
         return f"<Motor {one_line(self.name)}: {count} parameters, {assumed} of them assumed>"
 
+    def _table(self) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+        rows: list[tuple[str, ...]] = [
+            (name, p.symbol, f"{p.value}", p.unit, p.source, f"{p.range[0]:g} to {p.range[1]:g}" if p.range else "")
+            for name, p in self.parameters()
+        ]
+        return (self.name, "symbol", "value", "unit", "source", "range"), rows
+
     def assumed(self) -> dict[str, Parameter]:
         """The parameters that nobody measured, by name: assumed ones, and those of a template that are still to do."""
         return {name: p for name, p in self.parameters() if p.source.casefold().startswith(("assumed", TO_DO))}
