@@ -91,7 +91,7 @@ def _page(r: Record, picture: str, used: list[kernels.Kernel]) -> str:
         _prose(r["effect"]),
     ]
     parts += [f"Computed with {_prose(conditions)}."] if conditions else []
-    parts += [f"```{{raw}} html\n<figure class='of-entry'>{picture}</figure>\n```"] if picture else []
+    parts += [f"```{{raw}} html\n<figure class='of-entry' tabindex='0'>{picture}</figure>\n```"] if picture else []
     steps = [f"1. {_prose(s['text'])}{_MARKS[s['holds']]}\n{_formulas(s['latex'], '   ')}" for s in r["steps"]]
     parts += ["## Derivation", "A tick marks a step that is checked by machine.", "\n".join(steps)]
     parts += ["## Evidence", _evidence([*r["evidence"], *_second(r)])]

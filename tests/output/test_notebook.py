@@ -18,7 +18,7 @@ class Table(HTMLParser):
         self.elements, self.cells = [], []
         self.feed(text)
 
-    def handle_starttag(self, tag, attrs):
+    def handle_starttag(self, tag, _):
         self.elements.append(tag)
         if tag in ("td", "th"):
             self.cells.append("")
