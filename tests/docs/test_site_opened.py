@@ -34,6 +34,10 @@ def browser(tmp_path):
     driver.quit()
 
 
+def complaints(driver):
+    return [entry for entry in driver.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")]
+
+
 UNNAMED = """return [...document.querySelectorAll('button, summary')].filter(
   (one) => one.checkVisibility() && !one.ariaLabel && !one.textContent.trim()).map((one) => one.outerHTML)"""
 
@@ -50,7 +54,7 @@ def test_pages_open_from_a_folder_at_both_widths_in_light_and_dark(site, browser
             assert browser.execute_script("return document.documentElement.dataset.theme") == mode
             assert browser.execute_script("return document.documentElement.scrollWidth") <= width, page
             assert browser.execute_script(UNNAMED) == []
-            assert [entry for entry in browser.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")] == []
+            assert complaints(browser) == []
 
 
 @pytest.mark.browser
@@ -60,3 +64,4 @@ def test_the_search_works_without_a_server(site, browser):
     browser.get((site / "search.html").as_uri() + "?q=prepressure")
     found = "return document.querySelectorAll('ul.search li').length > 5"
     assert WebDriverWait(browser, 30).until(lambda driver: driver.execute_script(found))
+    assert complaints(browser) == []
