@@ -26,6 +26,8 @@ def adapted(text: str) -> str:
     text = _LEDGER.sub(lambda found: f"](ledger/{found[1]}.md)" if found[1] else "](ledger/index.md)", text)
     text = _OUTSIDE.sub(lambda found: f"`{found[2]}`", text)
     text = re.sub(r"\$`([^`]*)`\$", r"{math}`\1`", text).replace("```math\n", "```{math}\n")
+    for page, source in _MORE.items():
+        text = text.replace(f"]({source})", f"]({page})")
     return text.replace("](docs/", "](")
 
 
