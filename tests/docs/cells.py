@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import doctest
 import re
 
@@ -22,3 +23,14 @@ def wrong(page, names=None):
         runner.run(test, out=said.append, clear_globs=False)
         shared.update(test.globs)
     return "".join(said)
+
+
+def not_to_be_pasted(page):
+    """Blocks that Python's prompt would not end before the next line of their cell: it asks for an empty line."""
+    parser = doctest.DocTestParser()
+    found = []
+    for text in cells(page):
+        *before, _ = parser.get_examples(text)
+        blocks = (example.source for example in before)
+        found += [block for block in blocks if hasattr(ast.parse(block).body[0], "body")]
+    return found

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from cells import cells, wrong
+from cells import cells, not_to_be_pasted, wrong
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGES = [path.name for path in sorted(DOCS.glob("*.md")) if cells(path)]
@@ -20,6 +20,11 @@ def marked(names):
 def test_a_page_s_cells_print_what_stands_below_them(page, monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     assert wrong(DOCS / page) == ""
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_a_cell_can_be_pasted_at_python_s_prompt(page):
+    assert not_to_be_pasted(DOCS / page) == []
 
 
 def test_the_pages_with_cells_are_found():

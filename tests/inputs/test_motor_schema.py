@@ -167,6 +167,7 @@ def test_diff_names_what_differs(capsys, motor_file):
     lines = run(capsys, "diff", "trum60", str(path))[1].splitlines()
     assert len(lines) == 3
     assert lines[2].split()[:6] == ["free_amplitude", "12.6", "12.1", "um", "-3.97", "%"]
+    assert lines[0].split()[:2] == ["trum60", str(path)]  # both are called TRUM-60
     assert "the same values" in run(capsys, "diff", "trum60", "trum60")[1]
 
 
