@@ -35,7 +35,7 @@ html_js_files = ["site.js"]
 html_show_sourcelink = False
 html_copy_source = False
 html_show_search_summary = False  # it would be fetched, which a browser refuses where no server is
-html_sidebars = {"index": [], "tutorial": []}
+html_sidebars: dict[str, list[str]] = {"index": [], "tutorial": []}
 html_theme_options = {
     "show_prev_next": False,
     "navigation_with_keys": False,
