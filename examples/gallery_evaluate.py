@@ -1,8 +1,8 @@
-"""One operating point and what happens in it: the two phases over a drive cycle.
+"""One operating point and what happens in it: phases, direction of the wave and rotor over a drive cycle.
 
     python examples/gallery_evaluate.py [FOLDER]
 
-Prints the point; with a folder, also draws phases.svg there.
+Prints the point; with a folder, also draws pulses.svg there.
 """
 
 from __future__ import annotations
@@ -25,7 +25,16 @@ def main(folder: Path | None = None) -> None:
     print(f"mean speed  {point.mean_speed / ARCSEC:10.0f} arcsec/s")
     print(f"stall       {point.stall_torque:10.4f} N m")
     if folder is not None:
-        plots.save(plots.phase_responses(motor, drive), folder / "phases.svg")
+        panels = plots.blank(4, 1, height=7.4, sharex=True)
+        plots.phase_responses(motor, drive, axes=panels[:2])
+        plots.forward_and_backward(motor, drive, axes=panels[2])
+        plots.instantaneous_speed(motor, drive, axes=panels[3])
+        panels[2].set_title("which way the wave runs", loc="right", fontsize=9)
+        panels[3].set_title("the rotor follows; its mean is small", loc="right", fontsize=9)
+        panels[3].set_xlim(0.0, 1e3 * float(point.cycle_time))
+        for axes in panels:
+            axes.label_outer()
+        plots.save(panels[0].figure, folder / "pulses.svg")
 
 
 if __name__ == "__main__":

@@ -208,6 +208,7 @@ POINT = [
     called("simulate", simulate, some(FIELDS, values, 2), some(("cycles", "samples_per_period"), values, 1)),
     called("load_motor", load, broken),
     called("load_motor of anything", ts.load_motor, values),
+    called("save_motor", ts.save_motor, st.just(MOTOR) | values, values),
     called("Distribution", ts.Distribution, texts, values, values),
     called("evaluate anything", ts.evaluate, values, values),
     *(console_calls(name) for name in COMMANDS if name not in SLOW),

@@ -14,6 +14,7 @@ from .inputs.drive import Drive as Drive
 from .inputs.motor import Motor as Motor
 from .inputs.motor import Parameter as Parameter
 from .inputs.motor_file import load_motor as load_motor
+from .inputs.motor_writer import save_motor as save_motor
 from .model.histories import simulate as simulate
 from .model.holding import Holding as Holding
 from .model.holding import holding as holding
@@ -60,6 +61,7 @@ __all__ = [
     "optimize",
     "pareto",
     "robust",
+    "save_motor",
     "sensitivities",
     "simulate",
     "speed_table",

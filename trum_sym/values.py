@@ -7,6 +7,7 @@ from dataclasses import fields
 from typing import Any, TypeVar
 
 from trum_sym.errors import ParameterError
+from trum_sym.text import one_line
 
 __all__ = ["FrozenDict", "Value"]
 
@@ -69,6 +70,19 @@ class Value:
 
     def __hash__(self) -> int:
         return hash((type(self), *(_key(getattr(self, name)) for name in _compared(self))))
+
+    def _table(self) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+        """Headers and rows of what a notebook shows."""
+        names = [field.name for field in fields(self) if field.repr]  # type: ignore[arg-type]
+        shown: list[tuple[str, ...]] = [(name, repr(getattr(self, name))) for name in names]
+        return ("field", "value"), shown
+
+    def _repr_html_(self) -> str:
+        from tabulate import tabulate
+
+        headers, rows = self._table()
+        head, *cells = ([one_line(cell) for cell in row] for row in (headers, *rows))
+        return str(tabulate(cells, head, tablefmt="html", disable_numparse=True))
 
     def __reduce__(self) -> tuple[Any, ...]:
         from importlib.metadata import version

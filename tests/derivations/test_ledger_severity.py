@@ -169,15 +169,17 @@ def _text(name):
     return (ROOT / name).read_text("utf-8").replace("\n", " ").replace("  ", " ")
 
 
-def test_readme_counts_by_severity_and_sureness():
+def test_readme_and_findings_count_by_severity_and_sureness():
     of_the_62 = [BY_ID[name] for name in NUMBERED]
     errata = Counter(r["severity"] for r in of_the_62 if r["severity"])
     counted = " and ".join(
         [", ".join(f"{errata[word]} {word}" for word in SEVERITIES[:-1]), f"{errata[SEVERITIES[-1]]} {SEVERITIES[-1]}"]
     )
     doubtful = sum(r["copy"] == "doubtful" for r in of_the_62)
-    assert f"**{errata.total()} of the 62 numbered equations are errata**, {counted}" in _text("README.md")
-    assert f"at {doubtful} of the 62 the copy" in _text("README.md")
+    found = _text("docs/findings.md")
+    assert f"**{errata.total()} of the 62 numbered equations are errata**, {counted}" in found
+    assert f"at {doubtful} of the 62 the copy" in found
+    assert f"{errata.total()} are errata" in _text("README.md")
 
 
 def test_the_docs_count_by_severity_and_sureness():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -31,6 +32,13 @@ def test_the_template_loads_and_has_the_values_of_the_other_motor(motor_file):
     assert {n: p.value for n, p in own.parameters()} == {n: p.value for n, p in MOTOR.parameters() if n in needed}
     assert set(own.assumed()) == {name for name, spec in SPECS.items() if spec.required}
     assert (dict(own.box), own.published) == ({}, ())
+
+
+@pytest.mark.parametrize("name", ["two\nlines", 'a "quoted" \\ one', "del\x7f and esc\x1b", "ä µ 電 😀"])
+def test_a_template_loads_whatever_the_names_are(motor_file, trum60, name):
+    own = ts.load_motor(motor_file(template(name, replace(trum60, name=name))))
+    assert own.name == name
+    assert own.radius.source == f"to do: value of {name}"
 
 
 def test_each_optional_entry_of_the_template_may_be_taken_in(motor_file):
@@ -159,6 +167,7 @@ def test_diff_names_what_differs(capsys, motor_file):
     lines = run(capsys, "diff", "trum60", str(path))[1].splitlines()
     assert len(lines) == 3
     assert lines[2].split()[:6] == ["free_amplitude", "12.6", "12.1", "um", "-3.97", "%"]
+    assert lines[0].split()[:2] == ["trum60", str(path)]  # both are called TRUM-60
     assert "the same values" in run(capsys, "diff", "trum60", "trum60")[1]
 
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import sys
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from os import PathLike
-from typing import Unpack
+from typing import TYPE_CHECKING, Unpack
 
 import numpy as np
 
@@ -27,6 +28,9 @@ from trum_sym.model.inputs import Inputs
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.quantities import QUANTITIES
 
+if TYPE_CHECKING:
+    import pandas as pd
+
 __all__ = ["ERRORS", "Calibration", "FittedParameter", "calibrate", "model_of"]
 
 ERRORS = ("absolute", "relative")
@@ -42,7 +46,7 @@ _LAW = ("amplitude_factor", "amplitude_exponent")
 
 
 def calibrate(
-    data: str | PathLike[str] | Measurements | Mapping[str, object],
+    data: str | PathLike[str] | Measurements | Mapping[str, object] | pd.DataFrame,
     motor: Motor | str | PathLike[str] = "trum60",
     *,
     parameters: Sequence[str] | None = None,
@@ -57,7 +61,7 @@ def calibrate(
 
     Parameters
     ----------
-    data : path, Measurements or mapping
+    data : path, Measurements, mapping or data frame
         A CSV file with units in its headers, or columns in SI units by name: fields of the drive and at least one
         figure of :func:`trum_sym.evaluate`, or ``time`` and one of ``displacement``, ``velocity``, ``envelope``.
         Several measured columns need a ``NAME_uncertainty`` each, which weighs them.
@@ -73,7 +77,7 @@ def calibrate(
         (then logarithms are compared).  An uncertainty column multiplies either.
     confidence : float
         Of the intervals.
-    contact, resonance, foundation, amplitude, sampling_period
+    contact, resonance, foundation, amplitude, compliance, tangential, sampling_period
         As for :func:`trum_sym.evaluate`.
     progress : bool
         Whether to count the steps on the standard error.
@@ -81,6 +85,7 @@ def calibrate(
     Returns
     -------
     Calibration
+        Estimates with intervals, residuals, what the data cannot tell apart, and the motor with the fitted values.
 
     Raises
     ------
@@ -90,6 +95,18 @@ def calibrate(
         If the fit does not settle, or the model has no answer where the search begins.
     MissingExtraError
         Without SciPy.
+
+    Notes
+    -----
+    Fits to the paper's Table 2 and to made data: docs/calibrate.md.
+
+    Examples
+    --------
+    >>> import trum_sym as ts
+    >>> data = {"prepressure": [160, 180, 200, 210], "amplitude": [6.1e-6, 5.5e-6, 5.2e-6, 5.0e-6]}
+    >>> found = ts.calibrate(data, parameters=["amplitude_factor"])
+    >>> found.status, f"{found['amplitude_factor'].value:.2f}"
+    ('solved', '14.95')
     """
     measured = _measurements(data)
     machine = motor if isinstance(motor, Motor) else load_motor(motor)
@@ -143,6 +160,9 @@ def _warn_beyond(found: Calibration, before: Motor) -> None:
 def _measurements(data: object) -> Measurements:
     if isinstance(data, Measurements):
         return data
+    pandas = sys.modules.get("pandas")
+    if pandas is not None and isinstance(data, pandas.DataFrame):
+        data = dict(data.items())
     if isinstance(data, Mapping):
         return from_columns("data", data, {}, synthetic=False)
     return read_measurements(path_of("data", data, "the path of a CSV file, or columns by name"))
@@ -292,8 +312,6 @@ def _with_estimates(motor: Motor, estimates: tuple[FittedParameter, ...], data: 
 
 
 def _counter() -> Callable[[], None]:
-    import sys
-
     import click
 
     count = 0

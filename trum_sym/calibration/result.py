@@ -30,6 +30,7 @@ class FittedParameter(Value):
 
     Attributes
     ----------
+    name, unit : str
     value, low, high : float
         The best value and the ends of its interval, symmetric by construction (linearised, Student's t).
     standard_error : float
@@ -62,6 +63,12 @@ class Calibration(Result, Value):
         The motor with the fitted values, and drive, levels and encoder, which give what the data have no column of.
     measurements : Measurements
         The data, in SI units.
+    data, errors : str
+        The data's name; how their errors are taken, ``"absolute"`` or ``"relative"``.
+    observed : tuple of str
+        The measured columns.
+    confidence : float
+        Of the intervals.
     status : str
         ``"solved"``, or ``"unidentifiable"``: the data do not fix these parameters, whatever the figures look like.
     message : str
@@ -72,9 +79,21 @@ class Calibration(Result, Value):
     covariance, correlation : (k, k) array
         Of the estimates in their order.
     residuals, separation
-        See ``Residuals`` and ``Separation`` in :mod:`trum_sym.calibration.least_squares`.
+        See ``Residuals`` and ``Separation`` in ``trum_sym.calibration.least_squares``.
+    residual_unit : str
+        SI unit of the residuals.
     explained : float
         Share of the measured columns' variance that the fit explains, R^2.
+    iterations : int
+        Steps of the search.
+
+    Examples
+    --------
+    >>> import trum_sym as ts
+    >>> data = {"prepressure": [160, 180, 200, 210], "amplitude": [6.1e-6, 5.5e-6, 5.2e-6, 5.0e-6]}
+    >>> found = ts.calibrate(data, parameters=["amplitude_factor"])
+    >>> found["amplitude_factor"].low < found["amplitude_factor"].value < found["amplitude_factor"].high
+    True
     """
 
     inputs: Inputs

@@ -88,7 +88,7 @@ def diff(one: str, other: str) -> None:
     from trum_sym.inputs.motor_file import load_motor
     from trum_sym.inputs.motor_tables import differences
 
-    say(differences(load_motor(one), load_motor(other)))
+    say(differences(load_motor(one), load_motor(other), (one, other)))
 
 
 @motor.command("schema", epilog=examples("trum-sym motor schema", "trum-sym motor schema --format markdown"))

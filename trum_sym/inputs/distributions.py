@@ -43,6 +43,19 @@ class Distribution(Value):
         Of the value itself (for ``lognormal`` too, not of its logarithm), before it is cut.
     mode : float, optional
         Where a triangular distribution has its peak.
+
+    Raises
+    ------
+    ParameterError
+        Where it is used, for an unknown kind, ends in the wrong order or values that the parameter cannot have.
+
+    Examples
+    --------
+    >>> import trum_sym as ts
+    >>> ts.Distribution("triangular", low=0.2, mode=0.25, high=0.3).describe()
+    'triangular, 0.2 to 0.3, peak 0.25'
+
+    What studies do with it: docs/tolerance.md.
     """
 
     kind: str
@@ -53,7 +66,10 @@ class Distribution(Value):
     mode: float | None = None
 
     def quantile(self, level: Array) -> Array:
-        """The values below which shares ``level`` of the distribution lie; same shape, in the parameter's unit."""
+        """The values below which shares ``level`` of the distribution lie; same shape, in the parameter's unit.
+
+        Needs SciPy.
+        """
         base = self._frozen()
         below, upto = base.cdf(self.low), base.cdf(self.high)
         share = below + np.clip(level, _LEAST, 1 - _LEAST) * (upto - below)

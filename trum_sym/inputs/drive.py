@@ -83,6 +83,15 @@ class Drive(Value):
     ParameterError
         For a value outside its domain, shapes that do not broadcast, a weight without a radius or a radius without a
         weight.
+
+    Examples
+    --------
+    >>> import trum_sym as ts
+    >>> drive = ts.Drive(prepressure=["170 N", "180 N"], frequency_difference="3 kHz", load_torque=0.1)
+    >>> drive.prepressure
+    array([170., 180.])
+
+    ``dataclasses.replace(drive, periods=21)`` makes another one; a drive itself does not change.
     """
 
     prepressure: ArrayLike = _quantity(180.0, "N", Domain(low=0.0, high=1e6), "Prepressure F_c.", "N")
@@ -133,6 +142,13 @@ class Drive(Value):
         if wrong.any():
             m, n = int(periods[wrong].flat[0]), int(on_periods[wrong].flat[0])
             raise ParameterError("on_periods", n, f"an integer from periods/2 to periods, with periods = {m}")
+
+    def _table(self) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+        units = {name: unit for name, (_, unit) in DRIVE_DOMAINS.items() if unit != "1"}
+        rows: list[tuple[str, ...]] = [
+            (f.name, f"{getattr(self, f.name)}", units.get(f.name, "")) for f in fields(self)
+        ]
+        return ("drive", "value", "unit"), rows
 
     def numbers(self) -> dict[str, ArrayLike]:
         """The numeric fields by name."""

@@ -57,6 +57,13 @@ class Parameter(Value):
         For calibrated values: the name of the data.
     distribution : Distribution or None
         How the value spreads, where the motor file says more than a range.
+
+    Examples
+    --------
+    >>> import trum_sym as ts
+    >>> friction = ts.load_motor("trum60").friction_coefficient
+    >>> friction.value, friction.source, friction.range
+    (0.25, 'assumed', (0.2, 0.3))
     """
 
     value: ArrayLike
@@ -129,6 +136,37 @@ class Motor(Value):
     bench that the published figures were measured on, by the names of :class:`trum_sym.Drive`; nothing is computed with
     it unless a drive takes it.  ``box`` has the ranges that searches vary, ``allowed`` those beyond which the hardware
     does not go, ``spreads`` how far inputs of a motor at work may be off.
+
+    Attributes
+    ----------
+    name : str
+    radius, tooth_count, ..., flange_poisson_ratio : Parameter
+        What docs/motor-file.md lists, with symbols, units and what is allowed; values may be arrays that broadcast.
+    bench : mapping of Parameter
+        By name, in SI units.
+    published : tuple of Published
+        Figures of a publication, to be shown beside ours.
+    box, allowed : mapping of Allowed
+        Ends in SI units, and who says so.
+    spreads : mapping of Amount
+        Amounts in SI units, or shares of the input's own value.
+    text : str
+        Of the motor file, whatever was set since.
+
+    Raises
+    ------
+    ParameterError
+        For a value outside its domain, a wrong unit, or sizes that do not fit each other.
+
+    Examples
+    --------
+    >>> import trum_sym as ts
+    >>> motor = ts.load_motor("trum60")
+    >>> stiffer = motor.with_values({"layer_young_modulus": "3 GPa"}, source="data sheet")
+    >>> stiffer.layer_young_modulus.value
+    3000000000.0
+
+    The paper's Table 1 is ``trum60``; :func:`trum_sym.save_motor` writes a changed motor.
     """
 
     name: str
@@ -229,6 +267,13 @@ class Motor(Value):
         count = sum(1 for _ in self.parameters())
         assumed = len(self.assumed())
         return f"<Motor {one_line(self.name)}: {count} parameters, {assumed} of them assumed>"
+
+    def _table(self) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+        rows: list[tuple[str, ...]] = [
+            (name, p.symbol, f"{p.value}", p.unit, p.source, f"{p.range[0]:g} to {p.range[1]:g}" if p.range else "")
+            for name, p in self.parameters()
+        ]
+        return (self.name, "symbol", "value", "unit", "source", "range"), rows
 
     def assumed(self) -> dict[str, Parameter]:
         """The parameters that nobody measured, by name: assumed ones, and those of a template that are still to do."""

@@ -19,7 +19,7 @@ from trum_sym.inputs.motor import SPECS, Allowed, Amount, Motor, Parameter, Publ
 from trum_sym.inputs.units import Unit, parse_unit, unit_for
 from trum_sym.quantities import QUANTITIES
 
-__all__ = ["BENCH", "SHIPPED", "load_motor", "motor_text"]
+__all__ = ["BENCH", "SHIPPED", "load_motor", "motor_of", "motor_text"]
 
 SHIPPED = ("dual60", "ring60", "trum60")
 """Motors that ship with the package, by name."""
@@ -266,7 +266,13 @@ def _read_toml(source: str | PathLike[str], text: str) -> dict[str, Any]:
 
 
 def load_motor(source: str | PathLike[str] = "trum60") -> Motor:
-    """Read a motor by name (:data:`SHIPPED` come with the package) or from a TOML file.
+    """Read a motor by name or from a TOML file.
+
+    Parameters
+    ----------
+    source : str or path
+        ``"trum60"`` (the paper's motor, Table 1), ``"dual60"`` or ``"ring60"``, which come with the package, or the
+        path of a motor file (docs/motor-file.md).
 
     Returns
     -------
@@ -278,9 +284,20 @@ def load_motor(source: str | PathLike[str] = "trum60") -> Motor:
     ParameterError
         If the file is missing, is not TOML, or an entry is unknown, incomplete, of a wrong unit or
         outside its domain.
+
+    Examples
+    --------
+    >>> import trum_sym as ts
+    >>> motor = ts.load_motor("trum60")
+    >>> motor.radius.value, motor.radius.unit, motor.radius.source
+    (0.03, 'm', 'Table 1')
     """
     path_of("motor", source, f"{_NAMES} or the path of a TOML file")
-    text = motor_text(source)
+    return motor_of(source, motor_text(source))
+
+
+def motor_of(source: str | PathLike[str], text: str) -> Motor:
+    """The motor that a motor file's text states; ``source`` is what errors call it."""
     data = _read_toml(source, text)
     unknown = sorted(set(data) - set(_TABLES))
     if unknown:

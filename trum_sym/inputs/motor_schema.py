@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from typing import Any, NamedTuple
 
@@ -11,6 +12,7 @@ from trum_sym.inputs.motor import SPECS, TO_DO, Motor
 from trum_sym.inputs.motor_file import BENCH, load_motor
 from trum_sym.inputs.units import parse_unit
 from trum_sym.quantities import QUANTITIES
+from trum_sym.text import one_line
 
 __all__ = ["ENTRIES", "Entry", "in_unit", "page", "schema", "template"]
 
@@ -114,6 +116,11 @@ def in_unit(value: float, unit: str) -> float:
     return float(f"{value / parse_unit(unit).to_si(1.0):.12g}")
 
 
+def _quoted(text: str) -> str:
+    """A string of TOML: JSON's, but for one character that JSON leaves."""
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
+
+
 def template(name: str, like: Motor | None = None) -> str:
     """A motor file to fill in: every parameter with its unit and meaning, the values still those of another motor.
 
@@ -125,14 +132,13 @@ def template(name: str, like: Motor | None = None) -> str:
         Whose values stand in it; TRUM-60 if not given.
     """
     like = load_motor() if like is None else like
-    quoted = name.replace("\\", "\\\\").replace('"', '\\"')
     lines = [
-        f"# {quoted}: a motor file of trum-sym.  Replace every value whose source begins with '{TO_DO}',",
+        f"# {one_line(name)}: a motor file of trum-sym.  Replace every value whose source begins with '{TO_DO}',",
         "# and its source.",
         "# `trum-sym motor check FILE` says what is left to do, assumed, out of range or contradictory.",
         "# Units may be any that convert: mm, um, GPa, g/cm^3, kHz, N*m, %, ...",
         "",
-        f'name = "{quoted}"',
+        f"name = {_quoted(name)}",
         "",
         "# What searches (optimize, pareto, robust, speed-table) vary of the drive; without it they ask for ranges",
         "# [box]",
@@ -155,8 +161,8 @@ def template(name: str, like: Motor | None = None) -> str:
             lines.append(f"# {entry.meaning}{allowed}")
             value = in_unit(float(known[parameter].value), entry.unit) if parameter in known else 0.0
             text = repr(int(value)) if spec.domain.integer else repr(value)
-            source = f"{TO_DO}: value of {like.name}" if spec.required else "measured"
-            about = f'unit = "{entry.unit}", symbol = "{spec.symbol}", source = "{source}"'
+            source = _quoted(f"{TO_DO}: value of {like.name}" if spec.required else "measured")
+            about = f'unit = "{entry.unit}", symbol = "{spec.symbol}", source = {source}'
             line = f"{parameter} = {{ value = {text}, {about} }}"
             lines.append(line if spec.required else f"# {line}")
     lines += [

@@ -109,8 +109,8 @@ def checked(motor: Motor, further: Sequence[str] = ()) -> tuple[str, bool]:
     return "\n".join([*lines, "nothing contradicts" if good else "not ready"]), good
 
 
-def differences(one: Motor, other: Motor) -> str:
-    """The values in which two motors differ, in the units that people write."""
+def differences(one: Motor, other: Motor, called: tuple[str, str] = ("", "")) -> str:
+    """The values in which two motors differ, in the units that people write; ``called`` where one name is the other."""
     from tabulate import tabulate
 
     rows = []
@@ -122,9 +122,9 @@ def differences(one: Motor, other: Motor) -> str:
         unit = "" if ENTRIES[name].unit == "1" else ENTRIES[name].unit
         sources = (one_line(p.source) if p else "" for p in (a, b))
         rows.append((name, _shown(name, a)[0], _shown(name, b)[0], unit, change, *sources))
+    names = [one_line(name) for name in (called if all(called) and one.name == other.name else (one.name, other.name))]
     if not rows:
-        return f"{one_line(one.name)} and {one_line(other.name)} have the same values"
-    names = one_line(one.name), one_line(other.name)
+        return f"{names[0]} and {names[1]} have the same values"
     headers = ("", *names, "unit", "change", *(f"source of {name}" for name in names))
     align = ("left", "right", "right", "left", "right", "left", "left")
     return str(tabulate(rows, headers, disable_numparse=True, colalign=align))

@@ -5,16 +5,59 @@ from __future__ import annotations
 from os import PathLike
 from typing import Any
 
-from trum_sym.errors import MissingExtraError
+from trum_sym.errors import MissingExtraError, ParameterError
 from trum_sym.inputs.choices import path_of
 from trum_sym.inputs.motor import Motor, Parameter
-from trum_sym.inputs.motor_file import load_motor, motor_text
+from trum_sym.inputs.motor_file import load_motor, motor_of
 from trum_sym.inputs.units import Unit, parse_unit
 from trum_sym.output.files import check_target, write_bytes
 
-__all__ = ["write_motor"]
+__all__ = ["save_motor", "write_motor"]
 
 _KEPT = ("unit", "symbol", "note")
+_OTHERS = ("name", "bench", "box", "allowed", "spreads", "published")
+
+
+def save_motor(motor: Motor, target: str | PathLike[str]) -> None:
+    """Write a motor file: the text that the motor was read from, with the values that were changed since in place.
+
+    The other lines, their order and comments stay; a changed entry keeps its unit, symbol, note and comment, and says
+    its source.
+
+    Parameters
+    ----------
+    motor : Motor
+        That :func:`trum_sym.load_motor` has read, of single numbers, whatever :meth:`trum_sym.Motor.with_values` has
+        changed.
+    target : path
+        A name that ends in .toml.
+
+    Raises
+    ------
+    ParameterError
+        For a motor that no file has, or whose name or other tables differ from its file's; and where nothing can be
+        written.
+    MissingExtraError
+        Without tomlkit.
+
+    Examples
+    --------
+    >>> import pathlib, tempfile
+    >>> import trum_sym as ts
+    >>> motor = ts.load_motor("trum60").with_values({"contact_radius": "26 mm"}, source="drawing 7")
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder) / "mine.toml"
+    ...     ts.save_motor(motor, path)
+    ...     ts.load_motor(path).contact_radius.source
+    'drawing 7'
+    """
+    if not isinstance(motor, Motor) or not motor.text:
+        raise ParameterError("motor", motor, "a motor that load_motor has read")
+    before = motor_of("motor", motor.text)
+    for table in _OTHERS:
+        if getattr(motor, table) != getattr(before, table):
+            raise ParameterError(f"motor: {table}", "another one", "that of its file, in which it is to be changed")
+    _write(motor, before, target, "motor file")
 
 
 def write_motor(motor: Motor, base: str | PathLike[str], target: str | PathLike[str], name: str = "motor file") -> None:
@@ -40,14 +83,19 @@ def write_motor(motor: Motor, base: str | PathLike[str], target: str | PathLike[
     MissingExtraError
         Without tomlkit.
     """
+    before = load_motor(base)
+    _write(motor, before, target, name)
+
+
+def _write(motor: Motor, before: Motor, target: str | PathLike[str], name: str) -> None:
+    """Write the text that a motor was read from with the entries in which another one differs replaced."""
     try:
         import tomlkit
     except ImportError:
         raise MissingExtraError("a motor file", "tomlkit", "optimize") from None
     path = path_of(name, target)
     check_target(name, path, (".toml",))
-    before = load_motor(base)
-    text = tomlkit.parse(motor_text(base))
+    text = tomlkit.parse(before.text)
     parameters: Any = text["parameters"]
     for parameter_name, parameter in motor.parameters():
         if parameter != getattr(before, parameter_name):

@@ -73,8 +73,10 @@ def simulate(
     -------
     xarray.Dataset
         Over the one dimension ``time`` (s since t1, ``cycles * periods * samples_per_period`` values, the end not
-        included) with the coordinate ``region``, an index into :data:`REGIONS`.  Variables are those of
-        :data:`VARIABLES`; ``attrs`` of each holds unit and meaning, those of the set every setting, every figure of
+        included) with the coordinate ``region``: 0 while A is off, 1 while B is off, 2 while both are on.  Variables:
+        ``w_A``, ``w_B`` (m, eqs. 9, 10), ``zeta_z``, ``zeta_x`` (m, eq. 11), ``Q`` (m^2/s, eq. A5), ``crest_speed``
+        (m/s), ``theta`` (rad, eq. 31), ``friction`` (share of mu F_c, eqs. 34 to 37), ``rotor_speed`` (rad/s, eq. 38),
+        ``rotor_angle`` (rad); ``attrs`` of each holds unit and meaning, those of the set every setting, every figure of
         ``evaluate`` and the package's version.  Where no speed balances the load, ``runaway`` is 1 there, and
         ``friction``, ``rotor_speed`` and ``rotor_angle`` are NaN.
 
@@ -86,6 +88,13 @@ def simulate(
         If the forced amplitude and the resonance do not settle.
     MissingExtraError
         Without xarray.
+
+    Examples
+    --------
+    >>> import trum_sym as ts
+    >>> histories = ts.simulate(drive=ts.Drive(load_torque=0.1), samples_per_period=16)
+    >>> dict(histories.sizes), histories.rotor_speed.attrs["units"]
+    ({'time': 320}, 'rad/s')
     """
     try:
         import xarray as xr

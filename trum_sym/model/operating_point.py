@@ -122,6 +122,17 @@ class OperatingPoint(Result, Value):
         Why not, in words, or that a weight's string goes slack, where the figures do not hold; empty if all is well.
     inputs : Inputs
         Motor, drive, levels, encoder and tolerance that the figures hold for.
+
+    Examples
+    --------
+    >>> import trum_sym as ts
+    >>> point = ts.evaluate(drive=ts.Drive(prepressure=[170.0, 180.0]))
+    >>> point.mean_speed.shape, point.units["mean_speed"], bool(point.converged.all())
+    ((2,), 'rad/s', True)
+    >>> point.to_frame()[["prepressure", "q_average"]].round(1)
+       prepressure  q_average
+    0        170.0      940.7
+    1        180.0      938.8
     """
 
     motor: str
@@ -298,6 +309,7 @@ def evaluate(
     Returns
     -------
     OperatingPoint
+        Floats, or arrays of the inputs' common shape.
 
     Raises
     ------
@@ -306,12 +318,18 @@ def evaluate(
     ConvergenceError
         If the forced amplitude and the resonance do not settle.
 
+    Notes
+    -----
+    Section and resonance are eqs. 1 to 6, the amplitude eqs. 7 and 8, the phases eqs. 9 and 10, the determinants
+    eqs. 43 and 44, contact and friction eqs. 25 to 37, the rotor eq. 38, each as the ledger puts it right
+    (docs/ledger.md); how the orbit is found and how exact it is: docs/rotor.md.
+
     Examples
     --------
     >>> import trum_sym as ts
     >>> point = ts.evaluate(drive=ts.Drive(prepressure="170 N", load_torque=0.1))
     >>> f"{point.cycle_time * 1e3:.4f} ms, {point.units['mean_speed']}"
-    '0.4757 ms, rad/s'
+    '0.4760 ms, rad/s'
     """
     return settle(motor, drive, Levels(**levels), tolerance, sampling_period, progress)[1]
 

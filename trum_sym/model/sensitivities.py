@@ -71,6 +71,15 @@ class Sensitivities(Result, Value, Mapping[str, Mapping[str, Array]]):
         What ``evaluate``'s figure changes by, per change of the parameter, in SI units (frequencies in Hz).
     inputs : Inputs
         Motor, drive, levels and tolerance that they hold for.
+
+    Examples
+    --------
+    >>> import trum_sym as ts
+    >>> slopes = ts.sensitivities()
+    >>> slopes.units["mean_speed"]["prepressure"]
+    'rad/s/N'
+    >>> slopes.to_frame().shape
+    (6, 7)
     """
 
     slopes: Mapping[str, Mapping[str, Array]]
@@ -182,8 +191,8 @@ def sensitivities(
 
     Parameters
     ----------
-    motor, drive, contact, resonance, foundation, amplitude, compliance
-        As for :func:`trum_sym.evaluate`; arrays broadcast.
+    motor, drive, contact, resonance, foundation, amplitude, compliance, tangential
+        As for :func:`trum_sym.evaluate`; arrays broadcast.  ``tangential`` has to be ``"rigid"``.
     tolerance : float
         Of the orbit that is differentiated.  The slopes' median error is below it; single slopes are much worse
         (docs/rotor.md).
@@ -191,8 +200,11 @@ def sensitivities(
     Returns
     -------
     Sensitivities
-        ``[figure][parameter]`` for all of :data:`DIFFERENTIATED` and :data:`PARAMETERS`, in SI units (frequencies
-        in Hz): what ``evaluate``'s figure changes by, per change of the parameter.  Amplitude and resonance follow
+        ``[figure][parameter]``, arrays of the inputs' common shape, in SI units (frequencies in Hz): what
+        ``evaluate``'s figure changes by, per change of the parameter.  Figures are ``mean_speed``, ``min_speed``,
+        ``max_speed``, ``speed_volatility``, ``contact_fraction``, ``stall_torque``; parameters ``prepressure``,
+        ``frequency_difference``, ``load_torque``, ``load_inertia``, ``friction_coefficient``, ``amplitude``,
+        ``resonance_frequency``.  Amplitude and resonance follow
         prepressure and frequency difference as they do in ``evaluate``; under ``amplitude`` and
         ``resonance_frequency`` stands what each does alone.  ``speed_volatility`` is the continuous one.  NaN where
         no speed balances the load.  A weight's inertia follows ``load_torque``.  Where an extreme changes hands the
@@ -204,6 +216,13 @@ def sensitivities(
         For bad input; names the parameter, what it got, what is allowed.
     ConvergenceError
         If the forced amplitude and the resonance do not settle.
+
+    Examples
+    --------
+    >>> import trum_sym as ts
+    >>> slopes = ts.sensitivities(drive=ts.Drive(load_torque=0.1))
+    >>> f"{slopes['mean_speed']['load_torque']:.3g} {slopes.units['mean_speed']['load_torque']}"
+    '-16.5 rad/s/(N*m)'
     """
     case = prepare(motor, drive, Levels(**levels), tolerance)
     _, found = orbit_with_slopes(case)

@@ -99,6 +99,14 @@ class Optimum(Result, Value):
         What was solved, at the best pulse counts; for more questions of the same kind.
     objective_unit : str
         SI unit of ``objective`` and of the local optima.
+
+    Examples
+    --------
+    >>> import trum_sym as ts
+    >>> bounds = {"prepressure": 180.0, "frequency_difference": (2800, 3300)}
+    >>> best = ts.optimize(bounds=bounds, target_speed="633 arcsec/s")
+    >>> best.status, f"{best.frequency_difference:.0f} Hz", len(best.evidence.optima)
+    ('solved', '3140 Hz', 1)
     """
 
     status: str

@@ -100,7 +100,7 @@ def optimize(
         ``"encoder-volatility"`` (of an encoder's readings), ``"drift"`` (sum of what the spreads of single inputs move
         the mean speed by), ``"worst-speed-error"`` (distance from the target with all inputs off, towards what by
         itself gives more speed, or less), or arithmetic on figures,
-        ``"speed_volatility + 1e-3 * prepressure"``: see :mod:`trum_sym.optimiser.expressions`.
+        ``"speed_volatility + 1e-3 * prepressure"`` (docs/optimise.md).
     target_speed : float or str, rad/s, optional
         Mean speed that the point is to have; text may carry a unit, ``"633 arcsec/s"``.  Its sign is the direction.
     bounds : mapping, optional
@@ -118,12 +118,13 @@ def optimize(
         As for :func:`trum_sym.holding`: what the answer says of holding it, and what limits and objectives count with.
     progress : bool
         Whether to say on the standard error what is done, with a bar while pulse counts are gone through.
-    contact, resonance, foundation, amplitude
-        As for :func:`trum_sym.evaluate`.
+    contact, resonance, foundation, amplitude, compliance, tangential
+        As for :func:`trum_sym.evaluate`; ``tangential`` has to be ``"rigid"``.
 
     Returns
     -------
     Optimum
+        Solved, or the nearest point and why it is not; in SI units.
 
     Raises
     ------
@@ -134,8 +135,17 @@ def optimize(
 
     Notes
     -----
-    Everything below works in SI on :class:`trum_sym.optimiser.solve.Problem`; ``solve(problem)`` returns an ``Answer``
+    A map of the box, descents by IPOPT from its basins, and a check by :func:`trum_sym.evaluate`: docs/optimise.md.
+    Everything below works in SI on ``trum_sym.optimiser.solve.Problem``; ``solve(problem)`` there returns an ``Answer``
     for one pair of pulse counts, and takes a map and a model from a problem that differs in bounds of constraints only.
+
+    Examples
+    --------
+    >>> import trum_sym as ts
+    >>> bounds = {"prepressure": 180.0, "frequency_difference": ("2.8 kHz", "3.3 kHz")}
+    >>> best = ts.optimize(bounds=bounds, target_speed="633 arcsec/s", constraints=["stall_torque >= 0.1 N*m"])
+    >>> print(f"{best.status}: {best.frequency_difference:.0f} Hz, {best.mean_speed:.5f} rad/s")
+    solved: 3140 Hz, 0.00307 rad/s
     """
     motor = load_motor() if motor is None else motor
     drive = Drive() if drive is None else drive

@@ -79,7 +79,7 @@ def characteristics(
     prepressures : (n,) array, N, optional
         Forces between rotor and stator.
     measured : sequence of MeasuredPoint
-        From :func:`trum_sym.inputs.measured_points.load_measured`, kept beside the curves; nothing is fitted to them.
+        From ``trum_sym.inputs.measured_points.load_measured``, kept beside the curves; nothing is fitted to them.
     tolerance : float
         As for :func:`trum_sym.evaluate`.
     contact, resonance, foundation, amplitude, compliance, tangential

@@ -77,6 +77,8 @@ class ParetoFront(Result, Value):
     message : str
     inputs : Inputs
         What all points share.
+    terms : Asked
+        How near, against what and in what time the points are to be held.
     """
 
     status: str
@@ -202,6 +204,13 @@ def pareto(
         Problems solved along the front, 3 to 201.
     progress : bool
         Whether to show a bar on the standard error.
+    contact, resonance, foundation, amplitude, compliance, tangential
+        As for :func:`trum_sym.evaluate`; ``tangential`` has to be ``"rigid"``.
+
+    Returns
+    -------
+    trum_sym.studies.pareto.ParetoFront
+        Its points from the least ``objective`` to the best ``against``, in SI units.
 
     Raises
     ------
@@ -209,6 +218,18 @@ def pareto(
         For bad input; names the parameter, what it got, what is allowed.
     MissingExtraError
         Without CasADi.
+
+    Notes
+    -----
+    The volatility is eq. 40; fronts of the paper's motor and how they were checked: docs/studies.md.
+
+    Examples
+    --------
+    >>> import trum_sym as ts
+    >>> bounds = {"prepressure": 180.0, "frequency_difference": (3000, 3300)}
+    >>> front = ts.pareto(drive=ts.Drive(load_torque=0.1), bounds=bounds, points=3)
+    >>> [f"{point.objective:.3f} {point.against:.3f} N m" for point in front.points]
+    ['3.362 0.124 N m', '3.364 0.126 N m', '3.395 0.128 N m']
     """
     count = int(one_number("points", points, "1", _COUNT))
     target = None if target_speed is None else one_number("target_speed", target_speed, "rad/s")

@@ -63,6 +63,8 @@ class RobustPoint(Result, Value):
     Attributes
     ----------
     status : {"solved", "infeasible"}
+    objective : str
+        What is small in the worst case.
     worst : float
         The objective in the worst of the cases; NaN unless solved.
     nominal : float
@@ -81,6 +83,8 @@ class RobustPoint(Result, Value):
     message : str
     inputs : Inputs
         Motor, drive at the point, levels.
+    terms : Asked
+        How near, against what and in what time the point is to be held.
     """
 
     status: str
@@ -205,6 +209,13 @@ def robust(
         Instead: the cases themselves, each by the same names, ``[{"friction_coefficient": 0.22}, ...]``.
     progress : bool
         Whether to show a bar on the standard error.
+    contact, resonance, foundation, amplitude, compliance, tangential
+        As for :func:`trum_sym.evaluate`; ``tangential`` has to be ``"rigid"``.
+
+    Returns
+    -------
+    trum_sym.studies.robust.RobustPoint
+        The point, its cases, and what the nominal optimum has as its worst; in SI units.
 
     Raises
     ------
@@ -212,6 +223,19 @@ def robust(
         For bad input; names the parameter, what it got, what is allowed.
     MissingExtraError
         Without CasADi or SciPy.
+
+    Notes
+    -----
+    How it is found, and what it costs against the nominal optimum: docs/studies.md.
+
+    Examples
+    --------
+    >>> import trum_sym as ts
+    >>> bounds = {"prepressure": 180.0, "frequency_difference": (3040, 3060)}
+    >>> cases = [{"friction_coefficient": 0.252}]
+    >>> point = ts.robust(drive=ts.Drive(load_torque=0.1), objective="ripple", samples=cases, bounds=bounds)
+    >>> point.status, [case.changed.get("friction_coefficient") for case in point.cases]
+    ('solved', [None, 0.252])
     """
     target = None if target_speed is None else one_number("target_speed", target_speed, "rad/s")
     error = isinstance(objective, str) and objective == "speed-error"

@@ -75,6 +75,13 @@ def speed_table(
         Allowed difference between a speed and what the motor does at the interpolated drive, over the speed.
     progress : bool
         Whether to report on the standard error.
+    contact, resonance, foundation, amplitude, compliance, tangential
+        As for :func:`trum_sym.evaluate`; ``tangential`` has to be ``"rigid"``.
+
+    Returns
+    -------
+    trum_sym.studies.speed_table_result.SpeedTable
+        Segments and gaps; ``save`` writes CSV or C, ``at`` interpolates.
 
     Raises
     ------
@@ -82,6 +89,24 @@ def speed_table(
         For bad input; names the parameter, what it got, what is allowed.
     MissingExtraError
         Without CasADi.
+
+    Notes
+    -----
+    The mean speed is eq. 39; tables of the paper's motor: docs/studies.md.
+
+    Examples
+    --------
+    >>> import trum_sym as ts
+    >>> table = ts.speed_table(
+    ...     drive=ts.Drive(load_torque=0.1),
+    ...     slowest="50000 arcsec/s",
+    ...     fastest="100000 arcsec/s",
+    ...     direction="positive",
+    ...     points=2,
+    ...     bounds={"prepressure": 180.0, "frequency_difference": (2800, 3300)},
+    ... )
+    >>> len(table), f"{table.at('70000 arcsec/s')['frequency_difference']:.0f} Hz"
+    (2, '2956 Hz')
     """
     if isinstance(slowest, str) and isinstance(fastest, str):
         said_slowest, said_fastest = slowest, fastest

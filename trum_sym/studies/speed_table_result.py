@@ -78,6 +78,8 @@ class SpeedTable(Result, Value):
         Orbits computed.
     inputs : Inputs
         Motor, drive, levels, and the tolerance of the orbits.
+    terms : Asked
+        How near, against what and in what time the entries are to be held.
     """
 
     motor: str

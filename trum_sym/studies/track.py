@@ -139,6 +139,14 @@ class Tracking(Result, Value):
         over five control periods, standard deviation of the readings over the target's size, in its last half.
     inputs : Inputs
         Motor and drive at the target.
+
+    Examples
+    --------
+    :func:`trum_sym.track` makes one; ``print(found.to_text())`` shows both runs.
+
+    >>> import trum_sym as ts
+    >>> [name for name in ts.Tracking.__dataclass_fields__ if name in ("closed", "open")]
+    ['closed', 'open']
     """
 
     target_speed: float
@@ -280,7 +288,7 @@ def track(
 
     Parameters
     ----------
-    motor, drive, bounds, contact, resonance, foundation, amplitude
+    motor, drive, bounds, contact, resonance, foundation, amplitude, compliance, tangential
         As for :func:`trum_sym.speed_table`.
     target_speed : float or str, rad/s
         The mean speed, in the direction of its sign.
@@ -300,6 +308,7 @@ def track(
     Returns
     -------
     Tracking
+        Both runs, the loop's gains and margins; SI units.
 
     Raises
     ------
@@ -313,7 +322,24 @@ def track(
     The resonance that the controller knows is that without disturbances: a drift of the resonance changes the frequency
     difference by as much.  Of the start "periodic" every drive cycle goes on with the free motion that the one before
     has left, whatever its frequency was.  The frequency is set only as far as the mean speed keeps rising, or falling,
-    with it, and within what the motor file's ``[allowed]`` or ``[box]`` says.
+    with it, and within what the motor file's ``[allowed]`` or ``[box]`` says.  Runs of the paper's motor:
+    docs/holding.md.
+
+    Examples
+    --------
+    >>> import trum_sym as ts
+    >>> drive = ts.Drive(load_torque=0.1)
+    >>> bounds = {"prepressure": 180.0, "frequency_difference": (2800, 3300)}
+    >>> speeds = {"slowest": "50000 arcsec/s", "fastest": "100000 arcsec/s", "direction": "positive", "points": 2}
+    >>> found = ts.track(
+    ...     drive=drive,
+    ...     target_speed="70000 arcsec/s",
+    ...     duration="6 ms",
+    ...     disturbances=["load_torque=+1 %@4 ms"],
+    ...     table=ts.speed_table(drive=drive, bounds=bounds, **speeds),
+    ... )
+    >>> found.closed.time.size, len(found.windows)
+    (3, 2)
     """
     motor = load_motor() if motor is None else motor
     drive = Drive() if drive is None else drive

@@ -118,9 +118,10 @@ def sweep(
     Returns
     -------
     xarray.Dataset
-        The outputs and ``status`` (:data:`trum_sym.sweeps.task.STATUS`) over the swept parameters, with units and
-        meanings in ``attrs``, those of the set being every setting; read from the store as it is used, if there is one.
-        Where a combination is refused, or no speed balances the load, figures are NaN and ``status`` says why.
+        The outputs and ``status`` (0 done, 1 no speed balances the load, 2 not converged, 3 refused) over the swept
+        parameters, with units and meanings in ``attrs``, those of the set being every setting; read from the store as
+        it is used, if there is one.  Where a combination is refused, or no speed balances the load, figures are NaN and
+        ``status`` says why.
 
     Raises
     ------
@@ -130,6 +131,17 @@ def sweep(
         If the disk is full or the scheduler is lost; the same call goes on.
     MissingExtraError
         Without xarray and zarr.
+
+    Notes
+    -----
+    Stores, clusters and what it costs: docs/sweep.md.
+
+    Examples
+    --------
+    >>> import trum_sym as ts
+    >>> grid = ts.sweep(prepressure="160:210:3", friction_coefficient=[0.2, 0.25], outputs=("q_average", "amplitude"))
+    >>> dict(grid.sizes), grid.q_average.attrs["units"]
+    ({'prepressure': 3, 'friction_coefficient': 2}, '1/s')
     """
     level_names = [name for name in LEVEL_NAMES if name != "amplitude" or isinstance(ranges.get(name), str)]
     levels = Levels(**{name: ranges.pop(name) for name in level_names if name in ranges})  # type: ignore[arg-type]

@@ -39,7 +39,25 @@ _TARGET = re.compile(r"\s*(\w+)\s*(>=|<=|>|<)\s*(.+)", re.DOTALL)
 
 @dataclass(frozen=True, eq=False)
 class Study(Result, Drawn):
-    """A study of spread: what was drawn, and what it can be turned into."""
+    """A study of spread: what was drawn, and what it can be turned into.
+
+    Attributes
+    ----------
+    motor, drive, levels
+        The point that is studied.
+    distributions : mapping of str to Distribution
+        Of the uncertain parameters, as they were given.
+    samples, seed : int
+    outputs : tuple of str
+        The figures that were asked for.
+    targets : tuple of Target
+    nominal : OperatingPoint
+        With every parameter at its own value.
+    propagation : Propagation
+        All points, all figures there, and indices.
+    settled : (d + 2, n) array of bool
+        Whether the rotor's orbit met the tolerance, by point.
+    """
 
     def __repr__(self) -> str:
         return f"<Study of {one_line(self.motor.name)}: {', '.join(self.distributions)}; {self.samples} samples>"
@@ -173,7 +191,8 @@ def spread(
 
     Returns
     -------
-    Study
+    trum_sym.uncertainty.study.Study
+        Every point drawn, distributions of the outputs, Sobol' indices, probabilities of missing the targets.
 
     Raises
     ------
@@ -183,6 +202,17 @@ def spread(
         Without SciPy.
     ConvergenceError
         As :func:`trum_sym.evaluate` does.
+
+    Notes
+    -----
+    Sobol' points and indices with bootstrap intervals: docs/tolerance.md.
+
+    Examples
+    --------
+    >>> import trum_sym as ts
+    >>> study = ts.spread(spreads={"prepressure": "1 %"}, samples=64, outputs=("amplitude",))
+    >>> study
+    <Study of TRUM-60: prepressure; 64 samples>
     """
     samples, seed = check_design(samples, seed)
     motor = load_motor() if motor is None else motor

@@ -1,0 +1,1 @@
+"""What makes the documentation site: pages from data, Sphinx's settings, the check of its links."""
