@@ -157,20 +157,20 @@ def descend(model: Model, tasks: Sequence[Task], tolerance: float) -> list[Visit
 
 
 def _ipopt(task: Task, ask: Callable[[Visit], Visit]) -> Visit:
-    d, seen = task.start.size, list[Visit]()
+    d, seen = task.start.size, dict[bytes, Visit]()
+    nothing = Visit(task.start, np.full(task.scale.size, np.nan), np.full((task.scale.size, d), np.nan))
 
     def look(share: Array) -> Visit:
-        for visit in reversed(seen):
-            if np.array_equal(visit.share, share):
-                return visit
-        visit = Visit(share.copy())
-        if len(seen) < _MOST_PLACES:
+        key = (share + 0.0).tobytes()  # where -0 is 0
+        if key not in seen:
+            if len(seen) == _MOST_PLACES:
+                return nothing
+            visit = seen[key] = Visit(share.copy())
             with suppress(StoppedError):  # IPOPT's callbacks may not raise; where there is no number, it soon ends
                 ask(visit)
-        if visit.slopes.size == 0:
-            visit.values, visit.slopes = np.full(task.scale.size, np.nan), np.full((task.scale.size, d), np.nan)
-        seen.append(visit)
-        return visit
+            if visit.slopes.size == 0:
+                visit.values, visit.slopes = nothing.values, nothing.slopes
+        return seen[key]
 
     x = casadi.MX.sym("x", d)
     count = task.scale.size - 1
@@ -190,6 +190,7 @@ def _ipopt(task: Task, ask: Callable[[Visit], Visit]) -> Visit:
         violation = float(np.max(np.maximum(low - g, g - high), initial=0.0))
         return max(violation, 1e-6), float(visit.values[0])
 
-    usable = [visit for visit in seen if np.all(np.isfinite(visit.values))]
-    found = min(usable, key=rank) if usable else seen[0]
+    places = list(seen.values())
+    usable = [visit for visit in places if np.all(np.isfinite(visit.values))]
+    found = min(usable, key=rank) if usable else places[0]
     return Visit(found.share, found.values * task.scale, found.slopes * task.scale[:, np.newaxis])
