@@ -149,8 +149,8 @@ def _scalar_c(chain: list[Kernel], values: dict[str, np.ndarray], repeats: int) 
     return times, np.frombuffer(done.stdout)
 
 
-def _casadi(chain: list[Kernel], values: dict[str, np.ndarray]) -> Callable[[], np.ndarray]:
-    """CasADi's virtual machine over the batch."""
+def _casadi(chain: list[Kernel], values: dict[str, np.ndarray], own_c: bool) -> Callable[[], np.ndarray]:
+    """CasADi over the batch: its virtual machine, or the C that it writes, compiled by the system's compiler."""
     symbols: dict[str, ca.SX] = {name: ca.SX.sym(name) for name in values}
     now = dict(symbols)
     for kernel in chain:
@@ -159,7 +159,12 @@ def _casadi(chain: list[Kernel], values: dict[str, np.ndarray]) -> Callable[[], 
                 now[root] = now[of] ** (1 / 3)
         results = casadi_function(kernel)(*(now[symbol.name] for symbol in kernel.inputs))
         now.update(zip(kernel.outputs, results if len(kernel.outputs) > 1 else (results,), strict=True))
-    mapped = ca.Function("step", list(symbols.values()), [now[RESULT]]).map(BATCH)
+    jit = {"jit": True, "compiler": "shell", "jit_options": {"flags": ["-O3", "-march=native"]}} if own_c else {}
+    step = ca.Function("step", list(symbols.values()), [now[RESULT]])
+    mapped = step.map(BATCH)
+    if own_c:
+        columns = [ca.MX.sym(name, 1, BATCH) for name in symbols]
+        mapped = ca.Function("steps", columns, [mapped(*columns)], jit)
     rows_ = [ca.DM(column).T for column in values.values()]
     return lambda: np.asarray(mapped(*rows_)).ravel()
 
@@ -246,7 +251,8 @@ def rows(repeats: int) -> list[Row]:
         found.append(Row(SECTION, name, each, "ns", spread, scalar / each, f"batch of {BATCH}"))
 
     add("generated C, as NumPy ufuncs", lambda: _compiled(chain, values))
-    add("CasADi VM, map", _casadi(chain, values))
+    add("CasADi VM, map", _casadi(chain, values, own_c=False))
+    add("CasADi's own C, -O3, map", _casadi(chain, values, own_c=True))
     add("NumPy", _numpy(chain, values))
     add("Numba", _numba(chain, values))
     found += _lanes(chain, repeats, scalar)
