@@ -13,7 +13,7 @@ import numpy as np
 
 import trum_sym as ts
 from benchmarks import peers
-from benchmarks.rows import Row
+from benchmarks.rows import Row, least
 from trum_sym.model.levels import Levels
 from trum_sym.model.operating_point import Case, prepare
 from trum_sym.model.rotor import Orbit, solve_orbit
@@ -34,17 +34,6 @@ Found = tuple[float, float, float, float]
 """A setting, the worst error of the points with it, least seconds a point, and the spread of these."""
 
 
-def _least(run: Callable[[], object], repeats: int) -> tuple[float, float]:
-    """The least processor time of some runs in s, after one that does not count, and how far others are above it."""
-    run()
-    times = []
-    for _ in range(repeats):
-        begin = time.process_time()
-        run()
-        times.append(time.process_time() - begin)
-    return min(times), max(times) / min(times) - 1
-
-
 def _of_peer(
     points: Sequence[peers.Point], known: Sequence[peers.Figures], way: Way, settings: Sequence[float], repeats: int
 ) -> Iterator[Found]:
@@ -61,8 +50,8 @@ def _of_peer(
         if k == len(settings):
             yield np.nan, worst, np.nan, 0.0
         else:
-            least, spread = _least(lambda runs=runs: [run() for run in runs], repeats)
-            yield settings[k], worst, least / len(points), spread
+            shortest, spread = least(lambda runs=runs: [run() for run in runs], repeats)
+            yield settings[k], worst, shortest / len(points), spread
 
 
 def _figures(orbit: Orbit, radius: float) -> list[peers.Figures]:
@@ -82,10 +71,10 @@ def _rows_of_ours(
     radius, drive = float(motor.contact_radius.value), ts.Drive()
     singles = [_ours(prepare(motor, replace(drive, prepressure=float(f)), Levels(), error)) for f in forces]
     worst = max(_figures(run(), radius)[0].error(of) for run, of in zip(singles, known, strict=True))
-    alone, apart = _least(lambda: [run() for run in singles], repeats)
+    alone, apart = least(lambda: [run() for run in singles], repeats)
     many = np.linspace(forces[0], forces[-1], count)
     batch = _ours(prepare(motor, replace(drive, prepressure=many), Levels(), error))
-    together, spread = _least(batch, repeats)
+    together, spread = least(batch, repeats)
     return [
         ("ours, a point alone", (error, worst, alone / len(singles), apart)),
         (f"ours, a batch of {count}", (error, worst, together / count, spread)),
@@ -149,5 +138,5 @@ def _of_diffrax(
         if k == len(SHARES):
             yield np.nan, worst, np.nan, 0.0
         else:
-            least, spread = _least(run, repeats)
-            yield SHARES[k], worst, least / len(points), spread
+            shortest, spread = least(run, repeats)
+            yield SHARES[k], worst, shortest / len(points), spread
