@@ -11,7 +11,7 @@ import trum_sym as ts  # noqa: F401
 from benchmarks.rows import Row, cpu_name, table
 from trum_sym import _kernels
 
-SECTIONS = ("step", "point", "map", "sweep", "start", "optimise")
+SECTIONS = ("step", "peers", "point", "map", "sweep", "start", "optimise")
 
 
 def main() -> None:
@@ -31,6 +31,10 @@ def main() -> None:
         from benchmarks import step
 
         rows += step.rows(repeats)
+    if "peers" in chosen.only:
+        from benchmarks import orbits
+
+        rows += orbits.rows(repeats, 64 if chosen.quick else 512)
     if "point" in chosen.only:
         from benchmarks import points
 

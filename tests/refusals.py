@@ -33,6 +33,7 @@ SEARCH = settings(
     derandomize=True, deadline=None, max_examples=80, phases=(Phase.explicit, Phase.generate, Phase.shrink)
 )
 WIDE_SEARCH = settings(SEARCH, max_examples=250)
+SAMPLE, WIDE_SAMPLE = settings(SEARCH, max_examples=25), settings(SEARCH, max_examples=60)  # -m slow has them all
 
 
 OPTIONS = {

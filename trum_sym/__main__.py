@@ -80,6 +80,7 @@ def run() -> NoReturn:
     """
     signals = _Signals()
     code, message = 0, None
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # its threads take longer to start than any matrix here
     try:
         _open_streams()
         from trum_sym.console import outcome

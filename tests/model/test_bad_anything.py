@@ -7,7 +7,7 @@ import math
 from contextlib import redirect_stderr, redirect_stdout, suppress
 
 import pytest
-from hypothesis import example, given
+from hypothesis import given
 from hypothesis import strategies as st
 from refusals import (
     CHOICES,
@@ -17,7 +17,9 @@ from refusals import (
     OPTIONS,
     PARAMETER_NAMES,
     POINT_NUMBERS,
+    SAMPLE,
     SEARCH,
+    WIDE_SAMPLE,
     WIDE_SEARCH,
     assert_one_clear_line,
     published,
@@ -103,20 +105,30 @@ TOML_VALUE = st.sampled_from(
 )
 
 
-@pytest.mark.parametrize("name", NUMERIC_FIELDS)
-@SEARCH
-@given(value=ANY_FLOAT, start=st.sampled_from(CHOICES["start"]))
-def test_any_number_in_a_drive_evaluates_or_is_refused(name, value, start):
-    evaluate_or_refuse(lambda: ts.evaluate(MOTOR, ts.Drive(**{name: value}, start=start)))
+# Orbits of a drive or a motor that nobody has may take seconds each: a sample, and all of them with -m slow
+SIZES = pytest.mark.parametrize("sample", [True, pytest.param(False, marks=pytest.mark.slow)], ids=["sample", "all"])
 
 
-@WIDE_SEARCH
-@given(name=st.sampled_from(PARAMETER_NAMES), value=ANY_FLOAT, amplitude=st.sampled_from(CHOICES["amplitude"]))
-@example(name="resonance_frequency", value=1e300, amplitude="measured")
-@example(name="wavenumber", value=5e-324, amplitude="forced")
-def test_any_number_for_a_motor_parameter_evaluates_or_is_refused(name, value, amplitude):
+def a_parameter(name, value, amplitude):
     with suppress(ts.ConvergenceError):
         evaluate_or_refuse(lambda: ts.evaluate(MOTOR.with_values({name: value}), amplitude=amplitude))
+
+
+@SIZES
+@pytest.mark.parametrize("name", NUMERIC_FIELDS)
+def test_any_number_in_a_drive_evaluates_or_is_refused(name, sample):
+    def one(value, start):
+        evaluate_or_refuse(lambda: ts.evaluate(MOTOR, ts.Drive(**{name: value}, start=start)))
+
+    (SAMPLE if sample else SEARCH)(given(ANY_FLOAT, st.sampled_from(CHOICES["start"]))(one))()
+
+
+@SIZES
+def test_any_number_for_a_motor_parameter_evaluates_or_is_refused(sample):
+    a_parameter("resonance_frequency", 1e300, "measured")
+    a_parameter("wavenumber", 5e-324, "forced")
+    drawn = given(st.sampled_from(PARAMETER_NAMES), ANY_FLOAT, st.sampled_from(CHOICES["amplitude"]))
+    (WIDE_SAMPLE if sample else WIDE_SEARCH)(drawn(a_parameter))()
 
 
 @SEARCH

@@ -198,26 +198,6 @@ def test_help_names_every_option_of_the_interface(capsys):
         assert f"--{option}" in out
 
 
-def test_evaluate_imports_neither_sympy_nor_casadi_nor_scipy():
-    code = (
-        "import sys; from trum_sym.console import main; main(['evaluate', '--json']);"
-        "sys.exit(bool({'sympy', 'casadi', 'scipy', 'derivations', 'tabulate'} & set(sys.modules)))"
-    )
-    assert subprocess.run([sys.executable, "-c", code], stdout=subprocess.DEVNULL).returncode == 0
-
-
-def test_evaluate_loads_no_other_command_and_no_masked_arrays():
-    code = (
-        "import sys; from trum_sym.console import main; main(['evaluate']);"
-        "print('\\n'.join(name for name in sys.modules if name.startswith(('trum_sym.console.', 'numpy.ma'))))"
-    )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    loaded = {line for line in done.stdout.splitlines() if line.startswith(("trum_sym.console.", "numpy.ma"))}
-    assert loaded - {"numpy.matrixlib", "numpy.matrixlib.defmatrix"} == {
-        f"trum_sym.console.{name}" for name in ("evaluate", "options", "say", "streams", "words")
-    }
-
-
 def test_module_runs_as_a_program():
     done = subprocess.run([sys.executable, "-m", "trum_sym", "evaluate", "--json"], capture_output=True, text=True)
     assert done.returncode == 0

@@ -13,6 +13,7 @@ import trum_sym as ts
 from trum_sym.console import main
 from trum_sym.inputs.units import ARCSEC
 from trum_sym.model.string import SLACK
+from trum_sym.optimiser.model import Box
 from trum_sym.studies import robust
 
 PLATE = ts.Drive(start="rest", phase_lead=-1, load_inertia=1e-3)
@@ -29,12 +30,14 @@ def test_an_optimum_with_a_plate_creeps_at_the_speed_asked_for(trum60):
 
 
 def test_a_worst_case_takes_the_loads_inertia(trum60):
-    posed = SimpleNamespace(
-        motor=trum60, drive=PLATE, levels=None, box=None, names=frozenset(), asked=None, target=None
-    )
-    case = robust._model(posed, {"load_inertia": 8e-4, "friction_coefficient": 0.22})
-    assert case.drive == replace(PLATE, load_inertia=8e-4)
-    assert case.motor.friction_coefficient.value == 0.22
+    box = Box(("prepressure",), np.array([160.0]), np.array([210.0]))
+    posed = SimpleNamespace(motor=trum60, drive=PLATE, levels=None, box=box, names=frozenset(), asked=None, target=None)
+    cases = robust._model(posed, [{}, {"load_inertia": 8e-4, "friction_coefficient": 0.22}])
+    motor, drive = cases.at(np.array([[180.0], [180.0], [190.0], [190.0]]))  # two places in both cases
+    assert drive.load_inertia.tolist() == [PLATE.load_inertia, 8e-4] * 2
+    assert motor.friction_coefficient.value.tolist() == [0.25, 0.22] * 2
+    assert drive.prepressure.tolist() == [180.0, 180.0, 190.0, 190.0]
+    assert drive.load_torque == PLATE.load_torque
     with pytest.raises(ts.ParameterError, match="load_torque or load_inertia"):
         ts.robust(trum60, PLATE, spreads={"periods": "10 %"})
 

@@ -17,46 +17,58 @@ from trum_sym.text import one_line
 __all__ = ["main", "outcome"]
 
 
-_NAMES = (
-    "evaluate",
-    "sensitivities",
-    "simulate",
-    "characteristics",
-    "sweep",
-    "spread",
-    "optimize",
-    "pareto",
-    "robust",
-    "speed-table",
-    "track",
-    "calibrate",
-    "c-library",
-    "fmu",
-    "motor",
-    "equations",
-    "report",
-)
+# What each is for, as its own --help begins: the list of commands does not load them
+_SUMMARIES = {
+    "evaluate": "One operating point; with no options, TRUM-60 at the paper's Table 3.",
+    "sensitivities": "How the figures of one operating point change with what it depends on.",
+    "simulate": "Time histories of one operating point on its periodic orbit.",
+    "characteristics": "Speed, power and contact efficiency under load, speed by frequency and prepressure, stall by "
+    "prepressure.",
+    "sweep": "Operating points on a grid: every number may be a range, in --set too.",
+    "spread": "How uncertain parameters spread an operating point's figures, and which to measure first.",
+    "optimize": "The operating point of least objective in a box of prepressure and frequency difference, under "
+    "constraints.",
+    "pareto": "Operating points that cannot be bettered in one figure without losing in another.",
+    "robust": "The operating point whose worst case over spreads, or over samples, is the best.",
+    "speed-table": "The drive for every mean speed of a range, for a controller to interpolate.",
+    "track": "A speed in closed loop: an encoder's counts, a speed table, a PI controller of the frequency, and what "
+    "drifts.",
+    "calibrate": "Fit uncertain parameters of the motor to measured data.",
+    "c-library": "Write the C library for a controller: sources, the motor's numbers, an example, Makefile and CMake "
+    "file.",
+    "fmu": "Write the motor as a co-simulation unit of FMI 3.0, with its C source and compiled for this machine.",
+    "motor": "Motor files: a template to begin with, checks, lists, differences.",
+    "equations": "The ledger: what the paper printed, what follows from first principles, the verdict and its effect.",
+    "report": "The paper's figures, tables and claims, redrawn and judged: DIR/index.html, which needs no network.",
+}
 
 
 class _Commands(Mapping[str, click.Command]):
     """The commands by name, each with its module loaded on first use."""
 
     def __getitem__(self, name: str) -> click.Command:
-        if name not in _NAMES:
+        if name not in _SUMMARIES:
             raise KeyError(name)
         word = name.replace("-", "_")
         command: click.Command = getattr(import_module(f"trum_sym.console.{word}"), word)
         return command
 
     def __iter__(self) -> Iterator[str]:
-        return iter(_NAMES)
+        return iter(_SUMMARIES)
 
     def __len__(self) -> int:
-        return len(_NAMES)
+        return len(_SUMMARIES)
 
 
 class _Group(click.Group):
     """A group that ends without click's blank line where it is interrupted, and words errors for the console."""
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:  # noqa: ARG002
+        """The list of commands, none of which is loaded."""
+        limit = formatter.width - 6 - max(map(len, _SUMMARIES))
+        rows = [(n, click.Command(n, help=text).get_short_help_str(limit)) for n, text in sorted(_SUMMARIES.items())]
+        with formatter.section("Commands"):
+            formatter.write_dl(rows)
 
     def invoke(self, ctx: click.Context) -> Any:  # noqa: ANN401
         """Run the command."""

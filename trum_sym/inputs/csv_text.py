@@ -7,7 +7,6 @@ file leaves no doubt that it is.
 
 from __future__ import annotations
 
-import csv
 import io
 import re
 from collections.abc import Iterator
@@ -165,6 +164,8 @@ def _separator(name: str, text: str) -> str:
 
 def _rows(name: str, path: Path, text: str, separator: str) -> Iterator[tuple[int, list[str]]]:
     """Cells, and the line they stand in."""
+    import csv
+
     number = 0
 
     def data() -> Iterator[str]:

@@ -127,7 +127,7 @@ class Amount(Value):
     source: str
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
 class Motor(Value):
     """A travelling-wave rotary ultrasonic motor: every number with unit and source.
 

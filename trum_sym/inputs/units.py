@@ -138,6 +138,7 @@ _SPOKEN = {  # as CF conventions and units libraries write them, and plurals of 
     **{"degree": "deg", "arcminute": "arcmin", "arcsecond": "arcsec", "turn": "rev", "revolution": "rev"},
     **{"dimensionless": "1", "revolutions_per_minute": "rpm", "sec": "s", "r": "rev"},
 }
+_TEN_TO = {power: Fraction(10) ** power for power in range(-12, 10)}
 _SPOKEN_PREFIX = {"giga": 9, "mega": 6, "kilo": 3, "centi": -2, "milli": -3, "micro": -6, "nano": -9, "pico": -12}
 
 
@@ -146,7 +147,7 @@ def _symbols() -> dict[str, Unit]:
     for name in _PREFIXED:
         unit = _BASE[name]
         for prefix, power in _PREFIX.items():
-            table.setdefault(prefix + name, unit._replace(factor=unit.factor * Fraction(10) ** power))
+            table.setdefault(prefix + name, unit._replace(factor=unit.factor * _TEN_TO[power]))
     for name in ("m", "cm", "mm"):  # torques without a sign between
         for force in [symbol for symbol in table if symbol.endswith(("N", "gf"))]:
             first, second = table[force], table[name]
@@ -155,7 +156,7 @@ def _symbols() -> dict[str, Unit]:
         unit = _BASE[symbol]
         table.setdefault(word, unit)
         for prefix, power in _SPOKEN_PREFIX.items() if symbol in _PREFIXED and len(word) > 3 else ():
-            table[prefix + word] = unit._replace(factor=unit.factor * Fraction(10) ** power)
+            table[prefix + word] = unit._replace(factor=unit.factor * _TEN_TO[power])
     return table
 
 

@@ -18,6 +18,7 @@ _MIN_REPETITION = 1e-9
 _FREE = 10.0  # times the forced amplitude: the free vibration of TRUM-60 is at most twice that
 _BEAT = 1e-2  # of a beat in a cycle: the drive is at the resonance as far as the cycle can tell
 PANELS_PER_PERIOD = 2
+_SMALLEST = 64  # points whose sums are not worth sharing out
 
 
 def check_steady_state(damping_ratio: ArrayLike, drive: Drive) -> None:
@@ -115,5 +116,5 @@ def cycle_sums(values: dict[str, ArrayLike], panels_per_period: float = PANELS_P
     The sums are integrals over time, by 12-point Gauss-Legendre quadrature cut at every sign change of Q;
     ``panels_per_period`` panels cover a period of the faster of drive and resonance.
     """
-    sums = call_in_blocks("cycle_sums", {**values, "panels": panels_per_period})
+    sums = call_in_blocks("cycle_sums", {**values, "panels": panels_per_period}, smallest=_SMALLEST)
     return call("trum_measures", {**sums, **call("trum_drive", values)})

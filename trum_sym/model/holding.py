@@ -9,7 +9,7 @@ from typing import Any, Unpack
 
 import numpy as np
 
-from trum_sym.inputs.checks import Array
+from trum_sym.inputs.checks import Array, ArrayLike
 from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import DRIVE_DOMAINS, SPREADING, Drive
 from trum_sym.inputs.motor import SPECS, Amount, Motor
@@ -498,15 +498,25 @@ def _larger(changes: Array) -> float:
 
 
 def _other_slopes(case: Case) -> dict[str, float]:
-    """Slopes by the switching phase and by assumed values that count, by differences of sixth order."""
-    found = {"switching_phase": _difference(case, "switching_phase", _PHASE_STEP)}
+    """Slopes by the switching phase and by assumed values that count, by differences of sixth order, in one batch."""
+    steps = {"switching_phase": _PHASE_STEP}
     for name, parameter in case.motor.assumed().items():
         if name in SPREADING or SPECS[name].domain.integer:
             continue
         step = _STEP * abs(float(np.asarray(parameter.value)))
         if step and _counts(case, name, step):
-            found[name] = _difference(case, name, step)
-    return found
+            steps[name] = step
+    shifts = (_STEPS[:, np.newaxis] * _SHIFTS).ravel()
+    moved = [_moved(case, name, step * shifts) for name, step in steps.items()]
+    arguments = _joined([one.arguments for one in moved], shifts.size)
+    speeds = solve_orbit({**arguments, "held": 0.0}, _joined([one.symbols for one in moved], shifts.size)).mean_speed
+    by_step = np.asarray(speeds).reshape(len(steps), _STEPS.size, _SHIFTS.size) @ _WEIGHTS
+    return {name: _agreed(found / (step * _STEPS)) for (name, step), found in zip(steps.items(), by_step, strict=True)}
+
+
+def _joined(parts: Sequence[Mapping[str, ArrayLike]], size: int) -> dict[str, ArrayLike]:
+    """Values of as many points each, one after the other."""
+    return {name: np.concatenate([np.broadcast_to(part[name], size) for part in parts]) for name in parts[0]}
 
 
 def _counts(case: Case, name: str, step: float) -> bool:
@@ -528,11 +538,8 @@ def _moved(case: Case, name: str, by: np.ndarray[Any, Any]) -> Case:
     return prepare(motor, drive, case.levels, case.tolerance, warn=False)
 
 
-def _difference(case: Case, name: str, step: float) -> float:
-    """By the two neighbours of three steps that agree best, the smaller step's."""
-    moved = _moved(case, name, (step * _STEPS[:, np.newaxis] * _SHIFTS).ravel())
-    orbit = solve_orbit({**moved.arguments, "held": 0.0}, moved.symbols)
-    found = np.asarray(orbit.mean_speed).reshape(_STEPS.size, _SHIFTS.size) @ _WEIGHTS / (step * _STEPS)
+def _agreed(slopes: Array) -> float:
+    """Of the slopes by several steps the two neighbours that agree best, the smaller step's."""
     with np.errstate(invalid="ignore"):
-        apart = np.abs(np.diff(found))
-    return float(found[1 + int(np.argmin(apart))])
+        apart = np.abs(np.diff(slopes))
+    return float(slopes[1 + int(np.argmin(apart))])

@@ -80,7 +80,7 @@ TOLERANCES = Domain(low=1e-9, low_open=False, high=1e-2, high_open=False)
 _ENCODER_SAMPLES = 64  # per drive period, of the path that the encoder differences
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
 class OperatingPoint(Result, Value):
     """What the motor does at a drive; SI units, frequencies in Hz, speeds in rad/s.
 

@@ -30,7 +30,7 @@ class Chart:
         Places in the unit cube, row by row of the grid.
     shape : tuple of int
     figures : dict
-        Of every place, (n,).
+        Of every place, (n,); of cases, (n * cases,) with a place's cases one after the other.
     """
 
     share: Array
@@ -38,12 +38,12 @@ class Chart:
     figures: dict[str, Array]
 
 
-def chart(model: Model, divisions: int | None = None) -> Chart:
-    """Compute the map; about 0.4 ms a place on two cores."""
+def chart(model: Model, divisions: int | None = None, cases: int = 1) -> Chart:
+    """Compute the map, of every case that the model has; about 0.4 ms a place and case on two cores."""
     d = len(model.box.names)
     side = np.linspace(0.0, 1.0, divisions or _DIVISIONS[d])
     share = np.stack(np.meshgrid(*[side] * d, indexing="ij"), axis=-1).reshape(-1, d)
-    return Chart(share, (side.size,) * d, model.results(model.box.at(share), _TOLERANCE))
+    return Chart(share, (side.size,) * d, model.results(np.repeat(model.box.at(share), cases, axis=0), _TOLERANCE))
 
 
 def crossings(found: Chart, residual: Array) -> tuple[Index, Index, Array]:

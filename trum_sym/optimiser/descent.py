@@ -1,13 +1,9 @@
-"""IPOPT from several starts side by side.
-
-Orbits cost the least when several run in the lanes of one SIMD register.  So every start's IPOPT has a thread; one of
-them works at a time, and when all of them wait for figures, one batch answers them all.
-"""
+"""IPOPT from several starts side by side: one batch answers what all of them ask for."""
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -15,6 +11,7 @@ import numpy as np
 
 from trum_sym.inputs.checks import Array
 from trum_sym.optimiser.extra import casadi
+from trum_sym.optimiser.lockstep import StoppedError, in_lockstep
 from trum_sym.optimiser.model import Functions, Model
 
 __all__ = ["Task", "Visit", "descend"]
@@ -65,54 +62,6 @@ class Visit:
     share: Array
     values: Array = field(default_factory=lambda: np.empty(0))
     slopes: Array = field(default_factory=lambda: np.empty(0))
-
-
-class _Round:
-    """Collects what the threads ask until all of them wait, and lets one thread work at a time."""
-
-    def __init__(self, answer: Callable[[list[tuple[int, Visit]]], None], count: int) -> None:
-        self._answer, self._running = answer, count
-        self._changed = threading.Condition()
-        self._asked: list[tuple[int, Visit]] = []
-        self._waiting: set[int] = set()
-        self._turn = threading.Lock()
-        self.error: BaseException | None = None
-
-    def begin(self) -> None:
-        """Wait for the turn to work."""
-        self._turn.acquire()
-
-    def end(self) -> None:
-        """The thread is done."""
-        self._turn.release()
-        with self._changed:
-            self._running -= 1
-            self._serve()
-
-    def ask(self, number: int, visit: Visit) -> None:
-        """Have a place's figures computed together with those of the other threads."""
-        self._turn.release()
-        with self._changed:
-            self._asked.append((number, visit))
-            self._waiting.add(number)
-            self._serve()
-            self._changed.wait_for(lambda: number not in self._waiting)
-        self._turn.acquire()
-
-    def _serve(self) -> None:
-        if not self._asked or len(self._asked) < self._running:
-            return
-        asked, self._asked = self._asked, []
-        try:
-            if self.error is None:
-                self._answer(asked)
-        except BaseException as error:
-            self.error = error
-        for _, visit in asked:
-            if visit.values.size == 0:
-                visit.values = np.full(1, np.nan)
-        self._waiting.clear()
-        self._changed.notify_all()
 
 
 class _Values(casadi.Callback):
@@ -193,7 +142,7 @@ def descend(model: Model, tasks: Sequence[Task], tolerance: float) -> list[Visit
     """
     box = model.box
 
-    def answer(asked: list[tuple[int, Visit]]) -> None:
+    def answer(asked: list[tuple[int, Visit]]) -> list[Visit]:
         points = box.at(np.array([visit.share for _, visit in asked]))
         figures, slopes = model.results_with_slopes(points, tolerance)
         for row, (number, visit) in enumerate(asked):
@@ -202,43 +151,26 @@ def descend(model: Model, tasks: Sequence[Task], tolerance: float) -> list[Visit
             by = {name: slopes[name][row : row + 1] * box.width for name in task.functions.names}
             visit.values = task.functions.values(own)[0] / task.scale
             visit.slopes = task.functions.slopes(own, by)[0] / task.scale[:, np.newaxis]
+        return [visit for _, visit in asked]
 
-    table = _Round(answer, len(tasks))
-    best = [Visit(task.start) for task in tasks]
-
-    def work(number: int) -> None:
-        table.begin()
-        try:
-            best[number] = _ipopt(tasks[number], lambda visit: table.ask(number, visit))
-        except BaseException as error:
-            table.error = table.error or error
-        finally:
-            table.end()
-
-    threads = [threading.Thread(target=work, args=(k,), daemon=True) for k in range(len(tasks))]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    if table.error is not None:
-        raise table.error
-    return best
+    return in_lockstep(_ipopt, tasks, answer)
 
 
-def _ipopt(task: Task, ask: Callable[[Visit], None]) -> Visit:
-    d, seen = task.start.size, list[Visit]()
+def _ipopt(task: Task, ask: Callable[[Visit], Visit]) -> Visit:
+    d, seen = task.start.size, dict[bytes, Visit]()
+    nothing = Visit(task.start, np.full(task.scale.size, np.nan), np.full((task.scale.size, d), np.nan))
 
     def look(share: Array) -> Visit:
-        for visit in reversed(seen):
-            if np.array_equal(visit.share, share):
-                return visit
-        visit = Visit(share.copy())
-        if len(seen) < _MOST_PLACES:
-            ask(visit)
-        if visit.slopes.size == 0:
-            visit.values, visit.slopes = np.full(task.scale.size, np.nan), np.full((task.scale.size, d), np.nan)
-        seen.append(visit)
-        return visit
+        key = (share + 0.0).tobytes()  # where -0 is 0
+        if key not in seen:
+            if len(seen) == _MOST_PLACES:
+                return nothing
+            visit = seen[key] = Visit(share.copy())
+            with suppress(StoppedError):  # IPOPT's callbacks may not raise; where there is no number, it soon ends
+                ask(visit)
+            if visit.slopes.size == 0:
+                visit.values, visit.slopes = nothing.values, nothing.slopes
+        return seen[key]
 
     x = casadi.MX.sym("x", d)
     count = task.scale.size - 1
@@ -258,6 +190,7 @@ def _ipopt(task: Task, ask: Callable[[Visit], None]) -> Visit:
         violation = float(np.max(np.maximum(low - g, g - high), initial=0.0))
         return max(violation, 1e-6), float(visit.values[0])
 
-    usable = [visit for visit in seen if np.all(np.isfinite(visit.values))]
-    found = min(usable, key=rank) if usable else seen[0]
+    places = list(seen.values())
+    usable = [visit for visit in places if np.all(np.isfinite(visit.values))]
+    found = min(usable, key=rank) if usable else places[0]
     return Visit(found.share, found.values * task.scale, found.slopes * task.scale[:, np.newaxis])

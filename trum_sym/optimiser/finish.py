@@ -125,6 +125,6 @@ def towards(share: Array, slopes: Array, excess: Array) -> Array:
 def checked(model: Model, functions: Functions, bounds: Bounds, share: Array) -> Finished:
     """A place as it is, evaluated by :func:`trum_sym.evaluate`."""
     point = model.box.at(share[np.newaxis])[0]
-    figures = model.check(point, TOLERANCE)
+    (figures,) = model.check(point[np.newaxis], TOLERANCE)
     values = functions.values({name: np.array([figures[name]]) for name in functions.names})[0]
     return Finished(share, point, figures, float(values[0]), values[1:], bounds.violation(values[1:]))

@@ -11,8 +11,9 @@ import numpy as np
 
 from trum_sym.errors import ValidityWarning
 from trum_sym.inputs.checks import Array
-from trum_sym.inputs.drive import Drive
+from trum_sym.inputs.drive import DRIVE_DOMAINS, Drive
 from trum_sym.inputs.motor import Motor
+from trum_sym.inputs.plausible import unquestioned
 from trum_sym.model.cycle import cycle_sums
 from trum_sym.model.holding import Asked
 from trum_sym.model.kernels import call
@@ -108,6 +109,9 @@ class Model:
         What is asked of points that are to be held.
     target : float, optional
         The mean speed that is wanted, rad/s.
+    cases : mapping of (k,) arrays, optional
+        Values of the motor or of the load, by name, in which k cases differ: points are then given k times each, once
+        for every case in their order.
 
     Attributes
     ----------
@@ -124,16 +128,21 @@ class Model:
         names: frozenset[str],
         asked: Asked | None = None,
         target: float | None = None,
+        cases: Mapping[str, Array] | None = None,
     ) -> None:
         self.motor, self.drive, self.levels, self.box, self.names = motor, drive, levels, box, names
         self.asked, self.target = Asked() if asked is None else asked, target
+        self.cases = {} if cases is None else dict(cases)
         self._held = names.intersection(HELD_FIGURES)
         self.evaluations = 0
 
-    def drives(self, points: Array) -> Drive:
-        """The drive at points of the box, (n, d)."""
+    def at(self, points: Array) -> tuple[Motor, Drive]:
+        """Motor and drive at points of the box, (..., n, d) or, without cases, (d,)."""
         varied: dict[str, Any] = {name: points[..., k] for k, name in enumerate(self.box.names)}
-        return replace(self.drive, **varied)
+        own: dict[str, Any] = {name: np.resize(values, points.shape[-2]) for name, values in self.cases.items()}
+        varied |= {name: own.pop(name) for name in DRIVE_DOMAINS if name in own}
+        with unquestioned():
+            return self.motor.with_values(own) if own else self.motor, replace(self.drive, **varied)
 
     def results(self, points: Array, tolerance: float) -> dict[str, Array]:
         """The wanted figures, mean speed and deviation always among them; NaN where no speed balances the load."""
@@ -166,26 +175,26 @@ class Model:
             slopes[of] = np.stack([found[of][variable] for variable in self.box.names], axis=-1)
         return figures, slopes
 
-    def check(self, point: Array, tolerance: float) -> dict[str, Any]:
-        """Every figure of one point by :func:`trum_sym.evaluate`, independent of what found it."""
-        drive = self.drives(point)
-        self.evaluations += 1
+    def check(self, points: Array, tolerance: float) -> list[dict[str, Any]]:
+        """Every figure of points, (n, d), by :func:`trum_sym.evaluate`, independent of what found them."""
+        motor, drive = self.at(points)
+        self.evaluations += len(points)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", ValidityWarning)
-            found = evaluate(self.motor, drive, **vars(self.levels), tolerance=tolerance).figures
-            extra = self._closed(self._case(point[np.newaxis], tolerance))
+            found = evaluate(motor, drive, **vars(self.levels), tolerance=tolerance).figures
+            case = self._case(points, tolerance)
+        figures: dict[str, Any] = self._closed(case)
         if self._held:
-            held = held_figures(self._case(point[np.newaxis], tolerance), self._held, self.asked, self.target)[1]
-            extra |= held
-        figures: dict[str, Any] = {name: value for name, value in found.items() if isinstance(value, float)}
-        figures["reason"] = found["reason"]
-        figures["speed_deviation"] = figures["speed_volatility"] * abs(figures["mean_speed"])
-        return {**{name: float(value[0]) for name, value in extra.items()}, **figures}
+            figures |= held_figures(case, self._held, self.asked, self.target)[1]
+        figures |= {name: value for name, value in found.items() if name == "reason" or _is_numbers(value)}
+        figures["speed_deviation"] = figures["speed_volatility"] * np.abs(figures["mean_speed"])
+        return [{name: values[k].item() for name, values in figures.items()} for k in range(len(points))]
 
     def _case(self, points: Array, tolerance: float) -> Case:
+        motor, drive = self.at(points)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", ValidityWarning)  # the box has warned
-            case = prepare(self.motor, self.drives(points), self.levels, tolerance)
+            case = prepare(motor, drive, self.levels, tolerance)
         return replace(case, arguments={**case.arguments, "held": float(bool(self.names & _HELD))})
 
     def _closed(self, case: Case) -> dict[str, Array]:
@@ -219,6 +228,10 @@ class Model:
             for figure, value in found.items():
                 columns.setdefault(figure, []).append(weights @ value / step)
         return {figure: np.stack(by, axis=-1) for figure, by in columns.items()}
+
+
+def _is_numbers(value: object) -> bool:
+    return isinstance(value, np.ndarray) and value.dtype == np.float64
 
 
 def _speeds(orbit: Orbit) -> dict[str, Array]:

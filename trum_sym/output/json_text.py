@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -29,4 +28,6 @@ def finite(value: Any) -> Any:  # noqa: ANN401
 
 def json_text(record: Mapping[str, Any]) -> str:
     """One JSON object, a line an entry."""
+    import json
+
     return json.dumps(finite(record), indent=1, allow_nan=False)

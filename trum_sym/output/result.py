@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from html import escape
 from typing import Any
 
 from trum_sym.output.json_text import json_text
@@ -26,4 +25,6 @@ class Result:
         return json_text(self.to_dict())
 
     def _repr_html_(self) -> str:
+        from html import escape
+
         return f"<pre>{escape(self.to_text())}</pre>"

@@ -1,8 +1,11 @@
-"""The least worst case over several models of one box: maps, then sequential quadratic programming, then a check."""
+"""The least worst case over several cases of one box: a map, then sequential quadratic programming, then a check.
+
+All cases of a place are points of one batch, and so are the places that searches from several starts ask for at a time.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
@@ -13,6 +16,7 @@ from trum_sym.errors import MissingExtraError
 from trum_sym.inputs.checks import Array
 from trum_sym.optimiser.chart import Chart, chart
 from trum_sym.optimiser.finish import ALLOWED, TOLERANCE
+from trum_sym.optimiser.lockstep import in_lockstep
 from trum_sym.optimiser.model import Functions, Model, functions
 from trum_sym.optimiser.solve import Problem
 
@@ -46,21 +50,23 @@ class Outcome:
 
 
 class Minimax:
-    """Least worst objective of a problem over models that differ in what is not known exactly.
+    """Least worst objective of a problem over cases that differ in what is not known exactly.
 
     Parameters
     ----------
     problem : Problem
-    models : sequence of Model
-        One a case, the nominal one first.
+    model : Model
+        Of all cases, the nominal one first.
+    count : int
+        Cases of the model.
     target : float or None
         If given, the objective is the distance of the problem's objective from it.
     held : bool
         Whether the first constraint is an equality that holds in the nominal case only.
     """
 
-    def __init__(self, problem: Problem, models: Sequence[Model], target: float | None, held: bool) -> None:
-        self.problem, self.models, self.target, self.held = problem, models, target, held
+    def __init__(self, problem: Problem, model: Model, count: int, target: float | None, held: bool) -> None:
+        self.problem, self.model, self.count, self.target, self.held = problem, model, count, target, held
         constraints = problem.constraints
         self._rows: Functions = functions([problem.objective, *(c.expression for c in constraints)])
         self._low = np.array([c.low for c in constraints])
@@ -72,12 +78,12 @@ class Minimax:
 
     def total(self) -> int:
         """Orbits computed."""
-        return self.evaluations + sum(model.evaluations for model in self.models)
+        return self.evaluations + self.model.evaluations
 
-    def map(self, shown: Callable[[Sequence[Model]], Iterable[Model]]) -> None:
+    def map(self) -> None:
         """The worst case on the map's grid, and where a search is to begin."""
-        charts = [chart(model) for model in shown(self.models)]
-        values = np.array([self._rows.values(c.figures) for c in charts])  # cases, places, rows
+        known = chart(self.model, cases=self.count)
+        values = self._by_case(self._rows.values(known.figures)).swapaxes(0, 1)  # cases, places, rows
         with np.errstate(all="ignore"):
             objective = self._figure(values[:, :, 0])
             constraints = values[:, :, 1:]
@@ -95,50 +101,54 @@ class Minimax:
         worst = np.max(objective, axis=0)
         missed = np.where(np.isfinite(worst) & np.isfinite(missed), missed, np.inf)
         self._size = float(np.median(np.abs(worst[np.isfinite(worst)]))) if np.isfinite(worst).any() else 1.0
-        self._starts = _lowest(charts[0], missed, worst)
+        self._starts = _lowest(known, missed, worst)
 
     def solve(self) -> Outcome | None:
         """The best that the searches from the map's best places find; None if none meets the constraints."""
-        best: Outcome | None = None
-        for start in self._starts:
-            found = self.check(self._onto(self._search(start)))
-            if found.feasible and (best is None or max(found.objectives) < max(best.objectives)):
-                best = found
-        return best
+        if not self._starts:
+            return None
+        ends = self._onto(np.array(in_lockstep(self._search, self._starts, self._answers)))
+        feasible = [found for found in self.check(ends) if found.feasible]
+        return min(feasible, key=lambda found: max(found.objectives), default=None)
 
-    def check(self, share: Array, models: Sequence[Model] | None = None) -> Outcome:
-        """A place in every case, or in those of other models, by an evaluation of its own."""
-        others = models is not None
-        models = self.models if models is None else models
-        point = self.problem.box.at(share[np.newaxis])[0]
-        found = [model.check(point, TOLERANCE) for model in models]
-        if others:
-            self.evaluations += len(found)
-        objectives, violations = [], []
-        for k, figures in enumerate(found):
-            row = self._rows.values({name: np.array([figures[name]]) for name in self._rows.names})[0]
-            beyond = np.maximum(np.maximum(self._low - row[1:], row[1:] - self._high), 0.0) / self._unit
-            if self.held and (k or others):
-                beyond = beyond[1:]
-            objectives.append(float(self._figure(row[0])))
-            worst = float(np.max(beyond, initial=0.0))
-            violations.append(worst if np.isfinite(worst) else np.inf)
-        return Outcome(share, point, objectives, violations, list(found))
+    def check(self, shares: Array, others: tuple[Model, int] | None = None) -> list[Outcome]:
+        """Places in every case, or in those of another model and their number, by an evaluation of their own."""
+        model, count = (self.model, self.count) if others is None else others
+        points = self.problem.box.at(shares)
+        figures = model.check(np.repeat(points, count, axis=0), TOLERANCE)
+        if others is not None:
+            self.evaluations += len(figures)
+        found = []
+        for k, (share, point) in enumerate(zip(shares, points, strict=True)):
+            own = figures[k * count : (k + 1) * count]
+            rows = self._rows.values({name: np.array([of[name] for of in own]) for name in self._rows.names})
+            beyond = np.maximum(np.maximum(self._low - rows[:, 1:], rows[:, 1:] - self._high), 0.0) / self._unit
+            if self.held:
+                beyond[0 if others is not None else 1 :, 0] = 0.0
+            worst = np.max(beyond, axis=1, initial=0.0)
+            violations = np.where(np.isfinite(worst), worst, np.inf)
+            found.append(Outcome(share, point, self._figure(rows[:, 0]).tolist(), violations.tolist(), list(own)))
+        return found
 
     def _figure(self, values: Array) -> Array:
         return values if self.target is None else np.abs(values - self.target)
 
-    def _at(self, share: Array) -> tuple[Array, Array]:
-        """Rows (cases, rows) and their slopes (cases, rows, variables) in the unit cube."""
-        values, slopes = [], []
-        box = self.problem.box
-        for model in self.models:
-            figures, by = model.results_with_slopes(box.at(share[np.newaxis]), _SEARCH)
-            values.append(self._rows.values(figures)[0])
-            slopes.append(self._rows.slopes(figures, {name: slope * box.width for name, slope in by.items()})[0])
-        return np.array(values), np.array(slopes)
+    def _by_case(self, rows: Array) -> Array:
+        """Rows of points as (places, cases, ...)."""
+        return rows.reshape(-1, self.count, *rows.shape[1:])
 
-    def _search(self, start: Array) -> Array:
+    def _at(self, shares: Array, tolerance: float) -> tuple[Array, Array]:
+        """Rows (places, cases, rows) and their slopes (places, cases, rows, variables) in the unit cube."""
+        box = self.problem.box
+        figures, by = self.model.results_with_slopes(np.repeat(box.at(shares), self.count, axis=0), tolerance)
+        slopes = self._rows.slopes(figures, {name: slope * box.width for name, slope in by.items()})
+        return self._by_case(self._rows.values(figures)), self._by_case(slopes)
+
+    def _answers(self, asked: list[tuple[int, Array]]) -> list[tuple[Array, Array]]:
+        """Of the places that the searches ask for in a round."""
+        return list(zip(*self._at(np.array([share for _, share in asked]), _SEARCH), strict=True))
+
+    def _search(self, start: Array, ask: Callable[[Array], tuple[Array, Array]]) -> Array:
         """Least t with every case's objective at most t, by sequential quadratic programming."""
         try:
             from scipy.optimize import minimize
@@ -152,7 +162,7 @@ class Minimax:
             if key not in seen and len(seen) == _MOST_PLACES:
                 raise _Enough
             if key not in seen:
-                values, slopes = self._at(share)
+                values, slopes = ask(share)
                 good = np.all(np.isfinite(values)) and np.all(np.isfinite(slopes))
                 seen[key] = (values, slopes) if good else (np.full_like(values, 1e6), np.zeros_like(slopes))
             return seen[key]
@@ -216,29 +226,35 @@ class Minimax:
                     found.append((scale * (values[:, 1 + k] - bound), scale * slopes[:, 1 + k]))
         return found
 
-    def _onto(self, share: Array) -> Array:
+    def _onto(self, shares: Array) -> Array:
         """Newton's least steps onto what is violated: the held speed, and constraints in their worst cases."""
+        shares, active = shares.copy(), np.arange(len(shares))
         for _ in range(_NEWTON):
-            figures = [m.results_with_slopes(self.problem.box.at(share[np.newaxis]), TOLERANCE) for m in self.models]
-            width = self.problem.box.width
-            values = np.array([self._rows.values(f)[0] for f, _ in figures])
-            slopes = np.array([self._rows.slopes(f, {n: s * width for n, s in by.items()})[0] for f, by in figures])
-            rows, sides = [], []
-            if self.held:
-                off = (values[0, 1] - self._low[0]) / self._unit[0]
-                if abs(off) > 0.1 * ALLOWED:
-                    rows.append(slopes[0, 1] / self._unit[0])
-                    sides.append(off)
-            for part, slope in self._inequalities(values, slopes):
-                for value, by in zip(part, slope, strict=True):
-                    if value < 0:
-                        rows.append(by)
-                        sides.append(value - 0.1 * ALLOWED)
-            if not rows or not np.all(np.isfinite(rows)):
+            steps = [self._step(*found) for found in zip(*self._at(shares[active], TOLERANCE), strict=True)]
+            for place, step in zip(active, steps, strict=True):
+                if step is not None:
+                    shares[place] = np.clip(shares[place] - step, 0.0, 1.0)
+            active = active[[step is not None for step in steps]]
+            if not active.size:
                 break
-            step = np.linalg.lstsq(np.array(rows), np.array(sides), rcond=1e-8)[0]
-            share = np.clip(share - step, 0.0, 1.0)
-        return share
+        return shares
+
+    def _step(self, values: Array, slopes: Array) -> Array | None:
+        """Newton's least step from a place; None where nothing is violated."""
+        rows, sides = [], []
+        if self.held:
+            off = (values[0, 1] - self._low[0]) / self._unit[0]
+            if abs(off) > 0.1 * ALLOWED:
+                rows.append(slopes[0, 1] / self._unit[0])
+                sides.append(off)
+        for part, slope in self._inequalities(values, slopes):
+            for value, by in zip(part, slope, strict=True):
+                if value < 0:
+                    rows.append(by)
+                    sides.append(value - 0.1 * ALLOWED)
+        if not rows or not np.all(np.isfinite(rows)):
+            return None
+        return np.asarray(np.linalg.lstsq(np.array(rows), np.array(sides), rcond=1e-8)[0])
 
 
 def _lowest(known: Chart, missed: Array, worst: Array) -> list[Array]:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import itertools
 import math
+import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import partial
 from typing import Any, TypeVar, Unpack
 
 import numpy as np
@@ -15,7 +15,6 @@ from trum_sym.errors import ParameterError
 from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import DRIVE_DOMAINS, Drive
 from trum_sym.inputs.motor import Motor, spec
-from trum_sym.inputs.plausible import unquestioned
 from trum_sym.inputs.points import one_number
 from trum_sym.inputs.shown import full
 from trum_sym.inputs.spreads import Spread, read_spread
@@ -27,7 +26,7 @@ from trum_sym.optimiser.finish import TOLERANCE
 from trum_sym.optimiser.limits import Holds
 from trum_sym.optimiser.model import Model
 from trum_sym.optimiser.solve import Problem, solve
-from trum_sym.output.progress import shown
+from trum_sym.output.progress import duration, said
 from trum_sym.output.result import Result
 from trum_sym.studies.minimax import Minimax, Outcome
 from trum_sym.studies.posed import Bound, Held, posed
@@ -246,21 +245,26 @@ def robust(
     problem = posed(motor, drive, Levels(**levels), aim, held, bounds, constraints, terms)
     ranges = _ranges(problem, spreads, samples)
     cases = _cases(problem, ranges, samples)
-    models = [_model(problem, case) for case in cases]
-    task = Minimax(problem, models, target if error else None, held=target is not None and not error)
-    task.map(partial(shown, label="cases" if progress else None))
+    model = _model(problem, cases)
+    task = Minimax(problem, model, len(cases), target if error else None, held=target is not None and not error)
+    tell = said("robust" if progress else None)
+    tell(f"a map of the box in {len(cases)} cases")
+    begin = time.monotonic()
+    task.map()
+    tell(f"searches from its best places, about {duration(5 * (time.monotonic() - begin))}")
     found = task.solve()
     nominal_optimum = math.nan
     if found is not None and not error:
         nominal = solve(problem)
         task.evaluations += nominal.evaluations
         if nominal.status == "solved" and nominal.best is not None:
-            nominal_optimum = max(task.check(nominal.best.share).objectives)
+            nominal_optimum = max(task.check(nominal.best.share[np.newaxis])[0].objectives)
     inside = math.nan
     if found is not None and ranges:
         rng = np.random.default_rng(_SEED)
         drawn = [{n: float(rng.uniform(low, high)) for n, (low, high) in ranges.items()} for _ in range(_INSIDE)]
-        inside = max(task.check(found.share, [_model(problem, case) for case in drawn]).objectives)
+        (outcome,) = task.check(found.share[np.newaxis], (_model(problem, drawn), _INSIDE))
+        inside = max(outcome.objectives)
     return _result(problem, objective, cases, found, nominal_optimum, inside, task.total())
 
 
@@ -332,12 +336,13 @@ def _cases(
     return found
 
 
-def _model(problem: Problem, case: Mapping[str, float]) -> Model:
-    values: dict[str, Any] = dict(case)
-    drive = replace(problem.drive, **{name: values.pop(name) for name in _OF_LOAD if name in values})
-    with unquestioned():
-        motor = problem.motor.with_values(values)
-    return Model(motor, drive, problem.levels, problem.box, problem.names, problem.asked, problem.target)
+def _model(problem: Problem, cases: Sequence[Mapping[str, float]]) -> Model:
+    """All cases as one model; what a case does not change is there as in the nominal one."""
+    names = dict.fromkeys(name for case in cases for name in case)
+    values = {name: np.array([case.get(name, _nominal(problem, name)) for case in cases]) for name in names}
+    return Model(
+        problem.motor, problem.drive, problem.levels, problem.box, problem.names, problem.asked, problem.target, values
+    )
 
 
 def _result(
