@@ -12,6 +12,7 @@
 #include <numpy/arrayobject.h>
 #include <numpy/ufuncobject.h>
 
+#include "cpu.hpp"
 #include "orbit.hpp"
 #include "trum_brush.h"
 #include "trum_cycle.h"
@@ -37,17 +38,20 @@ void kernel_loop(char** args, const npy_intp* dimensions, const npy_intp* steps,
 }
 
 // Lets other threads of the interpreter run meanwhile.  NumPy may have done so already, or not: it keeps the lock in
-// short loops, and in all loops of an iterator that it has not marked as free of Python.
+// short loops, and in all loops of an iterator that it has not marked as free of Python.  The stable ABI has nothing
+// that tells; so the lock is taken, which does nothing where it is held, and let go.
 class Unlocked {
  public:
-  Unlocked() : state_(PyGILState_Check() ? PyEval_SaveThread() : nullptr) {}
+  Unlocked() : before_(PyGILState_Ensure()), state_(PyEval_SaveThread()) {}
   ~Unlocked() {
-    if (state_ != nullptr) PyEval_RestoreThread(state_);
+    PyEval_RestoreThread(state_);
+    PyGILState_Release(before_);
   }
   Unlocked(const Unlocked&) = delete;
   Unlocked& operator=(const Unlocked&) = delete;
 
  private:
+  PyGILState_STATE before_;
   PyThreadState* state_;
 };
 
@@ -220,24 +224,25 @@ void rotor_history_loop(char** args, const npy_intp* dimensions, const npy_intp*
   }
 }
 
-// Which instruction set the orbits run on: the best that this CPU has, until a test asks for another.
+// Which instruction set the orbits run on: the best that this CPU has, until a test asks for another.  TRUM_X86_ORBITS:
+// whether the build has made the copies for AVX2 and AVX-512.
 bool supported(const trum::OrbitCode& code) {
-#if defined(__x86_64__)
-  if (&code == &trum::orbit_avx2) return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  if (&code == &trum::orbit_avx512)
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+#if defined(TRUM_X86_ORBITS)
+  static const trum::Cpu cpu = trum::this_cpu();
+  if (&code == &trum::orbit_avx2) return cpu.avx2;
+  if (&code == &trum::orbit_avx512) return cpu.avx512;
 #endif
-  return true;
+  return &code == &trum::orbit_baseline;
 }
 constexpr const trum::OrbitCode* orbit_codes[] = {
     &trum::orbit_baseline,
-#if defined(__x86_64__)
+#if defined(TRUM_X86_ORBITS)
     &trum::orbit_avx2, &trum::orbit_avx512,
 #endif
 };
 
 PyObject* use(PyObject*, PyObject* name) {
-  const char* wanted = PyUnicode_AsUTF8(name);
+  const char* wanted = PyUnicode_AsUTF8AndSize(name, nullptr);
   if (wanted == nullptr) return nullptr;
   for (const trum::OrbitCode* code : orbit_codes)
     if (std::strcmp(code->name, wanted) == 0 && supported(*code)) {
