@@ -1,15 +1,15 @@
-"""The extension's C++ for other processors, systems and compilers: what compiles, and the figures where it can be run.
+"""The extension's C++ for other processors, systems and compilers: what compiles, and figures where it runs.
 
 python -m studies.targets [NAME ...] [--points N]
 
 gcc, clang        this machine's; clang with -mno-avx, as for a processor without AVX
 plain             gcc without vector types, as MSVC has none (lanes_plain.hpp)
-the others        by zig (`pip install ziglang`); programs for aarch64 run under qemu (apt-get install qemu-user-static),
+the others        by zig (`pip install ziglang`); those for aarch64 run under qemu (apt-get install qemu-user-static),
                   those for Windows and macOS are linked and not run
 
 Orbits of N random points on every instruction set are compared with gcc's baseline: speeds within the sum of both
-stated errors, or the last digits.  Where this Python's headers fit (64-bit Linux, macOS), the module's own source is compiled
-too.  The exit code is 1 if anything was found.
+stated errors, or the last digits.  Where this Python's headers fit (64-bit Linux, macOS), the module's own source is
+compiled too.  The exit code is 1 if anything was found.
 """
 
 from __future__ import annotations
@@ -93,6 +93,7 @@ def compiled(folder: Path, target: Target) -> Path:
     subprocess.CalledProcessError
         If the compiler fails; its output says why.
     """
+    zig = target.compiler[: len(ZIG)] == ZIG  # whose library of C++, which the orbits do not use, takes minutes to build
     defined = ["-DTRUM_X86_ORBITS"] if target.x86 else []
     include = [f"-I{place}" for place in FOLDERS]
 
@@ -135,7 +136,7 @@ def compiled(folder: Path, target: Target) -> Path:
             str(folder / "ufuncs.o"),
         )
     program = folder / "targets"
-    run(*objects, *target.flags, "-o", str(program))
+    run(*objects, *target.flags, *(("-nostdlib++",) if zig else ()), "-o", str(program))
     return program
 
 

@@ -35,6 +35,7 @@ _NAMES = (
     "motor",
     "equations",
     "report",
+    "info",
 )
 
 
