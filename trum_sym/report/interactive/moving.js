@@ -86,6 +86,7 @@ window.trumMoving = (root, asked) => {
     pen.fill();
     pen.fillStyle = colours.touch; /* where it is above the level it presses into the layer */
     pen.globalAlpha = 0.6;
+    const zones = [];
     for (let k = 0, from = -1; k <= columns; k++) {
       const inside = k < columns && heights[k] >= level;
       if (inside && from < 0) from = k;
@@ -98,11 +99,13 @@ window.trumMoving = (root, asked) => {
       pen.lineTo(X(edge(k - 1, k)), Y(level));
       pen.closePath();
       pen.fill();
+      zones.push([X(edge(from - 1, from)), X(edge(k - 1, k))]);
       from = -1;
     }
     pen.globalAlpha = 1;
     line(X, (k) => Y(heights[k]), columns, colours.ink, 1.8);
-    line((k) => left + k * width, () => rim, 2, colours.touch, 1.5);
+    line((k) => left + k * width, () => rim, 2, colours.touch, 1);
+    for (const zone of zones) line((k) => zone[k], () => rim - 3, 2, colours.touch, 6);
     const crest = between(histories.crest, sample), whole = film.length / 2;
     const first = ((crest % whole) + whole) % whole;
     pen.fillStyle = colours.b;
