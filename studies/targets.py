@@ -93,7 +93,7 @@ def compiled(folder: Path, target: Target) -> Path:
     subprocess.CalledProcessError
         If the compiler fails; its output says why.
     """
-    zig = target.compiler[: len(ZIG)] == ZIG  # whose library of C++, which the orbits do not use, takes minutes to build
+    zig = target.compiler[: len(ZIG)] == ZIG  # its library of C++ takes minutes to build, and the orbits use none
     defined = ["-DTRUM_X86_ORBITS"] if target.x86 else []
     include = [f"-I{place}" for place in FOLDERS]
 
