@@ -53,7 +53,7 @@ def fragment(motor: Motor) -> str:
 
 
 def _as_given(motor: Motor) -> dict[str, Any]:
-    """What a command needs to take the same motor: its name or that of a file to put in, values set, names of levels."""
+    """What a command needs to take the same motor: its name or that of a file to put in; what is set; levels."""
     named = next((name for name in SHIPPED if motor_text(name) == motor.text), "my.toml")
     changed = {name: parameter.value for name, parameter in motor.parameters() if parameter.source == "set"}
     return {"motor": named, "set": changed, "levels": LEVEL_NAMES}
