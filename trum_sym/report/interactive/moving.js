@@ -150,7 +150,7 @@ window.trumMoving = (root, asked) => {
     text(film.speeds.length ? `rotor speed from rest: ${shown(at.speed)} rad/s, cycle ${lap + 1} of ${laps()}`
       : "the rotor's motion does not follow", left, top + 10);
     if (!film.speeds.length) return;
-    const { low, high, every, points } = trace, floor = top + height - 14, roof = top + 20;
+    const { low, high, every, points } = trace, floor = top + height - 24, roof = top + 20;
     const X = (cycles) => left + 34 + (width - 34) * cycles / laps();
     const Y = (value) => floor - (floor - roof) * (value - low) / (high - low || 1);
     for (const value of [low, 0, high]) {
