@@ -8,7 +8,7 @@ the others        by zig (`pip install ziglang`); those for aarch64 run under qe
                   those for Windows and macOS are linked and not run
 
 Orbits of N random points on every instruction set are compared with gcc's baseline: speeds within the sum of both
-stated errors, or the last digits.  Where this Python's headers fit (64-bit Linux, macOS), the module's own source is
+stated errors, or the last digits.  Where the headers of this Python and NumPy fit (64-bit Linux), the module's own source is
 compiled too.  The exit code is 1 if anything was found.
 """
 
@@ -70,8 +70,8 @@ TARGETS = {
     "aarch64-linux-gnu.2.28": _zig("aarch64-linux-gnu.2.28", None),
     "x86_64-windows-gnu": _zig("x86_64-windows-gnu", None, module=False),
     "aarch64-windows-gnu": _zig("aarch64-windows-gnu", None, module=False),
-    "x86_64-macos": _zig("x86_64-macos", None),
-    "aarch64-macos": _zig("aarch64-macos", None),
+    "x86_64-macos": _zig("x86_64-macos", None, module=False),
+    "aarch64-macos": _zig("aarch64-macos", None, module=False),
 }
 
 
