@@ -8,8 +8,8 @@ the others        by zig (`pip install ziglang`); those for aarch64 run under qe
                   those for Windows and macOS are linked and not run
 
 Orbits of N random points on every instruction set are compared with gcc's baseline: speeds within the sum of both
-stated errors, or the last digits.  Where the headers of this Python and NumPy fit (64-bit Linux), the module's own source is
-compiled too.  The exit code is 1 if anything was found.
+stated errors, or the last digits.  Where the headers of this Python and NumPy fit (64-bit Linux), the module's own
+source is compiled too.  The exit code is 1 if anything was found.
 """
 
 from __future__ import annotations
