@@ -40,6 +40,7 @@ BASE = {
     ("c-library",): ("new.library",),
     ("fmu",): ("new.fmu", "--sources-only"),
     ("equations",): (),
+    ("info",): (),
     ("motor", "show"): ("trum60",),
     ("motor", "check"): ("trum60",),
     ("motor", "new"): ("my.toml",),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import subprocess
 import sys
 import threading
 import time
@@ -94,3 +95,19 @@ def test_the_drivers_let_other_threads_run(trum60, kernel):
         now = time.perf_counter()
         last, longest = now, max(longest, now - last)
     assert longest < took[0] / 2
+
+
+def test_the_smallest_stack_of_a_thread_is_enough():
+    """128 KiB, which musl gives, for the kernels; modules are loaded before, on the main thread's stack."""
+    code = (
+        "import threading; threading.stack_size(128 * 1024); import trum_sym as ts; from trum_sym import _kernels\n"
+        "from trum_sym.model.kernels import call; from trum_sym.model.levels import Levels\n"
+        "from trum_sym.model.operating_point import prepare\n"
+        "given = prepare(ts.load_motor(), ts.Drive(prepressure=[170.0] * 70), Levels(), 1e-3).arguments\n"
+        "def run():\n"
+        "    for name in _kernels.instruction_sets(): _kernels.use(name), call('rotor_orbit', given)\n"
+        "    ts.sensitivities(); print('done')\n"
+        "ts.sensitivities(); thread = threading.Thread(target=run); thread.start(); thread.join()"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert (done.returncode, done.stdout) == (0, "done\n"), done.stderr

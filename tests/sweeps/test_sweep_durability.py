@@ -299,7 +299,7 @@ def test_a_store_of_another_sweep_is_refused_with_the_difference_and_left_alone(
     assert hashes(store) == before
 
 
-@pytest.mark.parametrize("name", ["package", "code_sha256", "kernels_sha256", "instruction_set"])
+@pytest.mark.parametrize("name", ["format", "package", "code_sha256", "kernels_sha256", "instruction_set"])
 def test_a_store_of_another_kernel_is_refused(store, name, monkeypatch):
     from trum_sym.sweeps import plan, task
 
@@ -308,6 +308,12 @@ def test_a_store_of_another_kernel_is_refused(store, name, monkeypatch):
     with refusal("out", f"its {name} is", "not other"):
         ts.sweep(ts.load_motor(), DRIVE, out=store, **SETTINGS)
     assert hashes(store) == before
+
+
+def test_a_store_needs_a_system_that_can_lock_it(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "fcntl", None)  # as on Windows
+    with refusal("out", "no store", "cannot lock"):
+        ts.sweep(ts.load_motor(), DRIVE, out=tmp_path / "map.zarr", **SETTINGS)
 
 
 def test_a_motor_file_of_other_words_is_another_one(store, tmp_path):

@@ -13,8 +13,17 @@ using ::fmin;
 using ::sin;
 using ::sqrt;
 
+// TRUM_PLAIN_LANES: without the vector types of GCC and Clang; on for a compiler that has none.
+#if !defined(__GNUC__) && !defined(__clang__) && !defined(TRUM_PLAIN_LANES)
+#define TRUM_PLAIN_LANES
+#endif
+#if defined(TRUM_PLAIN_LANES)
+#include "lanes_plain.hpp"
+#else
 typedef double Vector __attribute__((vector_size(8 * LANES)));
 typedef long long Bits __attribute__((vector_size(8 * LANES)));
+inline Vector either(Bits mask, Vector a, Vector b) { return mask ? a : b; }
+#endif
 
 struct Lane {
   Vector v;
@@ -36,10 +45,10 @@ inline Lane& operator+=(Lane& a, Lane b) { return a = a + b; }
 inline Lane one_where(Bits mask) { return (Vector)(mask & (Bits)Lane(1.0).v); }
 inline Lane operator<(Lane a, Lane b) { return one_where(a.v < b.v); }
 
-inline Lane select(Bits mask, Lane a, Lane b) { return mask ? a.v : b.v; }
+inline Lane select(Bits mask, Lane a, Lane b) { return either(mask, a.v, b.v); }
 
 inline Lane fabs(Lane a) { return (Vector)((Bits)a.v & ~(Bits)Lane(-0.0).v); }
-#if defined(__AVX512F__)
+#if defined(__AVX512F__) && !defined(TRUM_PLAIN_LANES)
 static_assert(LANES == 8, "one register of lanes");
 inline Lane sqrt(Lane a) { return (Vector)_mm512_sqrt_pd((__m512d)a.v); }
 inline Lane fmin(Lane a, Lane b) { return (Vector)_mm512_min_pd((__m512d)a.v, (__m512d)b.v); }
@@ -50,7 +59,7 @@ inline Lane reciprocal(Lane a) {
   return s + s * (Lane(1.0) - a * s);
 }
 inline bool any_lane(Bits mask) { return _mm512_test_epi64_mask((__m512i)mask, (__m512i)mask) != 0; }
-#elif defined(__AVX2__)
+#elif defined(__AVX2__) && !defined(TRUM_PLAIN_LANES)
 static_assert(LANES == 4, "one register of lanes");
 inline Lane sqrt(Lane a) { return (Vector)_mm256_sqrt_pd((__m256d)a.v); }
 inline Lane fmin(Lane a, Lane b) { return (Vector)_mm256_min_pd((__m256d)a.v, (__m256d)b.v); }
@@ -62,7 +71,7 @@ inline Lane fmin(Lane a, Lane b) { return select(a.v < b.v, a, b); }
 inline Lane fmax(Lane a, Lane b) { return select(a.v > b.v, a, b); }
 inline Lane sqrt(Lane a) {
   Lane root;
-  for (int i = 0; i < LANES; ++i) root.v[i] = __builtin_sqrt(a.v[i]);
+  for (int i = 0; i < LANES; ++i) root.v[i] = ::sqrt(a.v[i]);
   return root;
 }
 inline Lane reciprocal(Lane a) { return Lane(1.0) / a; }

@@ -12,6 +12,7 @@
 #include <numpy/arrayobject.h>
 #include <numpy/ufuncobject.h>
 
+#include "cpu.hpp"
 #include "orbit.hpp"
 #include "trum_brush.h"
 #include "trum_cycle.h"
@@ -37,17 +38,20 @@ void kernel_loop(char** args, const npy_intp* dimensions, const npy_intp* steps,
 }
 
 // Lets other threads of the interpreter run meanwhile.  NumPy may have done so already, or not: it keeps the lock in
-// short loops, and in all loops of an iterator that it has not marked as free of Python.
+// short loops, and in all loops of an iterator that it has not marked as free of Python.  The stable ABI has nothing
+// that tells; so the lock is taken, which does nothing where it is held, and let go.
 class Unlocked {
  public:
-  Unlocked() : state_(PyGILState_Check() ? PyEval_SaveThread() : nullptr) {}
+  Unlocked() : before_(PyGILState_Ensure()), state_(PyEval_SaveThread()) {}
   ~Unlocked() {
-    if (state_ != nullptr) PyEval_RestoreThread(state_);
+    PyEval_RestoreThread(state_);
+    PyGILState_Release(before_);
   }
   Unlocked(const Unlocked&) = delete;
   Unlocked& operator=(const Unlocked&) = delete;
 
  private:
+  PyGILState_STATE before_;
   PyThreadState* state_;
 };
 
@@ -82,6 +86,9 @@ std::string scalars(int n) {
   for (int k = 0; k < n; ++k) text += k ? ",()" : "()";
   return text;
 }
+
+// Points that a loop takes at a time, on the heap: a thread's stack may be 128 KiB (musl).
+npy_intp block(npy_intp most, const npy_intp* dimensions) { return std::max<npy_intp>(1, std::min(most, dimensions[0])); }
 
 constexpr int n_half_angle_in = COUNT(TRUM_HALF_ANGLE_IN);
 void half_angle_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
@@ -141,16 +148,16 @@ const trum::OrbitCode* orbit_code = &trum::orbit_baseline;
 constexpr int n_orbit_in = COUNT(TRUM_ORBIT_IN), n_orbit_out = COUNT(TRUM_ORBIT_OUT);
 void rotor_orbit_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
   const Unlocked unlocked;
-  constexpr npy_intp most = 256;
-  trum_orbit_in in[most];
-  trum_orbit_out out[most];
+  const npy_intp most = block(256, dimensions);
+  std::vector<trum_orbit_in> in(most);
+  std::vector<trum_orbit_out> out(most);
   for (npy_intp i = 0; i < dimensions[0];) {
     npy_intp count = 0;
     for (; i + count < dimensions[0] && count < most; ++count) {
-      read(in + count, args, steps, i + count);
+      read(&in[count], args, steps, i + count);
       if (in[count].hertz != in[0].hertz) break;
     }
-    orbit_code->orbits(in, out, nullptr, nullptr, static_cast<long>(count));
+    orbit_code->orbits(in.data(), out.data(), nullptr, nullptr, static_cast<long>(count));
     for (npy_intp k = 0; k < count; ++k) write(out[k], args + n_orbit_in, steps + n_orbit_in, i + k);
     i += count;
   }
@@ -159,13 +166,13 @@ void rotor_orbit_loop(char** args, const npy_intp* dimensions, const npy_intp* s
 constexpr int n_sums_in = COUNT(TRUM_CYCLE_SUMS_IN);
 void cycle_sums_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
   const Unlocked unlocked;
-  constexpr npy_intp most = 512;
-  trum_cycle_sums_in in[most];
-  trum_cycle_sums_out out[most];
+  const npy_intp most = block(512, dimensions);
+  std::vector<trum_cycle_sums_in> in(most);
+  std::vector<trum_cycle_sums_out> out(most);
   for (npy_intp i = 0; i < dimensions[0]; i += most) {
     const npy_intp count = std::min(most, dimensions[0] - i);
-    for (npy_intp k = 0; k < count; ++k) read(in + k, args, steps, i + k);
-    orbit_code->sums(in, out, static_cast<long>(count));
+    for (npy_intp k = 0; k < count; ++k) read(&in[k], args, steps, i + k);
+    orbit_code->sums(in.data(), out.data(), static_cast<long>(count));
     for (npy_intp k = 0; k < count; ++k) write(out[k], args + n_sums_in, steps + n_sums_in, i + k);
   }
 }
@@ -174,20 +181,20 @@ void cycle_sums_loop(char** args, const npy_intp* dimensions, const npy_intp* st
 constexpr int n_slopes_in = n_orbit_in + COUNT(TRUM_SLOPES_IN), n_slopes_out = n_orbit_out + 1;
 void rotor_slopes_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
   const Unlocked unlocked;
-  constexpr npy_intp most = 64;
-  trum_orbit_in in[most];
-  trum_slopes_in with[most];
-  trum_orbit_out out[most];
-  trum_slopes_out slopes[most];
+  const npy_intp most = block(64, dimensions);
+  std::vector<trum_orbit_in> in(most);
+  std::vector<trum_slopes_in> with(most);
+  std::vector<trum_orbit_out> out(most);
+  std::vector<trum_slopes_out> slopes(most);
   const npy_intp* core = steps + n_slopes_in + n_slopes_out;  // strides of rows and columns
   for (npy_intp i = 0; i < dimensions[0];) {
     npy_intp count = 0;
     for (; i + count < dimensions[0] && count < most; ++count) {
-      read(in + count, args, steps, i + count);
-      read(with + count, args + n_orbit_in, steps + n_orbit_in, i + count);
+      read(&in[count], args, steps, i + count);
+      read(&with[count], args + n_orbit_in, steps + n_orbit_in, i + count);
       if (in[count].hertz != in[0].hertz) break;
     }
-    orbit_code->orbits(in, out, with, slopes, static_cast<long>(count));
+    orbit_code->orbits(in.data(), out.data(), with.data(), slopes.data(), static_cast<long>(count));
     for (npy_intp k = 0; k < count; ++k) {
       write(out[k], args + n_slopes_in, steps + n_slopes_in, i + k);
       char* to = args[n_slopes_in + n_orbit_out] + (i + k) * steps[n_slopes_in + n_orbit_out];
@@ -220,24 +227,25 @@ void rotor_history_loop(char** args, const npy_intp* dimensions, const npy_intp*
   }
 }
 
-// Which instruction set the orbits run on: the best that this CPU has, until a test asks for another.
+// Which instruction set the orbits run on: the best that this CPU has, until a test asks for another.  TRUM_X86_ORBITS:
+// whether the build has made the copies for AVX2 and AVX-512.
 bool supported(const trum::OrbitCode& code) {
-#if defined(__x86_64__)
-  if (&code == &trum::orbit_avx2) return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  if (&code == &trum::orbit_avx512)
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+#if defined(TRUM_X86_ORBITS)
+  static const trum::Cpu cpu = trum::this_cpu();
+  if (&code == &trum::orbit_avx2) return cpu.avx2;
+  if (&code == &trum::orbit_avx512) return cpu.avx512;
 #endif
-  return true;
+  return &code == &trum::orbit_baseline;
 }
 constexpr const trum::OrbitCode* orbit_codes[] = {
     &trum::orbit_baseline,
-#if defined(__x86_64__)
+#if defined(TRUM_X86_ORBITS)
     &trum::orbit_avx2, &trum::orbit_avx512,
 #endif
 };
 
 PyObject* use(PyObject*, PyObject* name) {
-  const char* wanted = PyUnicode_AsUTF8(name);
+  const char* wanted = PyUnicode_AsUTF8AndSize(name, nullptr);
   if (wanted == nullptr) return nullptr;
   for (const trum::OrbitCode* code : orbit_codes)
     if (std::strcmp(code->name, wanted) == 0 && supported(*code)) {

@@ -36,10 +36,11 @@ _SUMMARIES = {
     "calibrate": "Fit uncertain parameters of the motor to measured data.",
     "c-library": "Write the C library for a controller: sources, the motor's numbers, an example, Makefile and CMake "
     "file.",
-    "fmu": "Write the motor as a co-simulation unit of FMI 3.0, with its C source and compiled for this machine.",
+    "fmu": "Write the motor as a co-simulation unit of FMI, with its C source and compiled for this machine.",
     "motor": "Motor files: a template to begin with, checks, lists, differences.",
     "equations": "The ledger: what the paper printed, what follows from first principles, the verdict and its effect.",
     "report": "The paper's figures, tables and claims, redrawn and judged: DIR/index.html, which needs no network.",
+    "info": "Versions, instruction set and levels of the model: what a report of a fault should begin with.",
 }
 
 

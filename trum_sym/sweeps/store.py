@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import fcntl
 import json
 import os
 import shutil
@@ -28,6 +27,7 @@ __all__ = ["Store", "open_store"]
 
 _ABSENT = 255  # of the status, where a chunk is missing
 _BUILD = {
+    "format": "another layout of the store began it",
     "package": "another version began it",
     "code_sha256": "other Python code began it",
     "kernels_sha256": "other compiled kernels began it",
@@ -214,6 +214,10 @@ def _intact(file: Path) -> bool:
 
 def _lock(name: str, root: Path) -> int:
     """Hold the store until the handle is closed or this process ends, however it ends."""
+    try:
+        import fcntl
+    except ImportError:  # Windows
+        raise ParameterError(name, str(root), "a file that is no store, on a system that cannot lock one") from None
     handle = os.open(root / "zarr.json", os.O_RDONLY)
     try:
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)

@@ -25,16 +25,19 @@ from trum_sym.model.batch import StoppedError, one_thread
 from trum_sym.model.levels import Levels
 from trum_sym.model.operating_point import OF_ORBIT, Case, prepare, results
 
-__all__ = ["STATUS", "Found", "Settings", "Task", "compute", "identity", "sort_out"]
+__all__ = ["STATUS", "STORE", "Found", "Settings", "Task", "compute", "identity", "sort_out"]
 
 STATUS = ("done", "no_steady_speed", "not_converged", "refused", "slack_string")
 """What ``status`` 0 to 4 mean: refused is a combination that :func:`trum_sym.evaluate` refuses."""
+STORE = "1"
+"""The layout of a sweep's store: which arrays and attributes it has, and what they mean."""
 _DONE, _RUNAWAY, _UNCONVERGED, _REFUSED, _SLACK = range(5)
 
 
 @cache
 def identity() -> Mapping[str, str]:
-    """What decides about every bit of a figure: the package's version and code, kernels, their instruction set.
+    """What decides about every bit of a figure: the package's version and code, kernels, their instruction set; and how
+    it is stored.
 
     The code is that of the packages which compute figures.  A file's place does not count, only what it says.
     """
@@ -45,6 +48,7 @@ def identity() -> Mapping[str, str]:
         code.update(digest)
     return MappingProxyType(
         {
+            "format": STORE,
             "package": f"trum-sym {version('trum-sym')}",
             "code_sha256": code.hexdigest(),
             "kernels_sha256": hashlib.sha256(Path(_kernels.__file__).read_bytes()).hexdigest(),

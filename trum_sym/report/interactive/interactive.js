@@ -3,10 +3,10 @@
  * figures and histories come back and are drawn.  The page has the module in #trum-module (base64) and the motor's
  * values in #trum-values (JSON); window.trumMotor is for tests and for the curious. */
 (() => {
-  const SAMPLES_PER_PERIOD = 48, HEIGHT = 170, TOLERANCE = 1e-9, LOADS = 24;
+  const SAMPLES_PER_PERIOD = 48, HEIGHT = 170, TOLERANCE = 1e-9, LOADS = 24, MOST_LAPS = 60;
 
   /* Runs in the worker, or here if there is none: answers {values, count} with {settings, figures, histories},
-   * and {values, loads} with the mean speeds under these loads. */
+   * {values, loads} with the mean speeds under these loads, and {values, count, laps} with the moving picture. */
   function engine(bytes, answer) {
     const library = WebAssembly.instantiate(bytes, {}).then(({ instance }) => {
       const c = instance.exports;
@@ -40,8 +40,36 @@
       });
       return { loads, speeds, serial };
     }
+    /* Surface and crest's path at every sample, row after row; the rotor's cycles from rest until two end alike. */
+    async function film({ values, count, laps, serial }) {
+      const { c, settings } = await library;
+      enter({ c, settings }, values);
+      const used = Math.min(count, c.most_samples()), columns = c.columns(), points = c.path_points();
+      c.solve(used);
+      const view = (at, length) => new Float64Array(c.memory.buffer, at, length);
+      const heights = new Float32Array((used + 1) * columns);
+      const along = new Float32Array((used + 1) * points), up = new Float32Array((used + 1) * points);
+      let known = true;
+      for (let i = 0; i <= used && known; i++) {
+        known = Boolean(c.picture(i));
+        heights.set(view(c.heights(), columns), i * columns);
+        along.set(view(c.path_along(), points), i * points);
+        up.set(view(c.path_up(), points), i * points);
+      }
+      const speeds = [], ways = [];
+      for (let k = 0, alike = 0, end = 0; k < laps && alike < 2 && known && c.lap(); k++) {
+        const speed = Float32Array.from(view(c.lap_speed(), used));
+        const large = speed.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
+        alike = Math.abs(speed[used - 1] - end) < 1e-3 * large ? alike + 1 : 0;
+        end = speed[used - 1];
+        speeds.push(speed);
+        ways.push(Float32Array.from(view(c.lap_way(), used)));
+      }
+      return { film: known, serial, count: used, columns, points, length: c.length(), heights, along, up, speeds, ways };
+    }
     async function solve(job) {
       if (job.loads) return underLoad(job);
+      if (job.laps) return film(job);
       const { values, count } = job;
       const { c, text, settings, figures, histories } = await library;
       const given = enter({ c, settings }, values);
@@ -189,30 +217,6 @@
     });
     say("speed", `Rotor speed from ${shown(figures.min_speed)} to ${shown(figures.max_speed)} radians per second, mean `
       + shown(figures.mean_speed));
-
-    const x = scaled(histories.zeta_x, 1e6), z = b, period = Math.round(count / state.settings.periods);
-    const reach = 1.08 * Math.max(...finite(x.map(Math.abs)), ...finite(z.map(Math.abs)));
-    const tall = 240, wide = Math.max(220, name("ellipse").parentElement.clientWidth) - 56;
-    const ratio = wide / (tall - 40);
-    const path = axes(name("ellipse"), ratio > 1 ? [-reach * ratio, reach * ratio] : [-reach, reach],
-      ratio > 1 ? [-reach, reach] : [-reach / ratio, reach / ratio], ["along the circumference, µm", "µm"], tall);
-    path.frame();
-    path.path(x, z, "faint");
-    const from = Math.max(0, now - period);
-    path.path(x.slice(from, now + 1), z.slice(from, now + 1), "bold");
-    path.dot(x[now], z[now]);
-    say("ellipse", `Path of a surface point, at the instant ${shown(x[now])} along and ${shown(z[now])} micrometres up`);
-
-    const height = 1e6 * histories.W_c[now], half = angle[now], degrees = Array.from({ length: 361 }, (_, i) => i - 180);
-    const surface = (u) => height * Math.cos(u * Math.PI / 180);
-    const wave = axes(name("wave"), [-180, 180], [-1.1 * Math.max(...scaled(histories.W_c, 1e6)),
-      1.2 * Math.max(...scaled(histories.W_c, 1e6))], ["degrees of the wave", "µm"], tall, { x: quarters });
-    wave.frame();
-    const zone = [-half, ...degrees.filter((u) => Math.abs(u) < half), half], level = surface(half);
-    wave.path([...zone, half, -half], [...zone.map(surface), level, level], "touch", "Z");
-    wave.path([-180, 180], [level, level], "layer");
-    wave.path(degrees, degrees.map(surface), "line");
-    say("wave", `The wave is ${shown(height)} micrometres high and touches over plus and minus ${shown(half)} degrees`);
   }
 
   function drawLoad(root, { loads, speeds }, here) {
@@ -230,9 +234,18 @@
     const bytes = Uint8Array.from(atob(document.getElementById("trum-module").textContent.trim()), (c) => c.charCodeAt(0));
     const motor = JSON.parse(document.getElementById("trum-values").textContent);
     const inputs = [...root.querySelectorAll("[data-setting]")], note = root.querySelector(".trum-note");
-    const waiting = [];
+    const waiting = [], instants = [...root.querySelectorAll("[data-instant]")];
     let values = {}, state = null, instant = 0.6, busy = false, pending = false, serial = 0, curve = null;
+    const moving = window.trumMoving(root, (at) => {
+      instant = at;
+      for (const input of instants) input.value = (100 * at).toFixed(1);
+      draw(root, state, instant);
+    });
     const post = background(bytes, (found) => {
+      if ("film" in found) {
+        if (found.serial === serial) moving.show(found, state);
+        return;
+      }
       if (found.loads) {
         if (found.serial === serial) curve = found, showLoad();
         return;
@@ -247,8 +260,10 @@
       show();
       if (busy) return;
       root.classList.remove("trum-busy");
-      const most = Math.abs(motor.friction_coefficient * state.settings.prepressure * motor.contact_radius);
-      post({ values: { ...motor, ...values, tolerance: 1e-4 }, serial: ++serial,
+      const most = Math.abs(state.settings.friction_coefficient * state.settings.prepressure * motor.contact_radius);
+      post({ values: { ...motor, tolerance: TOLERANCE, ...values }, serial: ++serial, laps: MOST_LAPS,
+        count: SAMPLES_PER_PERIOD * state.settings.periods });
+      post({ values: { ...motor, ...values, tolerance: 1e-4 }, serial,
         loads: Array.from({ length: LOADS }, (_, i) => i / LOADS * (most || 1)) });
       for (const done of waiting.splice(0)) done(state.figures);
     });
@@ -263,6 +278,7 @@
     }
     function set(changes) {
       values = { ...values, ...changes };
+      remember();
       root.classList.add("trum-busy");
       return new Promise((done) => {
         waiting.push(done);
@@ -320,23 +336,75 @@
     /* a number counts when it is finished: half-typed ones would drag the others along */
     for (const input of inputs) input.addEventListener(input.type === "range" ? "input" : "change", () => take(input));
     root.querySelector("[data-action=reset]").addEventListener("click", () => { values = {}; set({}); });
-    const instants = [...root.querySelectorAll("[data-instant]")];
     for (const input of instants) input.addEventListener("input", () => {
       if (!input.checkValidity() || input.value === "") return;
       instant = Number(input.value) / 100;
       for (const other of instants) if (other !== input) other.value = input.value;
       if (state) draw(root, state, instant);
+      moving.seek(instant);
     });
+
+    /* --- this point elsewhere: the page's address, the console, Python --- */
+    const known = new Map(inputs.map((input) => [input.dataset.setting, input]));
+    const place = JSON.parse(document.getElementById("trum-motor").textContent);
+    function remember() {
+      const words = new URLSearchParams(values).toString();
+      if (words === location.hash.slice(1) || (!words && !location.hash.includes("="))) return;
+      try {
+        history.replaceState(null, "", words ? `#${words}` : location.href.split("#")[0]);
+      } catch { /* a host that forbids it, or too many changes a minute: the address stays */ }
+    }
+    function recalled() {
+      const found = {};
+      for (const [name, word] of new URLSearchParams(location.hash.includes("=") ? location.hash.slice(1) : "")) {
+        const input = known.get(name), number = Number(word);
+        if (input?.tagName === "SELECT" && [...input.options].some((option) => option.value === word))
+          found[name] = Number.isNaN(number) ? word : number;
+        else if (input?.type === "number" && word !== "" && number >= Number(input.min) && number <= Number(input.max))
+          found[name] = number;
+      }
+      return found;
+    }
+    function elsewhere() {
+      const sets = { ...place.set }, drive = {}, levels = {};
+      for (const [name, value] of Object.entries(values))
+        (name in motor ? sets : place.levels.includes(name) ? levels : drive)[name] = value;
+      const options = Object.entries({ ...drive, ...levels }).map(([name, value]) => ` --${name.replaceAll("_", "-")} ${value}`);
+      const given = Object.entries(sets).map(([name, value]) => ` --set ${name}=${value}`);
+      const python = (entries) => Object.entries(entries).map(([name, value]) => `, ${name}=${JSON.stringify(value)}`).join("");
+      const changed = Object.keys(sets).length ? `.with_values(${JSON.stringify(sets)})` : "";
+      return {
+        command: `trum-sym evaluate --motor ${place.motor}${given.join("")}${options.join("")}`,
+        python: `import trum_sym as ts\n\nmotor = ts.load_motor("${place.motor}")${changed}\n`
+          + `point = ts.evaluate(motor, ts.Drive(${python(drive).slice(2)})${python(levels)})\nprint(point.to_text())\n`,
+      };
+    }
+    for (const button of root.querySelectorAll("[data-copy]")) button.addEventListener("click", async () => {
+      const words = elsewhere()[button.dataset.copy], box = root.querySelector(".trum-copied");
+      box.textContent = words;
+      box.hidden = false;
+      const told = root.querySelector(".trum-now");
+      try {
+        await navigator.clipboard.writeText(words);
+        told.textContent = "Copied.";
+      } catch { /* the browser does not let it: the words are selected, to be copied by hand */
+        getSelection().selectAllChildren(box);
+        told.textContent = "Selected: copy it by the keyboard.";
+      }
+    });
+    addEventListener("hashchange", () => { if (location.hash.includes("=")) values = recalled(), set({}); });
     root.querySelector("form").addEventListener("submit", (event) => event.preventDefault());
     let width = 0;
     new ResizeObserver(() => {
       if (state && root.clientWidth !== width) {
         width = root.clientWidth;
         draw(root, state, instant);
+        moving.redraw();
         if (curve) showLoad();
       }
     }).observe(root);
-    window.trumMotor = { ready: set({}), set, settings: () => state.settings, figures: () => state.figures,
+    values = recalled();
+    window.trumMotor = { ready: set({}), set, moving, elsewhere, settings: () => state.settings, figures: () => state.figures,
       histories: () => state.histories, underLoad: () => curve ?? {}, serial: () => serial };
   }
   begin(document.getElementById("interactive"));
