@@ -155,7 +155,7 @@ def speed_table(
 def _segment(problem: Problem, model: Model, entries: list[TableEntry]) -> Segment:
     points = model.box.at(np.array([entry.share for entry in entries]))
     speed = np.array([entry.speed for entry in entries])
-    found = evaluate(problem.motor, model.drives(points), tolerance=TOLERANCE, **asdict(problem.levels))
+    found = evaluate(*model.at(points), tolerance=TOLERANCE, **asdict(problem.levels))
     return Segment(
         speed=speed,
         speed_error=np.abs(found.mean_speed - speed) + found.mean_speed_error,
