@@ -1,9 +1,12 @@
 """What the coupling makes of the paper's tables: Table 2's amplitudes, the resonance, Table 3's point.
 
-python -m studies.coupled_tables table-2
-python -m studies.coupled_tables resonance
-python -m studies.coupled_tables table-3
-python -m studies.coupled_tables spread 32
+Nothing is fitted; docs/coupling.md has what they print.
+
+    python -m studies.coupled_tables table-2
+    python -m studies.coupled_tables resonance
+    python -m studies.coupled_tables table-3
+    python -m studies.coupled_tables branches
+    python -m studies.coupled_tables spread 32
 """
 
 from __future__ import annotations
@@ -16,7 +19,7 @@ from scipy.stats import qmc
 from tabulate import tabulate
 
 import trum_sym as ts
-from trum_sym.model.coupled_orbit import CoupledOrbit, coupled_orbits, lap_values, one_phase
+from trum_sym.model.coupled_orbit import CoupledOrbit, coupled_orbits, followed, lap_values, one_phase
 from trum_sym.model.coupling import coupled_values, plain_waves
 from trum_sym.model.levels import Levels
 from trum_sym.paper.published import TABLE_2
@@ -140,6 +143,23 @@ def table_3() -> None:
     print(tabulate(rows, head, floatfmt=("", "g", "", "", ".2f", ".3f", ".2f", "", "", "")))
 
 
+def branches() -> None:
+    """Mean speed at Table 3's point while the frequency rises and falls; in brackets where no lap closes stably."""
+    motor, offsets = ts.load_motor(), np.arange(2500.0, 3501.0, 100.0)
+    rows = []
+    for label, levels in (("layer", Levels()), ("flange", Levels(compliance="flange"))):
+        for mass in _MASSES:
+            points = [
+                lap_values(motor, ts.Drive(frequency_difference=float(f)), levels, rotor_mass=mass, steps=_STEPS)
+                for f in offsets
+            ]
+            for way, orbits in (("up", followed(points, 12)), ("down", followed(points[::-1], 12)[::-1])):
+                shown = [f"{o.mean_speed:.2f}" if o.closed and o.stable else f"({o.mean_speed:.2f})" for o in orbits]
+                rows.append((label, f"{mass:g}", way, *shown))
+    head = ("contact", "rotor, kg", "", *(f"{f:g}" for f in offsets))
+    print(tabulate(rows, head, disable_numparse=True))
+
+
 def spread(count: int) -> None:
     """Table 2's amplitudes over what is assumed: 5, 50 and 95 % of the samples, and what carries them by rank."""
     motor = ts.load_motor()
@@ -167,7 +187,7 @@ def spread(count: int) -> None:
 
 def main(arguments: list[str]) -> int:
     """Print one of the tables."""
-    tables = {"table-2": table_2, "resonance": resonance, "table-3": table_3}
+    tables = {"table-2": table_2, "resonance": resonance, "table-3": table_3, "branches": branches}
     if arguments and arguments[0] == "spread":
         spread(int(arguments[1]) if len(arguments) > 1 else 32)
     elif len(arguments) == 1 and arguments[0] in tables:

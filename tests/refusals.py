@@ -53,6 +53,7 @@ CHOICES = {
     "amplitude": ("measured", "forced"),
     "compliance": ("layer", "flange"),
     "tangential": ("rigid", "brush"),
+    "coupling": ("none", "contact"),
 }
 
 

@@ -199,6 +199,21 @@ def _contacts() -> list[Point]:
     return found
 
 
+def _faster() -> list[Point]:
+    """The same contacts under a rotor that is faster than all of the surface, one way or the other."""
+    return [p.with_(v=p.R_v * way * mp.mpf("1.3")) for p, way in zip(_contacts()[:8], (1, -1) * 4, strict=True)]
+
+
+def _standing() -> list[Point]:
+    """Surface and rotor stand still."""
+    return [_contacts()[0].with_(R_v=mp.mpf(0), v=mp.mpf(0), tiny=TINY)]
+
+
+def _held_up(p: Point, m: Maths) -> Found:  # noqa: ARG001
+    """What the pressure alone does; friction of what does not slip is any, but finite."""
+    return {"F_z": p.F_c * (p.engagement * p.sin_theta + p.share * p.theta), "F_x": None, "Q_A": None, "Q_B": None}
+
+
 def _apart() -> list[Point]:
     """A wave that is clear of the rotor."""
     return [_contacts()[0].with_(theta=mp.mpf(0), sin_theta=mp.mpf(0), cos_theta=mp.mpf(1), tiny=TINY)]
@@ -313,6 +328,24 @@ PROOFS = (
         _forces,
         _contacts,
         "32 states: points as fast as the rotor inside, beside, far from the contact, about half a turn",
+    ),
+    Proof(
+        "trum_coupled_forces",
+        "F_z F_x Q_A Q_B",
+        f"36 {_RESTS}",
+        "the same, all friction one way",
+        _forces,
+        _faster,
+        "a rotor beyond the surface's speeds, either way",
+    ),
+    Proof(
+        "trum_coupled_forces",
+        "F_z F_x Q_A Q_B",
+        _RESTS,
+        "the layer's force; friction finite",
+        _held_up,
+        _standing,
+        "surface and rotor at rest",
     ),
     Proof(
         "trum_coupled_forces",

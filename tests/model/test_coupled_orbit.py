@@ -8,7 +8,16 @@ import numpy as np
 import pytest
 
 import trum_sym as ts
-from trum_sym.model.coupled_orbit import STATE, coupled_orbits, lap_values, laps, one_phase, orbit_from, start_of
+from trum_sym.model.coupled_orbit import (
+    STATE,
+    coupled_orbits,
+    followed,
+    lap_values,
+    laps,
+    one_phase,
+    orbit_from,
+    start_of,
+)
 from trum_sym.model.coupling import coupled_values, plain_waves
 from trum_sym.model.levels import Levels
 
@@ -84,6 +93,18 @@ def test_an_orbit_of_pulses_repeats_and_its_disturbances_die_out_as_laps_do(moto
     gaps = [np.abs((end - orbit.state[:, np.newaxis])[[0, 1, 2, 3, 6]] / sizes).max() for end in (first, later)]
     rate = (gaps[1] / gaps[0]) ** (1 / 4)
     assert rate < 1.1 * np.abs(orbit.multipliers).max()
+
+
+def test_a_sweep_goes_on_from_the_orbit_before(motor):
+    """Where there is one orbit, it is that of any start; the second begins so near that few laps are needed first."""
+    points = [
+        lap_values(motor, ts.Drive(frequency_difference=f), Levels(compliance="flange"), steps=40)
+        for f in (2990.0, 3e3)
+    ]
+    first, second = followed(points, 6)
+    assert (first.start, second.start) == ("steady", "followed")
+    assert second.closed
+    assert second.mean_speed == pytest.approx(coupled_orbits(points[1], ("rest",))[0].mean_speed, rel=1e-7)
 
 
 @pytest.mark.filterwarnings("ignore::trum_sym.ValidityWarning")

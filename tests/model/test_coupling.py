@@ -10,7 +10,7 @@ import pytest
 
 import trum_sym as ts
 from trum_sym.console import main
-from trum_sym.model.coupling import _balance, coupled_values, plain_waves, wave_at
+from trum_sym.model.coupling import _balance, _possible, coupled_values, plain_waves, wave_at
 from trum_sym.model.levels import Levels
 
 CONTACT = Levels(coupling="contact")
@@ -120,6 +120,20 @@ def test_all_steady_states_are_found():
     assert several > 1
 
 
+def test_no_bracket_with_a_state_in_it_is_left_out():
+    """Random brackets, and the modal force that has its state at a random height within."""
+    at = np.random.default_rng(8)
+    for _ in range(200):
+        values = shinsei(at.uniform(38e3, 42e3), at.uniform(-0.95, 0.95) * 0.2 * 170 * 0.03)
+        low = 10 ** at.uniform(-8, -5)
+        ends = np.array([low, low * (1 + 10 ** at.uniform(-3, 1))])
+        inside = _balance(values, ends[:1] + at.uniform(0, 1) * np.diff(ends), "loaded")
+        values["F_q"] = float(np.hypot(inside["in_phase"], inside["ahead"])[0])
+        sides = _balance(values, ends, "loaded")
+        one, other = ({name: value[k : k + 1] for name, value in sides.items()} for k in (0, 1))
+        assert _possible(values, one, other, (ends[:1], ends[1:])).all()
+
+
 def test_a_wave_has_a_steady_state_at_every_frequency():
     """One or three, in steps of 10 Hz across the resonance."""
     values = values_of(load_torque=0.0, prepressure=160.0)
@@ -137,11 +151,11 @@ def test_what_brackets_rest_on_grows_with_the_height():
         assert (np.diff(at["along"] + 0.2 * at["central"]) > 0).all()
 
 
-@pytest.mark.parametrize("compliance", ["layer", "flange"])
-def test_the_speed_on_a_wave_is_that_on_the_same_wave_prescribed(trum60, compliance):
-    """The orbit of a rotor on a wave of the coupled height, at the same drive frequency."""
+@pytest.mark.parametrize(("compliance", "offset"), [("layer", 500.0), ("flange", 500.0), ("flange", 3000.0)])
+def test_the_speed_on_a_wave_is_that_on_the_same_wave_prescribed(trum60, compliance, offset):
+    """The orbit of a rotor on a wave of the coupled height, at the same drive frequency; contacts of 0.4 to 2.5 rad."""
     levels = Levels(coupling="contact", compliance=compliance)
-    values = values_of(levels=levels, load_torque=0.4)
+    values = values_of(levels=levels, load_torque=0.4, frequency_difference=offset)
     waves = plain_waves(values)
     drive = ts.Drive(on_periods=20, load_torque=0.4, frequency_difference=1.0)
     same = trum60.with_values(

@@ -24,7 +24,17 @@ from trum_sym.model.coupling import coupled_values
 from trum_sym.model.kernels import call
 from trum_sym.model.levels import Levels
 
-__all__ = ["STARTS", "CoupledOrbit", "coupled_orbits", "lap_values", "laps", "one_phase", "orbit_from", "start_of"]
+__all__ = [
+    "STARTS",
+    "CoupledOrbit",
+    "coupled_orbits",
+    "followed",
+    "lap_values",
+    "laps",
+    "one_phase",
+    "orbit_from",
+    "start_of",
+]
 
 STATE = ("w_A", "v_A", "w_B", "v_B", "height", "climb", "v")
 STARTS = ("rest", "steady")
@@ -259,6 +269,23 @@ def coupled_orbits(values: Mapping[str, float], starts: Iterable[str] = STARTS) 
         if not alike:
             found.append(orbit)
     return tuple(found)
+
+
+def followed(points: Iterable[Mapping[str, float]], settling: int = _SETTLING) -> list[CoupledOrbit]:
+    """The orbit at each of some points, from that of the point before: a slow sweep, which stays on its branch.
+
+    Parameters
+    ----------
+    points : iterable of mapping
+        From :func:`lap_values`, in the order of the sweep; the first begins at ``steady``.
+    settling : int
+        Laps before Newton at each point.
+    """
+    found: list[CoupledOrbit] = []
+    for values in points:
+        start, name = (found[-1].state, "followed") if found else (start_of("steady", values), "steady")
+        found.append(orbit_from(values, start, name, settling))
+    return found
 
 
 def one_phase(motor: Motor, drive: Drive, levels: Levels, rotor_mass: float, steps: float = 400) -> CoupledOrbit:
