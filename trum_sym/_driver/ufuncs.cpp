@@ -323,6 +323,14 @@ PyUFuncGenericFunction loop_rotor_orbit[1] = {rotor_orbit_loop};
 PyUFuncGenericFunction loop_rotor_slopes[1] = {rotor_slopes_loop};
 PyUFuncGenericFunction loop_rotor_history[1] = {rotor_history_loop};
 
+bool add_contacts(PyObject* module, PyObject* signatures) {
+  return add(module, signatures, "brush_friction", loop_brush_friction, n_brush_in, 2, TRUM_BRUSH_IN(NAME_OF), "f f_error") &&
+         add(module, signatures, "brush_speed", loop_brush_speed, n_brush_speed_in, 2, TRUM_BRUSH_SPEED_IN(NAME_OF),
+             "ratio ratio_error") &&
+         add(module, signatures, "coupled_lap", loop_coupled_lap, n_coupled_in, n_coupled_out,
+             TRUM_COUPLED_LAP_IN(NAME_OF), TRUM_COUPLED_LAP_OUT(NAME_OF));
+}
+
 #ifndef TRUM_MADE_OF  // the digest of the sources, which CMake knows
 #define TRUM_MADE_OF ""
 #endif
@@ -354,11 +362,7 @@ PyMODINIT_FUNC PyInit__kernels() {
   const std::string history = scalars(n_history_in - 1) + ",(k)->(k),(k)";
   if (!add(module, signatures, "contact_half_angle", loop_half_angle, n_half_angle_in, 1, TRUM_HALF_ANGLE_IN(NAME_OF),
            "theta") ||
-      !add(module, signatures, "brush_friction", loop_brush_friction, n_brush_in, 2, TRUM_BRUSH_IN(NAME_OF), "f f_error") ||
-      !add(module, signatures, "brush_speed", loop_brush_speed, n_brush_speed_in, 2, TRUM_BRUSH_SPEED_IN(NAME_OF),
-           "ratio ratio_error") ||
-      !add(module, signatures, "coupled_lap", loop_coupled_lap, n_coupled_in, n_coupled_out,
-           TRUM_COUPLED_LAP_IN(NAME_OF), TRUM_COUPLED_LAP_OUT(NAME_OF)) ||
+      !add_contacts(module, signatures) ||
       !add(module, signatures, "cycle_sums", loop_cycle_sums, n_sums_in, COUNT(TRUM_CYCLE_SUMS_OUT),
            TRUM_CYCLE_SUMS_IN(NAME_OF), TRUM_CYCLE_SUMS_OUT(NAME_OF)) ||
       !add(module, signatures, "cycle_response", loop_cycle_response, n_response_in, COUNT(TRUM_CYCLE_RESPONSE_OUT),
