@@ -130,6 +130,18 @@ J_load      | kg*m^2   | + | J_{load} | ours | moment of inertia of what turns w
 r_s         | m        | + | r_s | ours | radius at which the string that bears a weight runs off the plate
 g           | m/s^2    | + | g | ours | standard gravity
 J_total     | kg*m^2   | + | J_{total} | ours | moment of inertia of all that turns or moves with the rotor
+M_q         | kg       | + | M_q | ours | modal mass of a phase's standing wave on the whole ring
+F_q         | N        | + | F_q | ours | modal force of a phase
+coverage    | 1        | + | c_p | ours | share of the circumference that the electrodes of a phase drive
+height      | m        | r | y_r | ours | height of the layer's surface over that of a stator at rest
+alpha       | rad      | + | \alpha | ours | half of the part of a contact whose surface is faster than the rotor
+cos_theta   | 1        | r | \cos\vartheta | ours | cosine of the contact half-angle
+sin_crest   | 1        | r | \sin k_c x_{max} | ours | sine of the crest's place as an angle of the wave
+cos_crest   | 1        | r | \cos k_c x_{max} | ours | its cosine
+central     | N        | r | R_q | ours | modal force of the pressure against the height of the wave
+along       | N        | r | C_q | ours | friction's part in cos u over all crests, which holds the wave back
+v_A         | m/s      | r | \dot w_A | ours | velocity of phase A
+v_B         | m/s      | r | \dot w_B | ours | velocity of phase B
 """
 
 # The paper's symbols that only the ledger needs, in the order of the paper.

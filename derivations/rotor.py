@@ -28,6 +28,7 @@ __all__ = [
     "hertz_full_height",
     "less",
     "motion_phasor",
+    "nonsliding",
     "peak_pressure",
     "phasor",
     "pressed",
@@ -286,11 +287,11 @@ def widening(engaged: sp.Expr, angle: sp.Expr, sine: sp.Expr) -> sp.Expr:
     return -1 / (engaged * angle * sine + TINY)
 
 
-def _points() -> list[tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr, sp.Expr]]:
+def nonsliding() -> list[tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr, sp.Expr]]:
     """The two points where the surface is as fast as the rotor, phi + alpha and phi - alpha.
 
-    For each: turns of the circle; u and sin u, both held at the contact's edge outside it; whether it is inside; the
-    pressure over its mean.
+    For each: turns of the circle; u and sin u, both held at the contact's edge outside it; whether it is inside; cos u,
+    not held.
     """
     ratio, sine = _speeds()
     alpha = sp.atan2(sine, ratio)
@@ -305,7 +306,7 @@ def _points() -> list[tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr, sp.Expr]]:
         side = 2 * less(0, wrapped) - 1
         clipped = inside * wrapped + (1 - inside) * side * theta
         sin_clipped = inside * sin_u + (1 - inside) * side * sin_theta
-        found.append((turns, clipped, sin_clipped, inside, engagement * cos_u + share))
+        found.append((turns, clipped, sin_clipped, inside, cos_u))
     return found
 
 
@@ -324,9 +325,9 @@ def friction() -> dict[str, sp.Expr]:
     rotor faster than all of the surface, +1 for one slower.  p_1 and p_2 are the pressure at the two points over its
     mean (0 and below: not in contact), whose changes of sign are kinks of f.
     """
-    points = _points()
+    points = nonsliding()
     shares = [turns + (engagement * sin_u + share * u) / 2 for turns, u, sin_u, _, _ in points]
-    pressures = [pressure for *_, pressure in points]
+    pressures = [engagement * cos_u + share for *_, cos_u in points]
     net = 2 * (shares[0] - shares[1]) - 1
     moving = less(sp.Abs(v), R_v)
     slope = moving * friction_slope(pressed(*pressures), R_v * _speeds()[1])
@@ -342,9 +343,9 @@ def friction_slopes() -> dict[str, sp.Expr]:
     -1 / (E theta sin theta).  A whole wave in contact keeps theta = pi and share = 1/pi, and the same form holds.
     E_height is d ln E / d ln W_c for the paper's Hertz width, where theta falls as the root of W_c; the layer's is 1.
     """
-    points = _points()
+    points = nonsliding()
     shares = [inside * (engagement * sin_u + (share - 1 / theta) * u) / 2 for _, u, sin_u, inside, _ in points]
-    pressures = [sp.Max(0, pressure) for *_, pressure in points]
+    pressures = [sp.Max(0, engagement * cos_u + share) for *_, cos_u in points]
     partly = less(theta, sp.pi)
     return {
         "f_phi": pressures[0] - pressures[1],

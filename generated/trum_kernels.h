@@ -9,7 +9,7 @@
 #include "trum_math.h"
 
 /* SHA-256 of the expressions that the kernels are written from */
-#define TRUM_DERIVATIONS "c05a397d2de59eac2781521d900746bab89d1b3ff301f467e4bb9c199a2985db"
+#define TRUM_DERIVATIONS "11f3eb28e415cd1bf290dcb0b47ad90314d3ef65f3aac77a6ee204d07eb1c85c"
 
 #ifdef __cplusplus
 extern "C" {
@@ -89,6 +89,46 @@ enum { trum_brush_passage_out_stress, trum_brush_passage_out_limit, trum_brush_p
 int trum_brush_turns(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_brush_turns_in_grip, trum_brush_turns_in_ratio, trum_brush_turns_n_arg };
 enum { trum_brush_turns_out_delay, trum_brush_turns_out_span, trum_brush_turns_n_res };
+
+/* Modal mass of a phase, and its modal force by the ceramic and as measured */
+int trum_modal(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_modal_in_A, trum_modal_in_D, trum_modal_in_I_z, trum_modal_in_U_s, trum_modal_in_W_max, trum_modal_in_b_p, trum_modal_in_beta, trum_modal_in_coverage, trum_modal_in_d_31, trum_modal_in_h_e, trum_modal_in_h_p, trum_modal_in_k_c, trum_modal_in_n_j, trum_modal_in_omega_n0, trum_modal_in_rho, trum_modal_in_s_11E, trum_modal_in_xi, trum_modal_n_arg };
+enum { trum_modal_out_M_q, trum_modal_out_F_ceramic, trum_modal_out_F_measured, trum_modal_n_res };
+
+/* What the contact of a plain wave does to the wave */
+int trum_plain_reaction(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_plain_reaction_in_F_c, trum_plain_reaction_in_alpha, trum_plain_reaction_in_engagement, trum_plain_reaction_in_mu, trum_plain_reaction_in_share, trum_plain_reaction_in_theta, trum_plain_reaction_n_arg };
+enum { trum_plain_reaction_out_f, trum_plain_reaction_out_f_alpha, trum_plain_reaction_out_central, trum_plain_reaction_out_along, trum_plain_reaction_n_res };
+
+/* Balance of a plain wave with the contact, and its resonance */
+int trum_plain_balance(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_plain_balance_in_D, trum_plain_balance_in_F_q, trum_plain_balance_in_M_q, trum_plain_balance_in_W, trum_plain_balance_in_along, trum_plain_balance_in_central, trum_plain_balance_in_k_c, trum_plain_balance_in_omega_n0, trum_plain_balance_in_omega_q, trum_plain_balance_in_xi, trum_plain_balance_n_arg };
+enum { trum_plain_balance_out_in_phase, trum_plain_balance_out_ahead, trum_plain_balance_out_residual, trum_plain_balance_out_lead, trum_plain_balance_out_omega_r, trum_plain_balance_n_res };
+
+/* Mean powers of a plain wave */
+int trum_plain_powers(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_plain_powers_in_D, trum_plain_powers_in_F_c, trum_plain_powers_in_M_q, trum_plain_powers_in_W, trum_plain_powers_in_along, trum_plain_powers_in_f, trum_plain_powers_in_k_c, trum_plain_powers_in_mu, trum_plain_powers_in_omega_n0, trum_plain_powers_in_omega_q, trum_plain_powers_in_v, trum_plain_powers_in_xi, trum_plain_powers_n_arg };
+enum { trum_plain_powers_out_P_in, trum_plain_powers_out_P_stator, trum_plain_powers_out_P_contact, trum_plain_powers_out_P_slip, trum_plain_powers_out_P_rotor, trum_plain_powers_n_res };
+
+/* The layer's force at full wave over the prepressure, per height of the wave */
+int trum_engagement(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_engagement_in_F_c, trum_engagement_in_k_N, trum_engagement_in_k_c, trum_engagement_in_n_j, trum_engagement_n_arg };
+enum { trum_engagement_out_engagement_per_height, trum_engagement_n_res };
+
+/* Free motion of a phase: displacement and velocity after a time, of each */
+int trum_mode_flow(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_mode_flow_in_omega_n0, trum_mode_flow_in_tau, trum_mode_flow_in_xi, trum_mode_flow_n_arg };
+enum { trum_mode_flow_out_w_w, trum_mode_flow_out_w_v, trum_mode_flow_out_v_w, trum_mode_flow_out_v_v, trum_mode_flow_n_res };
+
+/* Wave, surface speed and contact of two phases at any instant */
+int trum_coupled_instant(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_coupled_instant_in_D, trum_coupled_instant_in_F_c, trum_coupled_instant_in_height, trum_coupled_instant_in_k_N, trum_coupled_instant_in_k_c, trum_coupled_instant_in_n_j, trum_coupled_instant_in_v_A, trum_coupled_instant_in_v_B, trum_coupled_instant_in_w_A, trum_coupled_instant_in_w_B, trum_coupled_instant_n_arg };
+enum { trum_coupled_instant_out_W_c, trum_coupled_instant_out_sin_crest, trum_coupled_instant_out_cos_crest, trum_coupled_instant_out_R_v, trum_coupled_instant_out_phi, trum_coupled_instant_out_cos_phi, trum_coupled_instant_out_sin_phi, trum_coupled_instant_out_theta, trum_coupled_instant_out_sin_theta, trum_coupled_instant_out_cos_theta, trum_coupled_instant_out_engagement, trum_coupled_instant_out_share, trum_coupled_instant_n_res };
+
+/* What the contact does to rotor and both phases at any instant */
+int trum_coupled_forces(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_coupled_forces_in_D, trum_coupled_forces_in_F_c, trum_coupled_forces_in_R_v, trum_coupled_forces_in_cos_crest, trum_coupled_forces_in_cos_phi, trum_coupled_forces_in_cos_theta, trum_coupled_forces_in_engagement, trum_coupled_forces_in_k_c, trum_coupled_forces_in_mu, trum_coupled_forces_in_phi, trum_coupled_forces_in_share, trum_coupled_forces_in_sin_crest, trum_coupled_forces_in_sin_phi, trum_coupled_forces_in_sin_theta, trum_coupled_forces_in_theta, trum_coupled_forces_in_v, trum_coupled_forces_n_arg };
+enum { trum_coupled_forces_out_F_z, trum_coupled_forces_out_F_x, trum_coupled_forces_out_Q_A, trum_coupled_forces_out_Q_B, trum_coupled_forces_n_res };
 
 /* Drive frequency and cycle time */
 int trum_drive(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
@@ -252,6 +292,14 @@ enum { trum_interface_out_v_x, trum_interface_out_v_x_slope, trum_interface_out_
   X(trum_brush_coefficient, 7, 2, "D W k_N k_T k_c mu omega_q", "grip R_v") \
   X(trum_brush_passage, 6, 4, "grip ratio t_0 theta u u_0", "stress limit stuck slid") \
   X(trum_brush_turns, 2, 2, "grip ratio", "delay span") \
+  X(trum_modal, 17, 3, "A D I_z U_s W_max b_p beta coverage d_31 h_e h_p k_c n_j omega_n0 rho s_11E xi", "M_q F_ceramic F_measured") \
+  X(trum_plain_reaction, 6, 4, "F_c alpha engagement mu share theta", "f f_alpha central along") \
+  X(trum_plain_balance, 10, 5, "D F_q M_q W along central k_c omega_n0 omega_q xi", "in_phase ahead residual lead omega_r") \
+  X(trum_plain_powers, 12, 5, "D F_c M_q W along f k_c mu omega_n0 omega_q v xi", "P_in P_stator P_contact P_slip P_rotor") \
+  X(trum_engagement, 4, 1, "F_c k_N k_c n_j", "engagement_per_height") \
+  X(trum_mode_flow, 3, 4, "omega_n0 tau xi", "w_w w_v v_w v_v") \
+  X(trum_coupled_instant, 10, 12, "D F_c height k_N k_c n_j v_A v_B w_A w_B", "W_c sin_crest cos_crest R_v phi cos_phi sin_phi theta sin_theta cos_theta engagement share") \
+  X(trum_coupled_forces, 16, 4, "D F_c R_v cos_crest cos_phi cos_theta engagement k_c mu phi share sin_crest sin_phi sin_theta theta v", "F_z F_x Q_A Q_B") \
   X(trum_drive, 3, 2, "Delta_omega m omega_n", "omega_q T") \
   X(trum_start_periodic, 8, 5, "Delta_omega W m n omega_n psi s xi", "a_A b_A a_B b_B repetition") \
   X(trum_start_rest, 5, 4, "Delta_omega W omega_n psi s", "a_A b_A a_B b_B") \

@@ -46,6 +46,54 @@
   X(grip, "1") \
   X(f, "1")
 
+/* a drive cycle of phases, contact and rotor as one system */
+#define TRUM_COUPLED_LAP_IN(X) \
+  X(w_A, "m") \
+  X(v_A, "m/s") \
+  X(w_B, "m") \
+  X(v_B, "m/s") \
+  X(height, "m") \
+  X(climb, "m/s") \
+  X(v, "m/s") \
+  X(M_q, "kg") \
+  X(omega_n0, "rad/s") \
+  X(xi, "1") \
+  X(F_q, "N") \
+  X(omega_q, "rad/s") \
+  X(D, "m") \
+  X(k_c, "1/m") \
+  X(k_N, "N/m^2") \
+  X(n_j, "1") \
+  X(mu, "1") \
+  X(F_c, "N") \
+  X(r_c, "m") \
+  X(T_load, "N*m") \
+  X(J_total, "kg*m^2") \
+  X(s, "1") \
+  X(m, "1") \
+  X(n, "1") \
+  X(force_phase, "rad") \
+  X(mass, "kg") \
+  X(reaction, "1") \
+  X(steps, "1")
+
+/* what it comes to */
+#define TRUM_COUPLED_LAP_OUT(X) \
+  X(w_A, "m") \
+  X(v_A, "m/s") \
+  X(w_B, "m") \
+  X(v_B, "m/s") \
+  X(height, "m") \
+  X(climb, "m/s") \
+  X(v, "m/s") \
+  X(mean, "m/s") \
+  X(square, "m^2/s^2") \
+  X(low, "m/s") \
+  X(high, "m/s") \
+  X(input, "kg*m^2/s^3") \
+  X(touching, "1") \
+  X(highest, "m")
+
 /* what the determinant's sums over a cycle need */
 #define TRUM_CYCLE_SUMS_IN(X) \
   X(omega_n, "rad/s") \
@@ -186,6 +234,56 @@ typedef struct {
   trum_real grip; /* 1: tangential over normal stiffness of the contact, times D k_c / mu */
   trum_real f; /* 1: net friction fraction, of mu F_c */
 } trum_brush_speed_in;
+
+/* a drive cycle of phases, contact and rotor as one system */
+typedef struct {
+  trum_real w_A; /* m: displacement of phase A */
+  trum_real v_A; /* m/s: velocity of phase A */
+  trum_real w_B; /* m: displacement of phase B */
+  trum_real v_B; /* m/s: velocity of phase B */
+  trum_real height; /* m: height of the layer's surface over that of a stator at rest */
+  trum_real climb; /* m/s: its rate */
+  trum_real v; /* m/s: speed of the rotor's rim, omega r_c */
+  trum_real M_q; /* kg: modal mass of a phase's standing wave on the whole ring */
+  trum_real omega_n0; /* rad/s: natural frequency without prepressure */
+  trum_real xi; /* 1: damping ratio */
+  trum_real F_q; /* N: modal force of a phase */
+  trum_real omega_q; /* rad/s: drive angular frequency */
+  trum_real D; /* m: neutral axis */
+  trum_real k_c; /* 1/m: wavenumber */
+  trum_real k_N; /* N/m^2: layer stiffness */
+  trum_real n_j; /* 1: crests */
+  trum_real mu; /* 1: friction coefficient */
+  trum_real F_c; /* N: prepressure */
+  trum_real r_c; /* m: contact radius */
+  trum_real T_load; /* N*m: load torque */
+  trum_real J_total; /* kg*m^2: moment of inertia of all that turns or moves with the rotor */
+  trum_real s; /* 1: phase lead of B in quarter periods, +1 or -1 */
+  trum_real m; /* 1: drive pulses per cycle (periods) */
+  trum_real n; /* 1: pulses each phase gets per cycle (on_periods) */
+  trum_real force_phase; /* rad: phase of A's modal force at the start of the cycle */
+  trum_real mass; /* kg: of the rotor that goes up and down; 0: it follows the wave */
+  trum_real reaction; /* 1: share of the contact's forces that acts on the phases, 1 or 0 */
+  trum_real steps; /* 1: time steps in a drive period */
+} trum_coupled_lap_in;
+
+/* what it comes to */
+typedef struct {
+  trum_real w_A; /* m: displacement of phase A */
+  trum_real v_A; /* m/s: velocity of phase A */
+  trum_real w_B; /* m: displacement of phase B */
+  trum_real v_B; /* m/s: velocity of phase B */
+  trum_real height; /* m: height of the layer's surface over that of a stator at rest */
+  trum_real climb; /* m/s: its rate */
+  trum_real v; /* m/s: speed of the rotor's rim, omega r_c */
+  trum_real mean; /* m/s: mean speed of the rim */
+  trum_real square; /* m^2/s^2: mean of its square */
+  trum_real low; /* m/s: the lowest at the steps' ends */
+  trum_real high; /* m/s: the highest */
+  trum_real input; /* kg*m^2/s^3: mean power of the modal forces */
+  trum_real touching; /* 1: mean of theta/pi */
+  trum_real highest; /* m: the highest wave at the steps' ends */
+} trum_coupled_lap_out;
 
 /* what the determinant's sums over a cycle need */
 typedef struct {

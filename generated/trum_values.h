@@ -19,8 +19,13 @@ enum {
   trum_at_E_m,
   trum_at_E_p,
   trum_at_F_c,
+  trum_at_F_ceramic,
   trum_at_F_max,
+  trum_at_F_measured,
   trum_at_F_min,
+  trum_at_F_q,
+  trum_at_F_x,
+  trum_at_F_z,
   trum_at_G,
   trum_at_G_e,
   trum_at_G_p,
@@ -28,7 +33,15 @@ enum {
   trum_at_J,
   trum_at_J_load,
   trum_at_J_total,
+  trum_at_M_q,
+  trum_at_P_contact,
+  trum_at_P_in,
+  trum_at_P_rotor,
+  trum_at_P_slip,
+  trum_at_P_stator,
   trum_at_Q,
+  trum_at_Q_A,
+  trum_at_Q_B,
   trum_at_Q_rate,
   trum_at_R,
   trum_at_R_v,
@@ -67,6 +80,9 @@ enum {
   trum_at_a_B_end,
   trum_at_a_B_omega_n,
   trum_at_a_B_redu,
+  trum_at_ahead,
+  trum_at_along,
+  trum_at_alpha,
   trum_at_b,
   trum_at_b_A,
   trum_at_b_A_Delta_omega,
@@ -87,7 +103,11 @@ enum {
   trum_at_b_p,
   trum_at_b_s,
   trum_at_beta,
+  trum_at_central,
+  trum_at_cos_crest,
   trum_at_cos_phi,
+  trum_at_cos_theta,
+  trum_at_coverage,
   trum_at_d_31,
   trum_at_d_im,
   trum_at_d_re,
@@ -113,6 +133,7 @@ enum {
   trum_at_f_B_re_Delta_omega,
   trum_at_f_B_re_omega_n,
   trum_at_f_E,
+  trum_at_f_alpha,
   trum_at_f_n,
   trum_at_f_phi,
   trum_at_f_v,
@@ -127,6 +148,7 @@ enum {
   trum_at_h_p,
   trum_at_h_t,
   trum_at_harmonic,
+  trum_at_height,
   trum_at_im,
   trum_at_im_A_add,
   trum_at_im_A_add_Delta_omega,
@@ -146,6 +168,7 @@ enum {
   trum_at_im_B_redu,
   trum_at_im_B_redu_Delta_omega,
   trum_at_im_B_redu_omega_n,
+  trum_at_in_phase,
   trum_at_k_N,
   trum_at_k_T,
   trum_at_k_c,
@@ -157,6 +180,7 @@ enum {
   trum_at_kappa,
   trum_at_l_f,
   trum_at_l_s,
+  trum_at_lead,
   trum_at_limit,
   trum_at_m,
   trum_at_mu,
@@ -168,7 +192,9 @@ enum {
   trum_at_n_j,
   trum_at_n_s,
   trum_at_omega_n,
+  trum_at_omega_n0,
   trum_at_omega_q,
+  trum_at_omega_r,
   trum_at_p,
   trum_at_p_1,
   trum_at_p_2,
@@ -225,6 +251,7 @@ enum {
   trum_at_s,
   trum_at_s_11E,
   trum_at_share,
+  trum_at_sin_crest,
   trum_at_sin_phi,
   trum_at_sin_theta,
   trum_at_slid,
@@ -250,11 +277,15 @@ enum {
   trum_at_v_A,
   trum_at_v_B,
   trum_at_v_rate,
+  trum_at_v_v,
+  trum_at_v_w,
   trum_at_v_x,
   trum_at_v_x_slope,
   trum_at_varsigma,
   trum_at_w_A,
   trum_at_w_B,
+  trum_at_w_v,
+  trum_at_w_w,
   trum_at_x,
   trum_at_x_max,
   trum_at_xi,
@@ -352,6 +383,54 @@ static inline void trum_call_brush_turns(trum_real* v) {
   const trum_real* arg[trum_brush_turns_n_arg] = {v + trum_at_grip, v + trum_at_ratio};
   trum_real* res[trum_brush_turns_n_res] = {v + trum_at_delay, v + trum_at_span};
   (void)trum_brush_turns(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_modal(trum_real* v) {
+  const trum_real* arg[trum_modal_n_arg] = {v + trum_at_A, v + trum_at_D, v + trum_at_I_z, v + trum_at_U_s, v + trum_at_W_max, v + trum_at_b_p, v + trum_at_beta, v + trum_at_coverage, v + trum_at_d_31, v + trum_at_h_e, v + trum_at_h_p, v + trum_at_k_c, v + trum_at_n_j, v + trum_at_omega_n0, v + trum_at_rho, v + trum_at_s_11E, v + trum_at_xi};
+  trum_real* res[trum_modal_n_res] = {v + trum_at_M_q, v + trum_at_F_ceramic, v + trum_at_F_measured};
+  (void)trum_modal(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_plain_reaction(trum_real* v) {
+  const trum_real* arg[trum_plain_reaction_n_arg] = {v + trum_at_F_c, v + trum_at_alpha, v + trum_at_engagement, v + trum_at_mu, v + trum_at_share, v + trum_at_theta};
+  trum_real* res[trum_plain_reaction_n_res] = {v + trum_at_f, v + trum_at_f_alpha, v + trum_at_central, v + trum_at_along};
+  (void)trum_plain_reaction(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_plain_balance(trum_real* v) {
+  const trum_real* arg[trum_plain_balance_n_arg] = {v + trum_at_D, v + trum_at_F_q, v + trum_at_M_q, v + trum_at_W, v + trum_at_along, v + trum_at_central, v + trum_at_k_c, v + trum_at_omega_n0, v + trum_at_omega_q, v + trum_at_xi};
+  trum_real* res[trum_plain_balance_n_res] = {v + trum_at_in_phase, v + trum_at_ahead, v + trum_at_residual, v + trum_at_lead, v + trum_at_omega_r};
+  (void)trum_plain_balance(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_plain_powers(trum_real* v) {
+  const trum_real* arg[trum_plain_powers_n_arg] = {v + trum_at_D, v + trum_at_F_c, v + trum_at_M_q, v + trum_at_W, v + trum_at_along, v + trum_at_f, v + trum_at_k_c, v + trum_at_mu, v + trum_at_omega_n0, v + trum_at_omega_q, v + trum_at_v, v + trum_at_xi};
+  trum_real* res[trum_plain_powers_n_res] = {v + trum_at_P_in, v + trum_at_P_stator, v + trum_at_P_contact, v + trum_at_P_slip, v + trum_at_P_rotor};
+  (void)trum_plain_powers(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_engagement(trum_real* v) {
+  const trum_real* arg[trum_engagement_n_arg] = {v + trum_at_F_c, v + trum_at_k_N, v + trum_at_k_c, v + trum_at_n_j};
+  trum_real* res[trum_engagement_n_res] = {v + trum_at_engagement_per_height};
+  (void)trum_engagement(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_mode_flow(trum_real* v) {
+  const trum_real* arg[trum_mode_flow_n_arg] = {v + trum_at_omega_n0, v + trum_at_tau, v + trum_at_xi};
+  trum_real* res[trum_mode_flow_n_res] = {v + trum_at_w_w, v + trum_at_w_v, v + trum_at_v_w, v + trum_at_v_v};
+  (void)trum_mode_flow(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_coupled_instant(trum_real* v) {
+  const trum_real* arg[trum_coupled_instant_n_arg] = {v + trum_at_D, v + trum_at_F_c, v + trum_at_height, v + trum_at_k_N, v + trum_at_k_c, v + trum_at_n_j, v + trum_at_v_A, v + trum_at_v_B, v + trum_at_w_A, v + trum_at_w_B};
+  trum_real* res[trum_coupled_instant_n_res] = {v + trum_at_W_c, v + trum_at_sin_crest, v + trum_at_cos_crest, v + trum_at_R_v, v + trum_at_phi, v + trum_at_cos_phi, v + trum_at_sin_phi, v + trum_at_theta, v + trum_at_sin_theta, v + trum_at_cos_theta, v + trum_at_engagement, v + trum_at_share};
+  (void)trum_coupled_instant(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_coupled_forces(trum_real* v) {
+  const trum_real* arg[trum_coupled_forces_n_arg] = {v + trum_at_D, v + trum_at_F_c, v + trum_at_R_v, v + trum_at_cos_crest, v + trum_at_cos_phi, v + trum_at_cos_theta, v + trum_at_engagement, v + trum_at_k_c, v + trum_at_mu, v + trum_at_phi, v + trum_at_share, v + trum_at_sin_crest, v + trum_at_sin_phi, v + trum_at_sin_theta, v + trum_at_theta, v + trum_at_v};
+  trum_real* res[trum_coupled_forces_n_res] = {v + trum_at_F_z, v + trum_at_F_x, v + trum_at_Q_A, v + trum_at_Q_B};
+  (void)trum_coupled_forces(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_drive(trum_real* v) {

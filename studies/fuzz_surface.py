@@ -66,6 +66,7 @@ WORDS = {
     "amplitude": ("measured", "forced"),
     "compliance": ("layer", "flange"),
     "tangential": ("rigid", "brush"),
+    "coupling": ("none", "contact"),
 }
 
 

@@ -54,6 +54,7 @@ CHOICES = {
     "amplitude": ("measured", "forced"),
     "compliance": ("layer", "flange"),
     "tangential": ("rigid", "brush"),
+    "coupling": ("none", "contact"),
 }
 
 

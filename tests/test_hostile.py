@@ -168,7 +168,7 @@ GOOD = {
 }
 NOT_ASKED = ("progress",)  # any truth will do
 EXTRA = {
-    "evaluate": ("contact", "resonance", "foundation", "amplitude", "compliance", "tangential"),
+    "evaluate": ("contact", "resonance", "foundation", "amplitude", "compliance", "tangential", "coupling"),
     "sweep": ("frequency_difference", "contact_radius", "phase_lead", "contact", "amplitude", "sampling_period"),
     "calibrate": ("contact",),
 }

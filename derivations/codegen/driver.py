@@ -138,6 +138,25 @@ _PLAIN_STRUCTS = (
     _struct("trum_bristle", "bristle", "grip ratio theta u_0 t_0", "the layer as a brush; where a bristle sticks from"),
     _struct("trum_passage", "passage", "stress limit stuck slid", "its stress and friction's limit, their integrals"),
     _struct("trum_turns", "turns", "delay span", "where a sliding bristle could begin to stick"),
+    _struct("trum_coupled_place", "place", "D F_c k_N k_c mu n_j", "geometry and contact of a coupled point"),
+    _struct(
+        "trum_coupled_state", "state", "w_A w_B v_A v_B height v", "both phases, the rotor's height, its rim's speed"
+    ),
+    _struct(
+        "trum_coupled_surface",
+        "surface",
+        "W_c sin_crest cos_crest R_v phi cos_phi sin_phi theta sin_theta cos_theta engagement share",
+        "wave, surface speed and contact at an instant",
+    ),
+    _struct("trum_coupled_acting", "acting", "F_z F_x Q_A Q_B", "what the contact does to rotor and phases"),
+    _struct(
+        "trum_carried",
+        "carried",
+        "engagement_per_height W_c engagement fullness fullness_root theta sin_theta share",
+        "a contact that carries the prepressure",
+    ),
+    _struct("trum_mode", "mode", "omega_n0 xi", "a phase's own frequency and damping"),
+    _struct("trum_flow", "flow", "w_w w_v v_w v_v", "displacement and velocity after a time, of each"),
 )
 _PLAIN_CALLS = (
     Call("trum_winkler_balance", ("trum_balance", "trum_balance_values"), "theta"),
@@ -147,6 +166,15 @@ _PLAIN_CALLS = (
     Call("trum_response", ("trum_cycle_constants", "trum_free_motion", "trum_gates", "trum_phases"), "tau"),
     Call("trum_brush_passage", ("trum_bristle", "trum_passage"), "u"),
     Call("trum_brush_turns", ("trum_bristle", "trum_turns")),
+    Call("trum_engagement", ("trum_coupled_place", "trum_carried")),
+    Call("trum_filling", ("trum_carried",)),
+    Call("trum_contact_winkler", ("trum_carried",)),
+    Call("trum_mode_flow", ("trum_mode", "trum_flow"), "tau"),
+    Call("trum_coupled_instant", ("trum_coupled_place", "trum_coupled_state", "trum_coupled_surface")),
+    Call(
+        "trum_coupled_forces",
+        ("trum_coupled_place", "trum_coupled_state", "trum_coupled_surface", "trum_coupled_acting"),
+    ),
 )
 
 
@@ -279,12 +307,41 @@ _FLAGS = (  # bits of `flags`, lowest first
     "too_many_laps",  # not converged: the search needs more laps than are allowed
     "failed_step",  # not converged: a step cannot be evaluated however short it is
 )
+_COUPLED_STATE = (
+    Field("w_A", "m", "displacement of phase A"),
+    Field("v_A", "m/s", "velocity of phase A"),
+    Field("w_B", "m", "displacement of phase B"),
+    Field("v_B", "m/s", "velocity of phase B"),
+    Field("height", "m", NOMENCLATURE["height"].meaning),
+    Field("climb", "m/s", "its rate"),
+    *_named("v"),
+)
+_COUPLED_IN = (
+    *_COUPLED_STATE,
+    *_named("M_q omega_n0 xi F_q omega_q D k_c k_N n_j mu F_c r_c T_load J_total s m n"),
+    Field("force_phase", "rad", "phase of A's modal force at the start of the cycle"),
+    Field("mass", "kg", "of the rotor that goes up and down; 0: it follows the wave"),
+    Field("reaction", "1", "share of the contact's forces that acts on the phases, 1 or 0"),
+    Field("steps", "1", "time steps in a drive period"),
+)
+_COUPLED_OUT = (
+    *_COUPLED_STATE,
+    Field("mean", "m/s", "mean speed of the rim"),
+    Field("square", "m^2/s^2", "mean of its square"),
+    Field("low", "m/s", "the lowest at the steps' ends"),
+    Field("high", "m/s", "the highest"),
+    Field("input", "kg*m^2/s^3", "mean power of the modal forces"),
+    Field("touching", "1", "mean of theta/pi"),
+    Field("highest", "m", "the highest wave at the steps' ends"),
+)
 _LISTS = {
     "TRUM_CYCLE_IN": ("a drive cycle", _CYCLE),
     "TRUM_SIZE_IN": ("amplitude and geometry of its waves", _SIZE),
     "TRUM_HALF_ANGLE_IN": ("what the Winkler layer's half-angle depends on", _named("F_c k_N W k_c n_j")),
     "TRUM_BRUSH_IN": ("what the friction of a brush depends on", _named("theta grip ratio")),
     "TRUM_BRUSH_SPEED_IN": ("what the rotor's speed over a brush depends on", _named("theta grip f")),
+    "TRUM_COUPLED_LAP_IN": ("a drive cycle of phases, contact and rotor as one system", _COUPLED_IN),
+    "TRUM_COUPLED_LAP_OUT": ("what it comes to", _COUPLED_OUT),
     "TRUM_CYCLE_SUMS_IN": ("what the determinant's sums over a cycle need", (*_CYCLE, _PANELS)),
     "TRUM_CYCLE_SUMS_OUT": ("what a cycle's determinant sums to", _SUMS),
     "TRUM_CYCLE_RESPONSE_IN": ("an instant of a cycle", (*_named("t"), *_CYCLE, *_SIZE)),
@@ -303,6 +360,8 @@ _LISTS = {
 _STRUCTS = (
     "TRUM_BRUSH_IN",
     "TRUM_BRUSH_SPEED_IN",
+    "TRUM_COUPLED_LAP_IN",
+    "TRUM_COUPLED_LAP_OUT",
     "TRUM_CYCLE_SUMS_IN",
     "TRUM_CYCLE_SUMS_OUT",
     "TRUM_CYCLE_RESPONSE_IN",

@@ -18,6 +18,7 @@ from derivations import (
     bench,
     brush,
     contact,
+    coupling,
     determinant,
     flange,
     phases,
@@ -168,6 +169,46 @@ def _brush() -> list[Kernel]:
             {"delay": "rad", "span": "rad"},
         ),
     ]
+
+
+def _coupling() -> list[Kernel]:
+    newtons = ("central", "along", "in_phase", "ahead", "F_ceramic", "F_measured", "F_z", "F_x", "Q_A", "Q_B")
+    units = {
+        **dict.fromkeys(newtons, "N"),
+        **dict.fromkeys(coupling.powers(), "N*m/s"),
+        "M_q": "kg",
+        "engagement_per_height": "1/m",
+        **{"w_w": "1", "w_v": "s", "v_w": "1/s", "v_v": "1"},
+        "f": "1",
+        "f_alpha": "1/rad",
+        "residual": "N^2",
+        "lead": "rad",
+        "omega_r": "rad/s",
+        "R_v": "m/s",
+        "W_c": "m",
+        **dict.fromkeys(("phi", "theta"), "rad"),
+        **dict.fromkeys(("sin_crest", "cos_crest", "cos_phi", "sin_phi", "sin_theta", "cos_theta"), "1"),
+        **dict.fromkeys(("engagement", "share"), "1"),
+    }
+    made = (
+        ("trum_modal", "Modal mass of a phase, and its modal force by the ceramic and as measured", coupling.modal()),
+        ("trum_plain_reaction", "What the contact of a plain wave does to the wave", coupling.reaction()),
+        (
+            "trum_plain_balance",
+            "Balance of a plain wave with the contact, and its resonance",
+            {**coupling.balance(), "omega_r": coupling.resonance()},
+        ),
+        ("trum_plain_powers", "Mean powers of a plain wave", coupling.powers()),
+        (
+            "trum_engagement",
+            "The layer's force at full wave over the prepressure, per height of the wave",
+            {"engagement_per_height": rotor.coefficients()["engagement_per_height"]},
+        ),
+        ("trum_mode_flow", "Free motion of a phase: displacement and velocity after a time, of each", coupling.flow()),
+        ("trum_coupled_instant", "Wave, surface speed and contact of two phases at any instant", coupling.instant()),
+        ("trum_coupled_forces", "What the contact does to rotor and both phases at any instant", coupling.forces()),
+    )
+    return [Kernel(name, title, found, {of: units[of] for of in found}) for name, title, found in made]
 
 
 def _cycle() -> list[Kernel]:
@@ -439,5 +480,14 @@ def _surface() -> list[Kernel]:
 def kernels() -> tuple[Kernel, ...]:
     """All kernels, in the order of the manifest."""
     return tuple(
-        _section() + _resonance() + _amplitude() + _contact() + _brush() + _cycle() + _rotor() + _slopes() + _surface()
+        _section()
+        + _resonance()
+        + _amplitude()
+        + _contact()
+        + _brush()
+        + _coupling()
+        + _cycle()
+        + _rotor()
+        + _slopes()
+        + _surface()
     )

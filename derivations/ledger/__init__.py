@@ -28,6 +28,7 @@ from derivations.ledger import (
     section_7,
     table_1,
     tables_2_to_5,
+    wave_reaction,
 )
 from derivations.ledger.model import Entry
 
@@ -63,6 +64,7 @@ _ALL: tuple[Entry, ...] = (
     *section_4_transfer.ENTRIES,
     *rotor_orbit.ENTRIES,
     *bench_load.ENTRIES,
+    *wave_reaction.ENTRIES,
     *table_1.ENTRIES,
     *section_6.ENTRIES,
     *section_7.ENTRIES,

@@ -37,9 +37,9 @@ PREMISES: tuple[tuple[str, tuple[str, ...], str], ...] = (
     ),
     (
         "A prescribed wave: the rotor does not act back on the phases",
-        ("8", "9", "10", "11"),
+        ("8", "9", "10", "11", "wave-reaction"),
         "amplitude and direction of the wave; the mean effect of the prepressure is in eqs. 6 and 8, none within a "
-        "cycle",
+        "cycle; for the plain wave the level coupling = contact computes it (docs/coupling.md)",
     ),
     (
         "No temperature, wear or humidity",

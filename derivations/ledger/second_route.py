@@ -748,6 +748,39 @@ def _load_inertia() -> list[Any]:
     return [mass, added, added / _v("J"), slack, plate, 1 / _ends()[3], mass * rate**2, wire, met]
 
 
+@_route("wave-reaction")
+def _wave_reaction() -> list[Any]:
+    """Mass and forces by sums along the ring; shifts and the force needed by complex dynamic stiffness."""
+    v = stator()
+    free, ratio = mp.re(resonance(v, v["k_c"], mp.mpf(0))[0]), v["beta"]
+    angle = 2 * mp.pi * (np.arange(3600) + mp.mpf(1) / 2) / 3600
+    ring = 2 * mp.pi * v["n_j"] / v["k_c"]
+    lively = [v["rho A"] * mp.sin(a) ** 2 + v["rho I"] * (ratio * mp.cos(a)) ** 2 for a in angle]
+    mass = ring * mp.fsum(lively) / len(lively)
+    own, low = 2 * mp.pi * free, v["h_e"] - v["D"]
+    measured = abs(mass * mp.mpc(0, 2 * v["xi"] * own * own)) * v["W_max"]
+    moment = abs(v["d_31"]) / v["s_11E"] * v["U_s"] / v["h_p"] * v["b_p"] * v["h_p"] * (low + v["h_p"] / 2)
+    ceramic = v["n_j"] * moment * ratio * mp.quad(lambda a: abs(mp.cos(a)), [k * mp.pi / 2 for k in range(5)])
+    lifted = [
+        mp.sqrt(own**2 * mass + 180 / height) / mp.sqrt(mass) / 2 / mp.pi - free
+        for height in (12.6e-6, 5.56e-6, 1.5e-6)
+    ]
+    at, drive = 2 * mp.pi * v["f_n"], 2 * mp.pi * v["f_q"]
+    needed = v["W"] * mass * abs(at**2 - drive**2 + mp.mpc(0, 2 * v["xi"] * at * drive))
+    return [
+        1e3 * mass,
+        12.6,
+        measured,
+        ceramic,
+        ceramic / 9 * 4,
+        180,
+        *lifted,
+        1e6 * v["W"],
+        needed,
+        needed / measured,
+    ]
+
+
 # --- Tables -------------------------------------------------------------------------------------------------
 @_route("table-1-R")
 def _table_r() -> list[Any]:

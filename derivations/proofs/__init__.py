@@ -9,13 +9,20 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 from derivations.codegen.kernels import Kernel
-from derivations.proofs import contact, cycle, friction, stator, wave
+from derivations.proofs import contact, coupling, cycle, friction, stator, wave
 from derivations.proofs.proof import Proof, Subject, check, reference
 from derivations.proofs.tables import HEADERS, TABLES, read, wrong
 
 __all__ = ["PROOFS", "numbers", "of_kernel", "prove", "unproved"]
 
-PROOFS: tuple[Proof, ...] = (*stator.PROOFS, *cycle.PROOFS, *wave.PROOFS, *contact.PROOFS, *friction.PROOFS)
+PROOFS: tuple[Proof, ...] = (
+    *stator.PROOFS,
+    *cycle.PROOFS,
+    *wave.PROOFS,
+    *contact.PROOFS,
+    *friction.PROOFS,
+    *coupling.PROOFS,
+)
 
 
 def of_kernel(name: str) -> tuple[Proof, ...]:

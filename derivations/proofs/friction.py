@@ -16,7 +16,7 @@ from derivations.proofs.contact import TINY, balanced, half_angle, load, turned
 from derivations.proofs.maths import DIGITS, Maths, Number, Point
 from derivations.proofs.proof import Proof, draw, grid
 
-__all__ = ["PROOFS"]
+__all__ = ["PROOFS", "changes", "states"]
 
 Found = Mapping[str, Number | None]
 
@@ -46,7 +46,7 @@ def _slip(p: Point) -> Callable[[Number], Number]:
     return lambda u: p.R_v * mp.cos(u - p.phi) - p.v
 
 
-def _changes(p: Point) -> list[Number]:
+def changes(p: Point) -> list[Number]:
     """Where the slip changes its sign inside the contact."""
     slip = _slip(p)
     extremes = [p.phi + k * mp.pi for k in range(-3, 4)]
@@ -61,7 +61,7 @@ def _fraction(p: Point) -> Number:
     def carried(u: Number) -> Number:
         return (p.engagement * mp.sin(u) + p.share * u) / 2
 
-    for a, b in pairwise([-p.theta, *_changes(p), p.theta]):
+    for a, b in pairwise([-p.theta, *changes(p), p.theta]):
         total += mp.sign(slip((a + b) / 2)) * (carried(b) - carried(a))
     return total
 
@@ -125,7 +125,7 @@ def _beyond(values: dict[str, Number], at: random.Random) -> None:
     turned(values, at)
 
 
-def _within() -> list[Point]:
+def states() -> list[Point]:
     """States that between them have each of both points as fast as the rotor wherever it can be, on either side.
 
     In a partial contact: inside it, beside it, far from it; in a full one; past half a turn, just before and after it.
@@ -149,7 +149,7 @@ def _within() -> list[Point]:
 
 def _standing() -> list[Point]:
     """Surface and rotor stand still, at a contact that carries its load."""
-    return [_within()[0].with_(R_v=mp.mpf(0), v=mp.mpf(0), tiny=TINY)]
+    return [states()[0].with_(R_v=mp.mpf(0), v=mp.mpf(0), tiny=TINY)]
 
 
 def _limit(p: Point, m: Maths) -> Found:  # noqa: ARG001
@@ -258,7 +258,7 @@ PROOFS = (
         "33 34 35 36 37 rotor-orbit",
         "sum of the slip's sign times the pressure; its difference quotient; pressure where the slip is 0",
         _friction,
-        _within,
+        states,
         _INSIDE,
         floor=1,
     ),
@@ -287,7 +287,7 @@ PROOFS = (
         "31 36 rotor-orbit",
         "difference quotients of the sum by phi and along states that carry their load",
         _slopes,
-        _within,
+        states,
         _INSIDE,
         floor=1,
     ),

@@ -271,6 +271,19 @@ def random_arguments(kernel, rng):
         p_larger=1.4,
         p_smaller=1.1,
         step=2e-7,
+        M_q=0.033,
+        F_q=240.0,
+        coverage=0.7,
+        omega_n0=2.43e5,
+        central=170.0,
+        along=25.0,
+        alpha=0.2,
+        height=2.5e-6,
+        v_A=0.7,
+        v_B=-0.4,
+        cos_theta=0.92,
+        sin_crest=0.6,
+        cos_crest=0.8,
     )
     for name, rate in (("a_A", 4e-11), ("b_A", 6e-6), ("a_B", -3e-11), ("b_B", 5e-6)):
         usual |= {f"{name}_omega_n": rate, f"{name}_Delta_omega": -2 * rate}

@@ -97,7 +97,9 @@ def test_drive_refuses_a_wrong_start(word):
 
 
 @pytest.mark.parametrize("word", NO_WORDS, ids=repr)
-@pytest.mark.parametrize("name", ["contact", "resonance", "foundation", "amplitude", "compliance", "tangential"])
+@pytest.mark.parametrize(
+    "name", ["contact", "resonance", "foundation", "amplitude", "compliance", "tangential", "coupling"]
+)
 def test_evaluation_refuses_a_wrong_word(name, word):
     with refusal(f"{name}: got", *CHOICES[name]):
         ts.evaluate(MOTOR, **{name: word})

@@ -41,7 +41,7 @@ INPUTS = [
 OPTIONS = [
     *("motor", "set", "prepressure", "frequency-difference", "periods", "on-periods", "load-torque", "start"),
     *("switching-phase", "phase-lead", "contact", "resonance", "foundation", "amplitude", "compliance", "tangential"),
-    *("sampling-period", "json"),
+    *("coupling", "sampling-period", "json"),
 ]
 
 

@@ -15,6 +15,7 @@
 #include "cpu.hpp"
 #include "orbit.hpp"
 #include "trum_brush.h"
+#include "trum_coupled.h"
 #include "trum_cycle.h"
 
 namespace {
@@ -71,6 +72,8 @@ class Unlocked {
 READER(trum_balance, TRUM_HALF_ANGLE_IN)
 READER(trum_brush_in, TRUM_BRUSH_IN)
 READER(trum_brush_speed_in, TRUM_BRUSH_SPEED_IN)
+READER(trum_coupled_lap_in, TRUM_COUPLED_LAP_IN)
+WRITER(trum_coupled_lap_out, TRUM_COUPLED_LAP_OUT)
 READER(trum_cycle_sums_in, TRUM_CYCLE_SUMS_IN)
 WRITER(trum_cycle_sums_out, TRUM_CYCLE_SUMS_OUT)
 READER(trum_cycle_response_in, TRUM_CYCLE_RESPONSE_IN)
@@ -120,6 +123,18 @@ void brush_speed_loop(char** args, const npy_intp* dimensions, const npy_intp* s
     const double error = trum_brush_speed_error(in.theta, in.grip, in.f, ratio);
     *reinterpret_cast<double*>(args[n_brush_speed_in] + i * steps[n_brush_speed_in]) = ratio;
     *reinterpret_cast<double*>(args[n_brush_speed_in + 1] + i * steps[n_brush_speed_in + 1]) = error;
+  }
+}
+
+constexpr int n_coupled_in = COUNT(TRUM_COUPLED_LAP_IN), n_coupled_out = COUNT(TRUM_COUPLED_LAP_OUT);
+void coupled_lap_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
+  const Unlocked unlocked;
+  for (npy_intp i = 0; i < dimensions[0]; ++i) {
+    trum_coupled_lap_in in;
+    trum_coupled_lap_out out;
+    read(&in, args, steps, i);
+    trum_coupled_lap(&in, &out);
+    write(out, args + n_coupled_in, steps + n_coupled_in, i);
   }
 }
 
@@ -309,11 +324,20 @@ TRUM_KERNELS(LOOP)
 PyUFuncGenericFunction loop_half_angle[1] = {half_angle_loop};
 PyUFuncGenericFunction loop_brush_friction[1] = {brush_friction_loop};
 PyUFuncGenericFunction loop_brush_speed[1] = {brush_speed_loop};
+PyUFuncGenericFunction loop_coupled_lap[1] = {coupled_lap_loop};
 PyUFuncGenericFunction loop_cycle_sums[1] = {cycle_sums_loop};
 PyUFuncGenericFunction loop_cycle_response[1] = {cycle_response_loop};
 PyUFuncGenericFunction loop_rotor_orbit[1] = {rotor_orbit_loop};
 PyUFuncGenericFunction loop_rotor_slopes[1] = {rotor_slopes_loop};
 PyUFuncGenericFunction loop_rotor_history[1] = {rotor_history_loop};
+
+bool add_contacts(PyObject* module, PyObject* signatures) {
+  return add(module, signatures, "brush_friction", loop_brush_friction, n_brush_in, 2, TRUM_BRUSH_IN(NAME_OF), "f f_error") &&
+         add(module, signatures, "brush_speed", loop_brush_speed, n_brush_speed_in, 2, TRUM_BRUSH_SPEED_IN(NAME_OF),
+             "ratio ratio_error") &&
+         add(module, signatures, "coupled_lap", loop_coupled_lap, n_coupled_in, n_coupled_out,
+             TRUM_COUPLED_LAP_IN(NAME_OF), TRUM_COUPLED_LAP_OUT(NAME_OF));
+}
 
 #ifndef TRUM_MADE_OF  // the digest of the sources, which CMake knows
 #define TRUM_MADE_OF ""
@@ -346,9 +370,7 @@ PyMODINIT_FUNC PyInit__kernels() {
   const std::string history = scalars(n_history_in - 1) + ",(k)->(k),(k)";
   if (!add(module, signatures, "contact_half_angle", loop_half_angle, n_half_angle_in, 1, TRUM_HALF_ANGLE_IN(NAME_OF),
            "theta") ||
-      !add(module, signatures, "brush_friction", loop_brush_friction, n_brush_in, 2, TRUM_BRUSH_IN(NAME_OF), "f f_error") ||
-      !add(module, signatures, "brush_speed", loop_brush_speed, n_brush_speed_in, 2, TRUM_BRUSH_SPEED_IN(NAME_OF),
-           "ratio ratio_error") ||
+      !add_contacts(module, signatures) ||
       !add(module, signatures, "cycle_sums", loop_cycle_sums, n_sums_in, COUNT(TRUM_CYCLE_SUMS_OUT),
            TRUM_CYCLE_SUMS_IN(NAME_OF), TRUM_CYCLE_SUMS_OUT(NAME_OF)) ||
       !add(module, signatures, "cycle_response", loop_cycle_response, n_response_in, COUNT(TRUM_CYCLE_RESPONSE_OUT),

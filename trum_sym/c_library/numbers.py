@@ -12,6 +12,7 @@ from trum_sym.model.levels import (
     RESONANCES,
     TANGENTIALS,
     LevelChoice,
+    Levels,
 )
 from trum_sym.output.c_text import as_comment
 
@@ -44,7 +45,14 @@ DRIVE_SYMBOLS = {
 
 
 def chosen(drive: Drive, levels: LevelChoice) -> dict[str, str]:
-    """The C names of the words that a drive and the levels say, first ones where they say nothing."""
+    """The C names of the words that a drive and the levels say, first ones where they say nothing.
+
+    Raises
+    ------
+    ParameterError
+        For levels that do not go together, or that C does not know.
+    """
+    Levels(**levels).check_prescribed()
     given = {"start": drive.start, "load": drive.load, **levels}
     return {name: f"TRUM_{name}_{given.get(name) or words[0]}".upper() for name, words in CHOICES.items()}
 

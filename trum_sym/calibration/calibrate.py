@@ -119,6 +119,7 @@ def calibrate(
     if any(np.ndim(parameter.value) for _, parameter in machine.parameters()):
         raise ParameterError("motor", machine.name, "a motor of single numbers, not arrays")
     chosen = Levels(**levels)
+    chosen.check_prescribed()
     period = period_of(sampling_period)
     check_single({} if period is None else {"sampling_period": period})
     with warnings.catch_warnings(), unquestioned():

@@ -33,6 +33,7 @@ _RPM = 30 / math.pi  # of 1 rad/s
         "trum-sym characteristics --amplitude forced --frequency-difference 500 --points 9",
         "trum-sym characteristics --motor ring60 --points 9 --plot curves.png",
         "trum-sym characteristics --compliance flange --points 9 --out curves.csv",
+        "trum-sym characteristics --coupling contact --on-periods 20 --frequency-difference 500 --points 9",
     )
 )
 @continuous_options
@@ -172,9 +173,37 @@ def _as_text(found: xr.Dataset) -> str:
         rows.append((form, _RPM * speed[0], stall, *at, best, 100 * most))
     head = ("drive", "no load, rpm", "stall, N m", "speed at 49 % of stall", "at 56 %", "power, W", "efficiency, %")
     lines = [str(found.attrs["title"]), "", tabulate(rows, head, floatfmt=".4g")]
+    if "amplitude" in found:
+        lines += ["", _coupled(found)]
     if "point" in found.sizes:
         lines += ["", _compared(found)]
     return "\n".join(lines)
+
+
+def _coupled(found: xr.Dataset) -> str:
+    """The wave under load, where the rotor acts back on it."""
+    import numpy as np
+    from tabulate import tabulate
+
+    columns = {
+        "wave, um": ("amplitude", 1e6),
+        "force ahead, rad": ("lead", 1.0),
+        "resonance up by, Hz": ("resonance_shift", 1.0),
+        "power in, W": ("input_power", 1.0),
+        "efficiency, %": ("efficiency", 100.0),
+        "speed kept by contact": ("droop_compliance", 1.0),
+        "by reaction": ("droop_reaction", 1.0),
+        "states": ("states", 1.0),
+    }
+    torque, stall = found["torque"].values, float(found["stall_torque"].values[0])
+    rows = [
+        (
+            f"{share:.0%} of stall",
+            *(k * float(np.interp(share * stall, torque, found[name].values[0])) for name, k in columns.values()),
+        )
+        for share in (0.0, 0.25, 0.49, 0.75)
+    ]
+    return str(tabulate(rows, ("load", *columns), floatfmt=".4g"))
 
 
 def _compared(found: xr.Dataset) -> str:

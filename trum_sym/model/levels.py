@@ -17,6 +17,7 @@ __all__ = [
     "AMPLITUDES",
     "COMPLIANCES",
     "CONTACTS",
+    "COUPLINGS",
     "FOUNDATIONS",
     "LEVEL_NAMES",
     "RESONANCES",
@@ -31,12 +32,14 @@ Foundation = Literal["harmonic", "smeared", "printed", "none"]
 Amplitude = Literal["measured", "forced"]
 Compliance = Literal["layer", "flange"]
 Tangential = Literal["rigid", "brush"]
+Coupling = Literal["none", "contact"]
 CONTACTS: tuple[Contact, ...] = get_args(Contact)
 RESONANCES: tuple[Resonance, ...] = get_args(Resonance)
 FOUNDATIONS: tuple[Foundation, ...] = get_args(Foundation)
 AMPLITUDES: tuple[Amplitude, ...] = get_args(Amplitude)
 COMPLIANCES: tuple[Compliance, ...] = get_args(Compliance)
 TANGENTIALS: tuple[Tangential, ...] = get_args(Tangential)
+COUPLINGS: tuple[Coupling, ...] = get_args(Coupling)
 
 
 class LevelChoice(TypedDict, total=False):
@@ -48,6 +51,7 @@ class LevelChoice(TypedDict, total=False):
     amplitude: Amplitude
     compliance: Compliance
     tangential: Tangential
+    coupling: Coupling
 
 
 def _level(words: tuple[str, ...], text: str) -> Any:  # noqa: ANN401
@@ -75,6 +79,9 @@ class Levels(Value):
     tangential : {"rigid", "brush"}
         Whether the layer gives way along the circumference: not at all, or as a brush, which is known for the steady
         plain wave alone (both phases always on).
+    coupling : {"none", "contact"}
+        Whether the rotor acts back on the wave: not at all, so that amplitude and resonance are prescribed, or through
+        pressure and friction of the contact, which :func:`trum_sym.characteristics` computes for the plain wave.
 
     Raises
     ------
@@ -89,6 +96,7 @@ class Levels(Value):
     amplitude: Amplitude = _level(AMPLITUDES, "Level of the amplitude.")
     compliance: Compliance = _level(COMPLIANCES, "What gives in the contact.")
     tangential: Tangential = _level(TANGENTIALS, "Whether the layer gives way along the circumference.")
+    coupling: Coupling = _level(COUPLINGS, "Whether the rotor acts back on the wave.")
 
     def __post_init__(self) -> None:
         """Checks every word."""
@@ -97,6 +105,11 @@ class Levels(Value):
         for name, plain in (("compliance", COMPLIANCES[0]), ("tangential", TANGENTIALS[0])):
             if self.contact == "hertz" and getattr(self, name) != plain:
                 raise ParameterError(name, getattr(self, name), f"{plain} where contact is hertz")
+
+    def check_prescribed(self) -> None:
+        """Raise a ParameterError unless the wave is prescribed, for all that knows no other."""
+        if self.coupling != COUPLINGS[0]:
+            raise ParameterError("coupling", self.coupling, "none: of all answers, characteristics alone has another")
 
 
 LEVEL_NAMES = tuple(level.name for level in fields(Levels))

@@ -107,10 +107,11 @@ def solve_stator(motor: Motor, drive: Drive, levels: Levels, *, warn: bool = Tru
     Raises
     ------
     ParameterError
-        If the drive frequency is not well above zero, or a value cannot be computed.
+        If the drive frequency is not well above zero, a value cannot be computed, or the wave is not to be prescribed.
     ConvergenceError
         If forced amplitude and resonance do not settle.
     """
+    levels.check_prescribed()
     values = motor.symbols()
     for name in ("trum_neutral_axis", "trum_wavenumber", "trum_layer_stiffness"):
         values = {**call(name, values), **values}

@@ -16,11 +16,13 @@ from trum_sym.inputs.measured_points import CURVES, FORMS, MeasuredPoint
 from trum_sym.inputs.motor import Motor
 from trum_sym.inputs.motor_file import load_motor
 from trum_sym.inputs.points import check_point, check_single, numbers_of, one_number
+from trum_sym.model.coupling import check_coupling
 from trum_sym.model.cycle import response, scaled
 from trum_sym.model.kernels import call
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.model.operating_point import evaluate, prepare
 from trum_sym.model.rotor import history, solve_orbit, surface_and_contact
+from trum_sym.studies.coupled import COUPLED, coupled_curves
 from trum_sym.text import one_line, plain
 
 if TYPE_CHECKING:
@@ -84,13 +86,19 @@ def characteristics(
         As for :func:`trum_sym.evaluate`.
     contact, resonance, foundation, amplitude, compliance, tangential
         As for :func:`trum_sym.evaluate`.  The brush counts for the plain wave; pulses take the layer as rigid.
+    coupling : {"none", "contact"}
+        ``"contact"`` lets the rotor act back on the wave (docs/coupling.md): for the plain wave alone, so that the
+        drive has to have ``on_periods = periods``.  Of several steady states, the stable one of the highest wave is
+        shown.
 
     Returns
     -------
     xarray.Dataset
         Over ``drive`` (plain, pulse) and ``torque`` (N m): mean_speed, output_power, contact_efficiency; over
         ``frequency`` (Hz) and ``prepressure`` (N): speed_by_frequency, speed_by_prepressure, stall_by_prepressure.
-        NaN where a load is beyond friction or runs the rotor back.
+        NaN where a load is beyond friction or runs the rotor back.  With ``coupling = "contact"`` also amplitude (m),
+        lead (rad), resonance_shift (Hz), input_power and contact_power (W), efficiency, the parts of the droop, and how
+        many steady states there are.
 
     Raises
     ------
@@ -118,6 +126,9 @@ def characteristics(
     check_point(motor, drive)
     check_single(numbers_of(motor, drive, None), "one number: characteristics are of one motor and drive")
     chosen = Levels(**levels)
+    coupled = chosen.coupling == "contact"
+    if coupled:
+        check_coupling(motor, drive, chosen)
     low, high = float(motor.fit_prepressure_min.value), float(motor.fit_prepressure_max.value)
     axes = {
         "torque": np.linspace(0.0, 1.0, count, endpoint=False) * _carried(motor, drive),
@@ -126,13 +137,17 @@ def characteristics(
     }
     pulsed = float(np.asarray(drive.on_periods)) < float(np.asarray(drive.periods))
     forms = FORMS if pulsed else FORMS[:1]
-    found = [_of_form(motor, drive, chosen, form, axes, tolerance) for form in forms]
+    if coupled:
+        found = [coupled_curves(motor, drive, chosen, axes)]
+    else:
+        found = [_of_form(motor, drive, chosen, form, axes, tolerance) for form in forms]
+    variables = {**_VARIABLES, **(COUPLED if coupled else {})}
     units = {"torque": "N*m", "frequency": "Hz", "prepressure": "N"}
     return xr.Dataset(
         {
             **{
                 name: (("drive", axis), np.stack([of[name] for of in found]), {"units": unit, "long_name": meaning})
-                for name, (axis, unit, meaning) in _VARIABLES.items()
+                for name, (axis, unit, meaning) in variables.items()
             },
             "stall_torque": ("drive", np.array([of["stall_torque"] for of in found]), {"units": "N*m"}),
             "direction": ("drive", np.array([of["direction"] for of in found]), {"units": "1"}),

@@ -1,0 +1,202 @@
+"""What the coupling makes of the paper's tables: Table 2's amplitudes, the resonance, Table 3's point.
+
+Nothing is fitted; docs/coupling.md has what they print.
+
+    python -m studies.coupled_tables table-2
+    python -m studies.coupled_tables resonance
+    python -m studies.coupled_tables table-3
+    python -m studies.coupled_tables branches
+    python -m studies.coupled_tables spread 32
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+
+import numpy as np
+from scipy.stats import qmc
+from tabulate import tabulate
+
+import trum_sym as ts
+from trum_sym.model.coupled_orbit import CoupledOrbit, coupled_orbits, followed, lap_values, one_phase
+from trum_sym.model.coupling import coupled_values, plain_waves
+from trum_sym.model.levels import Levels
+from trum_sym.paper.published import TABLE_2
+
+__all__ = ["amplitudes", "main"]
+
+_TURN = 2 * math.pi
+_CONTACT = Levels(coupling="contact")
+_SOFT = 22.0  # times softer than the layer: the contact stiffness of the public simulation USM_SIM
+_MASSES = (0.0, 0.02, 0.1)  # kg: none; a rotor of the motor's size in aluminium; with a plate
+_STEPS = 100  # a drive period, of one phase
+
+
+def _contacts(motor: ts.Motor) -> dict[str, tuple[ts.Motor, Levels]]:
+    layer = float(coupled_values(motor, ts.Drive(on_periods=20), _CONTACT)["k_N"])
+    return {
+        "layer": (motor, Levels()),
+        "flange": (motor, Levels(compliance="flange")),
+        f"layer/{_SOFT:g}": (motor.with_values({"contact_stiffness": layer / _SOFT}), Levels()),
+    }
+
+
+def _at_free_resonance(motor: ts.Motor, levels: Levels, force: float, offset: float = 0.0) -> ts.Drive:
+    """A drive at the resonance of the stator without a rotor, or off it by so many Hz."""
+    plain = ts.Drive(prepressure=force, on_periods=20, frequency_difference=0.0)
+    values = coupled_values(motor, plain, Levels(compliance=levels.compliance, coupling="contact"))
+    free = (float(values["omega_n0"]) - float(values["omega_n"])) / _TURN
+    return ts.Drive(prepressure=force, frequency_difference=free + offset)
+
+
+def amplitudes(motor: ts.Motor, levels: Levels, mass: float) -> list[CoupledOrbit]:
+    """Phase A alone at the free resonance, at Table 2's prepressures."""
+    return [
+        one_phase(motor, _at_free_resonance(motor, levels, float(force)), levels, mass, steps=_STEPS)
+        for force in TABLE_2
+    ]
+
+
+def _shown(orbit: CoupledOrbit) -> str:
+    size = f"{1e6 * orbit.highest_wave:.1f}"
+    return size if orbit.closed and orbit.stable else f"({size})"
+
+
+def table_2() -> None:
+    """Amplitudes by contact and rotor's mass; in brackets where no period repeats the one before stably."""
+    rows = [("measured", "", *(f"{1e6 * size:.1f}" for size in TABLE_2.values()))]
+    for label, (motor, levels) in _contacts(ts.load_motor()).items():
+        rows += [(label, f"{mass:g}", *map(_shown, amplitudes(motor, levels, mass))) for mass in _MASSES]
+    print(tabulate(rows, ("contact", "rotor, kg", *(f"{force:g} N" for force in TABLE_2)), disable_numparse=True))
+
+
+def resonance() -> None:
+    """Drive frequency of the largest response, of the plain wave and of one phase, and eq. 6's resonance."""
+    rows = []
+    for label, (motor, levels) in _contacts(ts.load_motor()).items():
+        for force in (160.0, 180.0, 210.0):
+            drive = ts.Drive(prepressure=force, on_periods=20, load_torque=0.0)
+            values = coupled_values(motor, drive, Levels(compliance=levels.compliance, coupling="contact"))
+            offsets = np.arange(0.0, 601.0, 10.0)
+            free = float(values["omega_n0"])
+            waves = [plain_waves({**values, "omega_q": free + _TURN * offset}) for offset in offsets]
+            plain = offsets[int(np.argmax([wave.amplitude[-1] for wave in waves]))]
+            sizes = [
+                one_phase(motor, _at_free_resonance(motor, levels, force, offset), levels, 0.02, steps=60).highest_wave
+                for offset in offsets[::2]
+            ]
+            single = offsets[::2][int(np.argmax(sizes))]
+            most = 1e6 * max(wave.amplitude[-1] for wave in waves), 1e6 * max(sizes)
+            rows.append((label, force, free / _TURN, values["omega_n"] / _TURN, plain, most[0], single, most[1]))
+    head = (
+        "contact",
+        "N",
+        "free, Hz",
+        "eq. 6, Hz",
+        "plain wave: up by, Hz",
+        "um",
+        "one phase, 0.02 kg: up by, Hz",
+        "um",
+    )
+    print(tabulate(rows, head, floatfmt=("", ".0f", ".0f", ".0f", ".0f", ".2f", ".0f", ".2f")))
+
+
+def table_3() -> None:
+    """Table 3's point: wave prescribed or coupled, without and with the bench's plate, by contact."""
+    motor = ts.load_motor()
+    plate = float(motor.bench["load_inertia"].value)
+    rows = []
+    for label, (machine, levels) in _contacts(motor).items():
+        for inertia in (0.0, plate):
+            drive = ts.Drive(load_inertia=inertia)
+            point = ts.evaluate(machine, drive, compliance=levels.compliance)
+            swing = point.speed_volatility * abs(point.mean_speed)
+            rows.append((label, inertia, "none", "", point.mean_speed, swing, 1e6 * point.amplitude, "", "", ""))
+            for mass in _MASSES:
+                values = lap_values(machine, drive, levels, rotor_mass=mass)
+                for orbit in coupled_orbits(values):
+                    most = f"{np.abs(orbit.multipliers).max():.2f}"
+                    rows.append(
+                        (
+                            *(label, inertia, f"contact, {mass:g} kg", orbit.start, orbit.mean_speed, orbit.deviation),
+                            *(
+                                1e6 * orbit.highest_wave,
+                                "yes" if orbit.closed else "no",
+                                most,
+                                f"{orbit.mean_speed_change:.0e}",
+                            ),
+                        )
+                    )
+    head = (
+        "contact",
+        "J_load",
+        "coupling",
+        "from",
+        "mean, rad/s",
+        "deviation",
+        "wave, um",
+        "closed",
+        "multiplier",
+        "change",
+    )
+    print(tabulate(rows, head, floatfmt=("", "g", "", "", ".2f", ".3f", ".2f", "", "", "")))
+
+
+def branches() -> None:
+    """Mean speed at Table 3's point while the frequency rises and falls; in brackets where no lap closes stably."""
+    motor, offsets = ts.load_motor(), np.arange(2500.0, 3501.0, 100.0)
+    rows = []
+    for label, levels in (("layer", Levels()), ("flange", Levels(compliance="flange"))):
+        for mass in _MASSES:
+            points = [
+                lap_values(motor, ts.Drive(frequency_difference=float(f)), levels, rotor_mass=mass, steps=_STEPS)
+                for f in offsets
+            ]
+            for way, orbits in (("up", followed(points, 12)), ("down", followed(points[::-1], 12)[::-1])):
+                shown = [f"{o.mean_speed:.2f}" if o.closed and o.stable else f"({o.mean_speed:.2f})" for o in orbits]
+                rows.append((label, f"{mass:g}", way, *shown))
+    head = ("contact", "rotor, kg", "", *(f"{f:g}" for f in offsets))
+    print(tabulate(rows, head, disable_numparse=True))
+
+
+def spread(count: int) -> None:
+    """Table 2's amplitudes over what is assumed: 5, 50 and 95 % of the samples, and what carries them by rank."""
+    motor = ts.load_motor()
+    names = ("contact stiffness", "rotor's mass", "friction", "damping", "off the free resonance")
+    low = np.array([math.log(8e8), math.log(0.02), 0.2, 0.005, -50.0])
+    high = np.array([math.log(3e10), math.log(0.1), 0.3, 0.007, 50.0])
+    draws = low + (high - low) * qmc.Sobol(len(names), seed=0).random(count)
+    found = np.zeros((count, len(TABLE_2)))
+    for row, draw in enumerate(draws):
+        at = {"contact_stiffness": math.exp(draw[0]), "friction_coefficient": draw[2], "damping_ratio": draw[3]}
+        machine = motor.with_values({name: float(value) for name, value in at.items()})
+        for column, force in enumerate(TABLE_2):
+            drive = _at_free_resonance(machine, Levels(), float(force), float(draw[4]))
+            found[row, column] = 1e6 * one_phase(machine, drive, Levels(), math.exp(draw[1]), steps=60).highest_wave
+    quantiles = [(f"{share:.0%}", *np.quantile(found, share, axis=0)) for share in (0.05, 0.5, 0.95)]
+    measured = ("measured", *(1e6 * size for size in TABLE_2.values()))
+    print(tabulate([measured, *quantiles], ("", *(f"{force:g} N" for force in TABLE_2)), floatfmt=".1f"))
+    ranks = draws.argsort(0).argsort(0)
+    rows = []
+    for column in (0, 4, 6):
+        of = found[:, column].argsort().argsort()
+        rows.append((f"{list(TABLE_2)[column]:g} N", *(np.corrcoef(ranks[:, k], of)[0, 1] for k in range(len(names)))))
+    print(tabulate(rows, ("rank correlation at", *names), floatfmt=".2f"))
+
+
+def main(arguments: list[str]) -> int:
+    """Print one of the tables."""
+    tables = {"table-2": table_2, "resonance": resonance, "table-3": table_3, "branches": branches}
+    if arguments and arguments[0] == "spread":
+        spread(int(arguments[1]) if len(arguments) > 1 else 32)
+    elif len(arguments) == 1 and arguments[0] in tables:
+        tables[arguments[0]]()
+    else:
+        print(f"one of {', '.join(tables)}, spread", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
