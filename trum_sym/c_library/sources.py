@@ -14,7 +14,15 @@ ONE_HEADER, ONE_SOURCE = "trum.h", "trum.c"
 _PACKAGE = Path(__file__).parents[1]
 _INSTALLED = _PACKAGE / "data" / "c"
 _TREE = _PACKAGE.parent
-_OTHERS = {"trum_coupled.h", "trum_lanes.h", "trum_elementary.h", "trum_browser.c", "trum_unit.h", "trum_fmi2.c", "trum_fmi3.c"}
+_OTHERS = {
+    "trum_coupled.h",
+    "trum_lanes.h",
+    "trum_elementary.h",
+    "trum_browser.c",
+    "trum_unit.h",
+    "trum_fmi2.c",
+    "trum_fmi3.c",
+}
 _INCLUDE = re.compile(r'^#include "([^"]+)".*\n', re.M)
 _CALL = re.compile(r"^static inline void (trum_call_\w+)\(.*?^}\n\n", re.M | re.S)
 # What an exported copy is compiled for stands in the header that every other includes first
