@@ -7,6 +7,12 @@ static trum_real trum_fine_level(trum_real tolerance) {
   return trum_step_share * (tolerance < trum_coarsest ? tolerance : trum_coarsest);
 }
 
+/* That of the held rotor's lap: finer tolerances have more steps, whose errors add up. */
+static trum_real trum_held_level(trum_real tolerance) {
+  const trum_real share = tolerance < TRUM_C(1e-6) ? trum_pow(tolerance / TRUM_C(1e-6), TRUM_C(0.2)) : 1;
+  return share * trum_fine_level(tolerance);
+}
+
 /* A drive cycle: its regions' start phasors and lengths in drive periods, and the phasors' derivatives by resonance and
  * frequency difference. */
 typedef struct {
@@ -28,7 +34,7 @@ typedef struct {
 
 /* What errors are measured by: a speed; with slopes the sums of the lap before. */
 typedef struct {
-  trum_real speed, growth, friction[PARAMETERS], angle[PARAMETERS];
+  trum_real speed, top, growth, friction[PARAMETERS], angle[PARAMETERS];
 } trum_scales;
 
 /* A lap of the held rotor; laps far from the orbit; laps whose steps meet the tolerance. */
@@ -102,6 +108,7 @@ static void trum_set_tolerances(trum_lanes* lanes, int i, const trum_search* sea
   }
   set_lane(&t->root, i, trum_root_share * trum_cbrt(allowed * allowed * period));
   set_lane(&t->kink, i, trum_kink_share * allowed);
+  set_lane(&t->trial, i, held ? 0 : 4 * in->tolerance * search->scales.top);
   set_lane(&t->newton, i, held ? 0 : allowed * in->push * trum_sqrt(trum_newton_share * in->m / search->level));
   set_lane(&t->slope_start, i, close ? trum_slope_start_tolerance * period : TRUM_HUGE);
   set_lane(&t->slope_end, i, close ? trum_slope_end_tolerance * period : TRUM_HUGE);
@@ -157,12 +164,16 @@ static void trum_start_lap(trum_lanes* lanes, int i, trum_search* search) {
   set_lane(&lanes->equation.push, i, held ? 0 : in->push), set_lane(&lanes->equation.drag, i, held ? 0 : in->drag);
   set_lane(&lanes->equation.v0, i, search->start_speed);
   trum_set_tolerances(lanes, i, search);
-  set_lane(&lanes->step.stiffness, i, 0);
+  set_lane(&lanes->step.stiffness, i, 0), set_lane(&lanes->step.growth, i, trum_step_growth);
   set_lane(&lanes->step.steps_left, i, trum_max_steps_per_period * in->m);
   set_lane(&lanes->step.free_h, i, trum_first_step * lane_value(&lanes->equation.period, i));
   set_lane(&start->x, i, 0), set_lane(&start->S, i, 1);
   set_lane(&start->f, i, 0), set_lane(&start->f_v, i, 0), set_lane(&start->theta, i, 0);
   trum_clear_lap(&lanes->lap, i, with_slopes(lanes));
+  set_lane(&lanes->lap.low_if[0], i, -lane_value(&lanes->tolerances.trial, i));
+  set_lane(&lanes->lap.low_if[1], i, lane_value(&lanes->tolerances.trial, i));
+  set_lane(&lanes->lap.high_if[0], i, -lane_value(&lanes->tolerances.trial, i));
+  set_lane(&lanes->lap.high_if[1], i, lane_value(&lanes->tolerances.trial, i));
   trum_clear_sensitivity(&lanes->sensitivity, i, with_slopes(lanes));
   set_lane_mask(&lanes->status.at_lap_start, i, 1), set_lane_mask(&lanes->status.failed, i, 0);
   set_lane_mask(&lanes->status.active, i, 1);

@@ -8,8 +8,14 @@
 #ifndef TRUM_ORBIT_SHOOTING_H
 #define TRUM_ORBIT_SHOOTING_H
 
-/* The level of laps far from the orbit: Newton's step from there leaves its square, so that one fine lap is enough. */
-static trum_real trum_rough_level(trum_real tolerance) { return TRUM_C(0.02) * trum_sqrt(tolerance); }
+/* The level of laps far from the orbit: their start is known so well in the end that one fine lap is enough. */
+static trum_real trum_rough_level(trum_real tolerance) { return TRUM_C(0.2) * trum_pow(tolerance, TRUM_C(0.8)); }
+
+/* The level at which a lap's own errors, which are `excess` times the tolerance at the level of this one, would be a
+ * third of it.  A finer level has more steps, whose errors add up, so that these fall more slowly than the level. */
+static trum_real trum_level_for(trum_real level, trum_real excess) {
+  return level * trum_pow(trum_larger(TRUM_C(0.35) / excess, TRUM_C(1e-3)), TRUM_C(1.2));
+}
 
 /* Slopes of the figures once the orbit is found.  The start speed follows a parameter by the implicit function theorem:
  * d0 = dx(end) / (1 - growth). */
@@ -55,6 +61,7 @@ static void trum_update_slope_scales(const trum_lanes* lanes, int i, trum_search
 /* What a finished lap says of the orbit. */
 typedef struct {
   trum_real gain, growth, decay;     /* of speed over the lap; S at its end; 1 - growth */
+  trum_real off;                     /* what it is off by, at most */
   trum_real exact_gain, uncertainty; /* the gain without the lap's errors; what it may still be off by */
   trum_real top, bound;              /* the largest speed of the lap; above all speeds that are possible */
   trum_real newton, saturated_gain;  /* Newton's step; the gain of a lap with saturated friction, where that is smaller */
@@ -73,6 +80,7 @@ static trum_lap_summary trum_summarise_lap(const trum_lanes* lanes, int i, trum_
   trum_lap_summary s;
   s.gain = lane_value(&lanes->start.x, i), s.growth = lane_value(&lanes->start.S, i);
   s.decay = trum_larger(1 - s.growth, trum_least_decay);
+  s.off = (1 + trum_first_order_share) * trum_fabs(error) + lane_value(&lap->remainder, i);
   s.exact_gain = s.gain - error, s.uncertainty = TRUM_C(0.1) * trum_fabs(error) + lane_value(&lap->remainder, i);
   s.bound = TRUM_C(1.5) * lane_value(&lap->fastest, i);
   s.top = trum_larger(trum_fabs(search->start_speed + lane_value(&lap->low, i)),
@@ -104,14 +112,30 @@ static void trum_compare_laps(const trum_search* search, trum_lap_summary* s) {
              trum_fabs(s->newton) + s->uncertainty / s->decay <= trum_larger(TRUM_C(0.1) * s->trusted, TRUM_C(0.05) * allowed);
 }
 
+/* By how much more than the lap's lowest and highest speed others may move with a change of the start of up to `reach`.  A
+ * minimum of lines is concave: between no change and the trial it is above the chord. */
+static trum_real trum_rival(const trum_lanes* lanes, int i, trum_real reach, trum_real gain) {
+  const trum_lap* lap = &lanes->lap;
+  const trum_real trial = lane_value(&lanes->tolerances.trial, i);
+  const trum_real of_low = trial * lane_value(&lap->S_low, i), of_high = trial * lane_value(&lap->S_high, i);
+  const trum_real low = lane_value(&lap->low, i), high = lane_value(&lap->high, i);
+  trum_real most = trum_larger(low - of_low - lane_value(&lap->low_if[0], i), low + of_low - lane_value(&lap->low_if[1], i));
+  if (!(reach < trial)) return trum_fabs(gain);
+  most = trum_larger(most, lane_value(&lap->high_if[0], i) - high + of_high);
+  most = trum_larger(most, lane_value(&lap->high_if[1], i) - high - of_high);
+  return most * (reach / trial);
+}
+
 /* What the change of the start speed is uncertain by: Newton's step in the ratio in which its slope is off, or the
  * bracket. */
-static trum_start_change trum_uncertain_change(const trum_search* search, const trum_lap_summary* s, trum_real change) {
+static trum_start_change trum_uncertain_change(const trum_lanes* lanes, int i, const trum_search* search,
+                                               const trum_lap_summary* s, trum_real change) {
   const trum_real width = search->bracket.sure_high - search->bracket.sure_low;
   trum_start_change start;
-  start.change = s->known ? s->newton : change, start.rival = trum_fabs(s->gain);
+  start.change = s->known ? s->newton : change;
   start.uncertainty = s->known ? trum_fabs(s->newton) * s->share : TRUM_HUGE;
   if (width < 2 * s->bound && width < start.uncertainty) start.uncertainty = width;
+  start.rival = trum_rival(lanes, i, trum_fabs(start.change) + start.uncertainty + 2 * s->off / s->decay, s->gain);
   return start;
 }
 
@@ -171,7 +195,7 @@ static int trum_finish_held_lap(trum_lanes* lanes, int i, trum_search* search) {
   }
   if (!with_slopes(lanes) && !met && ++search->refinements <= 6) {
     const trum_real error = trum_larger(out->contact_error, out->held_error);
-    search->level *= TRUM_C(0.3) * trum_larger(search->in->tolerance / error, TRUM_C(0.01));
+    search->level = trum_level_for(search->level, error / search->in->tolerance);
     trum_start_lap(lanes, i, search);
     return 1;
   }
@@ -192,17 +216,29 @@ static int trum_repeat_failed_lap(trum_lanes* lanes, int i, trum_search* search)
   return 1;
 }
 
+/* The bound of a lap's figures over its largest speed, were its start off by no more than the lap's own errors make it.
+ * Stores nothing. */
+static trum_real trum_own_bound(const trum_lanes* lanes, int i, trum_search* search, const trum_lap_summary* s) {
+  const trum_real error = trum_fabs(lane_value(&lanes->lap.error, i));
+  const trum_real uncertainty = s->share * error / s->decay;
+  const trum_start_change own = {s->newton, uncertainty,
+                                 trum_rival(lanes, i, uncertainty + 3 * s->off / s->decay, error)};
+  const trum_orbit_out kept = *search->out;
+  trum_real bound;
+  trum_store_orbit(lanes, i, search, own, s->top);
+  bound = search->out->error, *search->out = kept;
+  return bound;
+}
+
 /* After a fine lap whose bounds do not meet the tolerance: shorter steps if its own errors are too large; else from a
  * better start, or on both sides of a start whose gain has no certain sign.  Returns the next start. */
 static trum_real trum_refine(const trum_lanes* lanes, int i, trum_search* search, const trum_lap_summary* s, trum_real next) {
-  const trum_real allowed = search->in->tolerance * s->top, error = trum_fabs(lane_value(&lanes->lap.error, i));
+  const trum_real allowed = search->in->tolerance * s->top;
   const trum_real width = search->bracket.high - search->bracket.low, middle = search->start_speed;
   trum_newton_record* newton = &search->newton;
-  trum_start_change own = {s->known ? s->newton : next - middle, s->share * error / s->decay, error};
-  trum_store_orbit(lanes, i, search, own, s->top);
   if (s->known) {
-    const trum_real excess = search->out->error / search->in->tolerance;
-    if (excess > 1 && ++search->refinements <= 12) search->level *= TRUM_C(0.3) * trum_larger(1 / excess, TRUM_C(0.003));
+    const trum_real excess = trum_own_bound(lanes, i, search, s) / search->in->tolerance;
+    if (excess > 1 && ++search->refinements <= 12) search->level = trum_level_for(search->level, excess);
     return next;
   }
   if (s->certain) return next;
@@ -243,7 +279,10 @@ static int trum_finish_rough_lap(trum_lanes* lanes, int i, trum_search* search, 
   }
   if ((trum_fabs(change) <= nearly && s->change < TRUM_C(0.7)) || !s->certain ||
       search->bracket.high - search->bracket.low <= nearly) {
-    search->stage = STAGE_FINE, search->level = trum_fine_level(search->in->tolerance);
+    const trum_real fine_level = trum_fine_level(search->in->tolerance);
+    const trum_real wanted =
+        s->known ? trum_level_for(search->level, trum_own_bound(lanes, i, search, s) / search->in->tolerance) : fine_level;
+    search->stage = STAGE_FINE, search->level = wanted < fine_level ? wanted : fine_level;
   } else if (search->laps == 1) {
     search->level = trum_rough_level(search->in->tolerance);
   }
@@ -253,7 +292,7 @@ static int trum_finish_rough_lap(trum_lanes* lanes, int i, trum_search* search, 
 /* The bounds after a fine lap: 1 if they meet the tolerance, or if no more laps are allowed. */
 static int trum_finish_fine_lap(trum_lanes* lanes, int i, trum_search* search, const trum_lap_summary* s,
                                 trum_real change) {
-  trum_store_orbit(lanes, i, search, trum_uncertain_change(search, s, change), s->top);
+  trum_store_orbit(lanes, i, search, trum_uncertain_change(lanes, i, search, s, change), s->top);
   if (search->out->error <= search->in->tolerance) search->out->flags += trum_converged;
   else if (s->last) search->out->flags += trum_too_many_laps;
   else return 0;
@@ -282,6 +321,7 @@ static int trum_finish_lap(trum_lanes* lanes, int i, trum_search* search) {
     return 0;
   }
   if (!with_slopes(lanes)) search->scales.speed = trum_scale_of(search->in, &s, lane_value(&lanes->equation.cycle_time, i));
+  search->scales.top = s.top;
   newton->start = search->start_speed, newton->decay = s.decay, newton->exact_gain = s.exact_gain;
   newton->uncertainty = s.uncertainty, newton->trusted = s.trusted, newton->slope_error = s.slope_error;
   search->start_speed = next;
