@@ -271,17 +271,20 @@ static int trum_finish_lap_with_slopes(trum_lanes* lanes, int i, trum_search* se
 static int trum_finish_rough_lap(trum_lanes* lanes, int i, trum_search* search, const trum_lap_summary* s,
                                  trum_real change) {
   const trum_real nearly = s->top * trum_sqrt(TRUM_C(0.1) * search->in->tolerance);
+  /* where laps forget their start, the next one begins close to the orbit however far this one did */
+  const int forgets = 5 * s->growth * trum_fabs(change) <= nearly && s->growth < TRUM_C(0.1);
   if (s->last) {
     const trum_start_change start = {change, TRUM_HUGE, 0};
     trum_store_orbit(lanes, i, search, start, s->top);
     search->out->flags += trum_too_many_laps;
     return 0;
   }
-  if ((trum_fabs(change) <= nearly && s->change < TRUM_C(0.7)) || !s->certain ||
+  if ((trum_fabs(change) <= nearly && s->change < TRUM_C(0.7)) || forgets || !s->certain ||
       search->bracket.high - search->bracket.low <= nearly) {
     const trum_real fine_level = trum_fine_level(search->in->tolerance);
-    const trum_real wanted =
-        s->known ? trum_level_for(search->level, trum_own_bound(lanes, i, search, s) / search->in->tolerance) : fine_level;
+    trum_real wanted = fine_level;
+    if (s->known || forgets)
+      wanted = trum_level_for(search->level, trum_own_bound(lanes, i, search, s) / search->in->tolerance);
     search->stage = STAGE_FINE, search->level = wanted < fine_level ? wanted : fine_level;
   } else if (search->laps == 1) {
     search->level = trum_rough_level(search->in->tolerance);
