@@ -81,7 +81,7 @@ static void trum_accept_step(trum_lanes* lanes, const trum_trial_step* trial, ma
     sum_S = sum_S + b * S[j], sum_xS = sum_xS + b * (trial->x[j] * S[j]);
   }
   if (with_slopes(lanes)) trum_accept_sensitivities(lanes, trial, T_f_v, K, &equations, accepted, d);
-  trum_update_extremes(lanes->tolerances.trial, rate, trial->x, S, d, with_slopes(lanes), accepted & mask_not(held), trial->damped, defect,
+  trum_update_extremes(rate, trial->x, S, d, with_slopes(lanes), accepted & mask_not(held), trial->damped, defect,
                        lap);
   for (j = 1; j < NODES; ++j) {
     lap->fastest = where(accepted, maximum(lap->fastest, trial->at[j].R_v), lap->fastest);

@@ -10,19 +10,14 @@ static void trum_mark_extremes(trum_lap* lap, mask lower, mask higher, real erro
   lap->high_remainder = where(higher, remainder, lap->high_remainder);
 }
 
-/* Widens the bounds of all extremes by a speed and what it may be off by, and those of laps that begin lower or higher by
- * the speed's change with the start. */
-static void trum_widen(trum_lap* lap, mask relevant, real value, real off, real change) {
+/* Widens the bounds of all extremes by a speed and what it may be off by. */
+static void trum_widen(trum_lap* lap, mask relevant, real value, real off) {
   lap->lowest = where(relevant, minimum(lap->lowest, value - off), lap->lowest);
   lap->highest = where(relevant, maximum(lap->highest, value + off), lap->highest);
-  lap->low_if[0] = where(relevant, minimum(lap->low_if[0], value - change), lap->low_if[0]);
-  lap->low_if[1] = where(relevant, minimum(lap->low_if[1], value + change), lap->low_if[1]);
-  lap->high_if[0] = where(relevant, maximum(lap->high_if[0], value - change), lap->high_if[0]);
-  lap->high_if[1] = where(relevant, maximum(lap->high_if[1], value + change), lap->high_if[1]);
 }
 
 /* Takes an accepted step into the lap's extremes of x, with S and the sensitivities at them. */
-static void trum_update_extremes(real trial, const real* G, const real* x, const real* S, real (*d)[NODES], int slopes,
+static void trum_update_extremes(const real* G, const real* x, const real* S, real (*d)[NODES], int slopes,
                                  mask accepted, mask damped, const trum_defect* defect, trum_lap* lap) {
   static const trum_real P[NODES][NODES] = TRUM_COLLOCATION_POWERS;
   real p[NODES], top = maximum(x[0], x[1]), bottom = minimum(x[0], x[1]), steepest = absolute(G[0]);
@@ -39,8 +34,7 @@ static void trum_update_extremes(real trial, const real* G, const real* x, const
   /* no interior value is further than half the steepest rate from a node's: skip what cannot matter */
   relevant = accepted & has_extremum;
   relevant = relevant &
-             (less_than(lap->high, top + REAL(0.5) * steepest + trial) |
-              less_than(bottom - REAL(0.5) * steepest - trial, lap->low));
+             (less_than(lap->high, top + REAL(0.5) * steepest) | less_than(bottom - REAL(0.5) * steepest, lap->low));
   if (any_lane(relevant)) {
     for (k = 0; k < NODES; ++k) {
       p[k] = REAL(P[k][0]) * G[0];
@@ -65,7 +59,7 @@ static void trum_update_extremes(real trial, const real* G, const real* x, const
       lap->low = where(lower, value, lap->low), lap->S_low = where(lower, S_there, lap->S_low);
       lap->high = where(higher, value, lap->high), lap->S_high = where(higher, S_there, lap->S_high);
       trum_mark_extremes(lap, lower, higher, error, remainder);
-      trum_widen(lap, relevant, value, error + remainder, trial * S_there);
+      trum_widen(lap, relevant, value, error + remainder);
       for (parameter = 0; slopes && parameter < PARAMETERS; ++parameter) {
         real slope_there = weight[0] * d[parameter][0];
         for (j = 1; j < NODES; ++j) slope_there = slope_there + weight[j] * d[parameter][j];
@@ -80,7 +74,7 @@ static void trum_update_extremes(real trial, const real* G, const real* x, const
     lap->low = where(lower, x[LAST_NODE], lap->low), lap->S_low = where(lower, S[LAST_NODE], lap->S_low);
     lap->high = where(higher, x[LAST_NODE], lap->high), lap->S_high = where(higher, S[LAST_NODE], lap->S_high);
     trum_mark_extremes(lap, lower, higher, end_error, end_remainder);
-    trum_widen(lap, accepted, x[LAST_NODE], end_error + end_remainder, trial * S[LAST_NODE]);
+    trum_widen(lap, accepted, x[LAST_NODE], end_error + end_remainder);
     for (k = 0; slopes && k < PARAMETERS; ++k) {
       lap->d_low[k] = where(lower, d[k][LAST_NODE], lap->d_low[k]);
       lap->d_high[k] = where(higher, d[k][LAST_NODE], lap->d_high[k]);

@@ -34,7 +34,7 @@ typedef struct {
 
 /* What errors are measured by: a speed; with slopes the sums of the lap before. */
 typedef struct {
-  trum_real speed, top, growth, friction[PARAMETERS], angle[PARAMETERS];
+  trum_real speed, growth, friction[PARAMETERS], angle[PARAMETERS];
 } trum_scales;
 
 /* A lap of the held rotor; laps far from the orbit; laps whose steps meet the tolerance. */
@@ -108,7 +108,6 @@ static void trum_set_tolerances(trum_lanes* lanes, int i, const trum_search* sea
   }
   set_lane(&t->root, i, trum_root_share * trum_cbrt(allowed * allowed * period));
   set_lane(&t->kink, i, trum_kink_share * allowed);
-  set_lane(&t->trial, i, held ? 0 : 4 * in->tolerance * search->scales.top);
   set_lane(&t->newton, i, held ? 0 : allowed * in->push * trum_sqrt(trum_newton_share * in->m / search->level));
   set_lane(&t->slope_start, i, close ? trum_slope_start_tolerance * period : TRUM_HUGE);
   set_lane(&t->slope_end, i, close ? trum_slope_end_tolerance * period : TRUM_HUGE);
@@ -170,10 +169,6 @@ static void trum_start_lap(trum_lanes* lanes, int i, trum_search* search) {
   set_lane(&start->x, i, 0), set_lane(&start->S, i, 1);
   set_lane(&start->f, i, 0), set_lane(&start->f_v, i, 0), set_lane(&start->theta, i, 0);
   trum_clear_lap(&lanes->lap, i, with_slopes(lanes));
-  set_lane(&lanes->lap.low_if[0], i, -lane_value(&lanes->tolerances.trial, i));
-  set_lane(&lanes->lap.low_if[1], i, lane_value(&lanes->tolerances.trial, i));
-  set_lane(&lanes->lap.high_if[0], i, -lane_value(&lanes->tolerances.trial, i));
-  set_lane(&lanes->lap.high_if[1], i, lane_value(&lanes->tolerances.trial, i));
   trum_clear_sensitivity(&lanes->sensitivity, i, with_slopes(lanes));
   set_lane_mask(&lanes->status.at_lap_start, i, 1), set_lane_mask(&lanes->status.failed, i, 0);
   set_lane_mask(&lanes->status.active, i, 1);

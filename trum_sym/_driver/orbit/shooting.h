@@ -112,30 +112,22 @@ static void trum_compare_laps(const trum_search* search, trum_lap_summary* s) {
              trum_fabs(s->newton) + s->uncertainty / s->decay <= trum_larger(TRUM_C(0.1) * s->trusted, TRUM_C(0.05) * allowed);
 }
 
-/* By how much more than the lap's lowest and highest speed others may move with a change of the start of up to `reach`.  A
- * minimum of lines is concave: between no change and the trial it is above the chord. */
-static trum_real trum_rival(const trum_lanes* lanes, int i, trum_real reach, trum_real gain) {
-  const trum_lap* lap = &lanes->lap;
-  const trum_real trial = lane_value(&lanes->tolerances.trial, i);
-  const trum_real of_low = trial * lane_value(&lap->S_low, i), of_high = trial * lane_value(&lap->S_high, i);
-  const trum_real low = lane_value(&lap->low, i), high = lane_value(&lap->high, i);
-  trum_real most = trum_larger(low - of_low - lane_value(&lap->low_if[0], i), low + of_low - lane_value(&lap->low_if[1], i));
-  if (!(reach < trial)) return trum_fabs(gain);
-  most = trum_larger(most, lane_value(&lap->high_if[0], i) - high + of_high);
-  most = trum_larger(most, lane_value(&lap->high_if[1], i) - high - of_high);
-  return most * (reach / trial);
+/* By how much more than a lap's lowest and highest speed others may move, when its start changes so that its end changes by
+ * `change`.  Any speed moves by `growth` to 1 times the start's change, so that by which they differ is no more than the
+ * end's, for certain; and the start is off by the lap's own errors, twice. */
+static trum_real trum_rival(const trum_lap_summary* s, trum_real change) {
+  return (change + 2 * s->off) / trum_bound_safety;
 }
 
 /* What the change of the start speed is uncertain by: Newton's step in the ratio in which its slope is off, or the
  * bracket. */
-static trum_start_change trum_uncertain_change(const trum_lanes* lanes, int i, const trum_search* search,
-                                               const trum_lap_summary* s, trum_real change) {
+static trum_start_change trum_uncertain_change(const trum_search* search, const trum_lap_summary* s, trum_real change) {
   const trum_real width = search->bracket.sure_high - search->bracket.sure_low;
   trum_start_change start;
   start.change = s->known ? s->newton : change;
   start.uncertainty = s->known ? trum_fabs(s->newton) * s->share : TRUM_HUGE;
   if (width < 2 * s->bound && width < start.uncertainty) start.uncertainty = width;
-  start.rival = trum_rival(lanes, i, trum_fabs(start.change) + start.uncertainty + 2 * s->off / s->decay, s->gain);
+  start.rival = trum_rival(s, trum_fabs(s->gain));
   return start;
 }
 
@@ -221,8 +213,7 @@ static int trum_repeat_failed_lap(trum_lanes* lanes, int i, trum_search* search)
 static trum_real trum_own_bound(const trum_lanes* lanes, int i, trum_search* search, const trum_lap_summary* s) {
   const trum_real error = trum_fabs(lane_value(&lanes->lap.error, i));
   const trum_real uncertainty = s->share * error / s->decay;
-  const trum_start_change own = {s->newton, uncertainty,
-                                 trum_rival(lanes, i, uncertainty + 3 * s->off / s->decay, error)};
+  const trum_start_change own = {s->newton, uncertainty, trum_rival(s, error)};
   const trum_orbit_out kept = *search->out;
   trum_real bound;
   trum_store_orbit(lanes, i, search, own, s->top);
@@ -272,7 +263,8 @@ static int trum_finish_rough_lap(trum_lanes* lanes, int i, trum_search* search, 
                                  trum_real change) {
   const trum_real nearly = s->top * trum_sqrt(TRUM_C(0.1) * search->in->tolerance);
   /* where laps forget their start, the next one begins close to the orbit however far this one did */
-  const int forgets = 5 * s->growth * trum_fabs(change) <= nearly && s->growth < TRUM_C(0.1);
+  const int forgets = 5 * s->growth * trum_fabs(change) <= nearly && s->growth < TRUM_C(0.1) &&
+                      trum_fabs(change) >= TRUM_C(0.9) * trum_fabs(s->newton);
   if (s->last) {
     const trum_start_change start = {change, TRUM_HUGE, 0};
     trum_store_orbit(lanes, i, search, start, s->top);
@@ -295,7 +287,7 @@ static int trum_finish_rough_lap(trum_lanes* lanes, int i, trum_search* search, 
 /* The bounds after a fine lap: 1 if they meet the tolerance, or if no more laps are allowed. */
 static int trum_finish_fine_lap(trum_lanes* lanes, int i, trum_search* search, const trum_lap_summary* s,
                                 trum_real change) {
-  trum_store_orbit(lanes, i, search, trum_uncertain_change(lanes, i, search, s, change), s->top);
+  trum_store_orbit(lanes, i, search, trum_uncertain_change(search, s, change), s->top);
   if (search->out->error <= search->in->tolerance) search->out->flags += trum_converged;
   else if (s->last) search->out->flags += trum_too_many_laps;
   else return 0;
@@ -324,7 +316,6 @@ static int trum_finish_lap(trum_lanes* lanes, int i, trum_search* search) {
     return 0;
   }
   if (!with_slopes(lanes)) search->scales.speed = trum_scale_of(search->in, &s, lane_value(&lanes->equation.cycle_time, i));
-  search->scales.top = s.top;
   newton->start = search->start_speed, newton->decay = s.decay, newton->exact_gain = s.exact_gain;
   newton->uncertainty = s.uncertainty, newton->trusted = s.trusted, newton->slope_error = s.slope_error;
   search->start_speed = next;

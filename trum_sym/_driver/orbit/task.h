@@ -89,7 +89,7 @@ static int trum_load_task(trum_lanes* lanes, int i, trum_search* search, const t
   search->stage = STAGE_HELD, search->start_speed = 0;
   search->bracket.low = search->bracket.sure_low = -TRUM_HUGE;
   search->bracket.high = search->bracket.sure_high = TRUM_HUGE;
-  search->scales.speed = search->scales.top = 0, search->level = trum_held_level(in->tolerance);
+  search->scales.speed = 0, search->level = trum_held_level(in->tolerance);
   search->held_laps = 0, trum_reset_slope_scales(search);
   if (with_slopes(lanes)) trum_load_region_slopes(search);
   if (!held) return trum_start_search(lanes, i, search, known);

@@ -34,7 +34,6 @@ typedef struct {
    * integrals of f and theta.  Integrals of S^2 and of the interpolants' error inside the steps. */
   real error, remainder, error_sum, remainder_sum, error_square, error_S, remainder_square, SS, inside;
   real low_error, low_remainder, high_error, high_remainder;
-  real low_if[2], high_if[2]; /* lowest and highest x if the lap had begun lower or higher by the trial of the start */
   real lowest, highest; /* bounds of x at all extremes, those that are not the lap's by a hair too */
   real friction_error, friction_remainder, angle_error, angle_remainder;
   real d_x[PARAMETERS], d_xx[PARAMETERS];           /* sensitivities of all of these: integrals of dx and x dx, */
@@ -59,7 +58,6 @@ typedef struct {
 typedef struct {
   real inverse_step;   /* of f, and of theta / pi of a held rotor */
   real root, kink;     /* distance from an event, s; times pressure at a kink */
-  real trial;          /* change of the start by which it is seen which extremes are rivals, m/s */
   real newton;         /* Newton's last change, m/s; its square is left over */
   real inverse_growth; /* of the sensitivities' Jacobian, */
   real inverse_friction[PARAMETERS], inverse_angle[PARAMETERS]; /* of their sources */
