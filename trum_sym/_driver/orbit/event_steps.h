@@ -56,15 +56,12 @@ static trum_next_step trum_adjust_to_events(trum_lanes* lanes, trum_trial_step* 
       q.d2 = where(is_this, cubic[k].d2, q.d2), q.d3 = where(is_this, cubic[k].d3, q.d3);
       distance = where(is_this, absolute(trial->events[LAST_NODE][k]), distance);
     }
-    /* Newton; the event may lie beyond the step's end, by a quarter of the step */
-    const real furthest = where(starts_at_root, REAL(1.1180339887498949), REAL(1.25));
-    for (j = 0; j < 3; ++j) {
+    for (j = 0; j < 3; ++j) { /* Newton; the event may lie beyond the step's end */
       const real slope = trum_cubic_slope(&q, root);
       const mask usable = less_than(REAL(trum_no_slope), absolute(slope));
       root = where(usable, root - trum_cubic_at(&q, root) * reciprocal(where(usable, slope, REAL(1))), root);
-      root = maximum(REAL(1), minimum(furthest, root));
+      root = maximum(REAL(1), minimum(REAL(1.25), root));
     }
-    root = where(starts_at_root, root * root, root); /* from the step's parameter to time */
     same = trum_is_event(event, lanes->step.target_event) & mask_not(close);
     root = where(same, location, root);
     is_root = trum_is_event(lanes->step.target_event, REAL(EVENT_SATURATION)) |

@@ -52,15 +52,15 @@ typedef struct {
   mask found;
 } trum_crossing;
 
-/* Looks for a crossing of the cubic through e at the nodes s, from the second node on where the step starts at the event. */
-static trum_crossing trum_find_crossing(const trum_cubic* c, const real* s, real (*e)[EVENT_COUNT], int k, mask starts_here) {
+/* Looks for a crossing of the cubic through e at the nodes z, from the second node on where the step starts at the event. */
+static trum_crossing trum_find_crossing(const trum_cubic* c, const real* z, real (*e)[EVENT_COUNT], int k, mask starts_here) {
   const mask positive = less_than(REAL(0), where(starts_here, e[1][k], e[0][k]));
   trum_crossing crossing;
   int j;
   crossing.found = mask_all(0), crossing.from = crossing.to = REAL(0);
   for (j = 1; j < NODES; ++j) {
     const mask crossed = mask_not(crossing.found) & (less_than(REAL(0), e[j][k]) ^ positive);
-    crossing.from = where(crossed, s[j - 1], crossing.from), crossing.to = where(crossed, s[j], crossing.to);
+    crossing.from = where(crossed, z[j - 1], crossing.from), crossing.to = where(crossed, z[j], crossing.to);
     crossing.found = crossing.found | crossed;
   }
   { /* a double crossing between two nodes: look at the cubic's minimum (maximum, if it begins negative) */
@@ -70,7 +70,7 @@ static trum_crossing trum_find_crossing(const trum_cubic* c, const real* s, real
     const real below = c2 + square_root(maximum(square, REAL(0)));
     const mask has_extremum = less_than(REAL(0), square) & less_than(REAL(TRUM_EITHER(1e-300, 1e-37)), absolute(below));
     const real lowest = where(has_extremum, -c1 * reciprocal(where(has_extremum, below, REAL(1))), REAL(-1));
-    const real begin = where(starts_here, s[1], REAL(0));
+    const real begin = where(starts_here, z[1], REAL(0));
     const mask between = has_extremum & less_than(begin, lowest) & less_than(lowest, where(crossing.found, crossing.to, REAL(1)));
     const mask crossed = between & at_most(side * trum_cubic_at(c, lowest), REAL(0));
     crossing.from = where(crossed, begin, crossing.from), crossing.to = where(crossed, lowest, crossing.to);
@@ -80,24 +80,19 @@ static trum_crossing trum_find_crossing(const trum_cubic* c, const real* s, real
 }
 
 /* The first event in a step: its location in lengths of the step (2 if there is none) and its number.  Where friction
- * is saturated no point is as fast as the rotor, so there are no edges to cross.  In a step after a square root of time
- * the cubics are in the step's parameter, in which all is smooth, else in time. */
+ * is saturated no point is as fast as the rotor, so there are no edges to cross. */
 static void trum_locate_first_event(const trum_lanes* lanes, const real* z, real (*e)[EVENT_COUNT], trum_cubic* cubic,
                                     real* location, real* event) {
-  static const trum_real points[NODES] = TRUM_COLLOCATION_POINTS;
-  const mask after_root = less_than(lanes->step.curvature, REAL(0));
+  const trum_node_distances distances = trum_distances_of(z);
   const mask saturated =
       at_most(where(lanes->start.at_event[EVENT_SATURATION], e[1][EVENT_SATURATION], e[0][EVENT_SATURATION]), REAL(0));
-  trum_node_distances distances;
   trum_crossing crossing[EVENT_COUNT];
-  real s[NODES], root[EVENT_COUNT];
+  real root[EVENT_COUNT];
   mask any = mask_all(0);
   int k, j;
-  for (j = 0; j < NODES; ++j) s[j] = where(after_root, REAL(points[j]), z[j]);
-  distances = trum_distances_of(s);
   for (k = 0; k < EVENT_COUNT; ++k) {
     cubic[k] = trum_interpolate(&distances, e[0][k], e[1][k], e[2][k], e[LAST_NODE][k]);
-    crossing[k] = trum_find_crossing(&cubic[k], s, e, k, lanes->start.at_event[k]);
+    crossing[k] = trum_find_crossing(&cubic[k], z, e, k, lanes->start.at_event[k]);
     if (k == EVENT_LARGER_PRESSURE || k == EVENT_SMALLER_PRESSURE)
       crossing[k].found = crossing[k].found & mask_not(saturated);
     if (k != EVENT_FULL_CONTACT) crossing[k].found = crossing[k].found & mask_not(lanes->status.contact_only);
@@ -123,7 +118,6 @@ static void trum_locate_first_event(const trum_lanes* lanes, const real* z, real
     const mask earlier = crossing[k].found & less_than(root[k], *location);
     *location = where(earlier, root[k], *location), *event = where(earlier, REAL(k), *event);
   }
-  *location = where(after_root & at_most(REAL(0), *event), *location * *location, *location);
 }
 
 #endif
