@@ -13,6 +13,8 @@ import trum_sym as ts
 from trum_sym import _kernels
 from trum_sym.console import main
 from trum_sym.model.kernels import call
+from trum_sym.model.levels import Levels
+from trum_sym.model.operating_point import prepare
 
 pytestmark = pytest.mark.filterwarnings("ignore::trum_sym.ImplausibleWarning")  # friction from none to any
 
@@ -177,6 +179,28 @@ def test_a_batch_gives_the_same_bits_as_its_points_one_by_one(trum60):
             batch.min_speed[i],
             batch.max_speed[i],
         )
+
+
+@pytest.mark.parametrize("name", _kernels.instruction_sets())
+def test_nodes_side_by_side_give_the_bits_of_nodes_in_turn(trum60, name):
+    """With all lanes busy a step's nodes are evaluated in turn; with fewer points several at once, in idle lanes."""
+    orbits = {}
+    drive = ts.Drive(prepressure=np.linspace(120, 220, 8), periods=4, on_periods=3, load_torque=0.1)
+    values = dict(prepare(trum60, drive, Levels(), 1e-3).arguments)
+    best = list(_kernels.instruction_sets())[-1]
+    _kernels.use(name)
+    try:
+        for together in (8, 1, 2, 3):
+            parts = [
+                call("rotor_orbit", {k: np.broadcast_to(v, 8)[i : i + together] for k, v in values.items()})
+                for i in range(0, 8, together)
+            ]
+            orbits[together] = {k: np.concatenate([part[k] for part in parts]) for k in parts[0]}
+    finally:
+        _kernels.use(best)
+    assert (orbits[8]["flags"] == orbits[8]["flags"][0]).all()
+    for orbit in orbits.values():
+        assert all(np.array_equal(orbit[k], orbits[8][k]) for k in orbit)
 
 
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-6])

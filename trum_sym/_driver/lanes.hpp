@@ -58,7 +58,6 @@ inline Lane reciprocal(Lane a) {
   const Lane r = (Vector)_mm512_rcp14_pd((__m512d)a.v), s = r + r * (Lane(1.0) - a * r);
   return s + s * (Lane(1.0) - a * s);
 }
-inline bool any_lane(Bits mask) { return _mm512_test_epi64_mask((__m512i)mask, (__m512i)mask) != 0; }
 #elif defined(__AVX2__) && !defined(TRUM_PLAIN_LANES)
 static_assert(LANES == 4, "one register of lanes");
 inline Lane sqrt(Lane a) { return (Vector)_mm256_sqrt_pd((__m256d)a.v); }
@@ -162,18 +161,56 @@ inline Lane cube_root(Lane t) {
   return r * (cube + t + t) / (cube + cube + t);
 }
 
-// What trum_orbit.h asks of numbers and of their truth values.
-inline Bits less_than(Lane a, Lane b) { return a.v < b.v; }
-inline Bits at_most(Lane a, Lane b) { return a.v <= b.v; }
-inline Bits mask_not(Bits a) { return ~a; }
-inline Bits mask_all(int a) { return a ? ~Bits{} : Bits{}; }
-inline int mask_in_lane(Bits a, int i) { return a[i] != 0; }
-inline Lane where(Bits m, Lane a, Lane b) { return select(m, a, b); }
-inline Bits where_mask(Bits m, Bits a, Bits b) { return (m & a) | (~m & b); }
+// What trum_orbit.h asks of numbers and of their truth values, which AVX-512 keeps in registers of one bit a lane.
+#if defined(__AVX512F__) && !defined(TRUM_PLAIN_LANES)
+typedef __mmask8 Mask;
+inline Mask less_than(Lane a, Lane b) { return _mm512_cmp_pd_mask((__m512d)a.v, (__m512d)b.v, _CMP_LT_OQ); }
+inline Mask at_most(Lane a, Lane b) { return _mm512_cmp_pd_mask((__m512d)a.v, (__m512d)b.v, _CMP_LE_OQ); }
+inline Mask mask_not(Mask a) { return static_cast<Mask>(~a); }
+inline Mask mask_all(int a) { return a ? 0xff : 0; }
+inline int mask_in_lane(Mask a, int i) { return a >> i & 1; }
+inline Lane where(Mask m, Lane a, Lane b) { return (Vector)_mm512_mask_blend_pd(m, (__m512d)b.v, (__m512d)a.v); }
+inline Mask where_mask(Mask m, Mask a, Mask b) { return static_cast<Mask>((m & a) | (~m & b)); }
+inline bool any_lane(Mask m) { return m != 0; }
+inline void set_lane_mask(Mask* x, int i, int value) {
+  *x = static_cast<Mask>(value ? *x | 1 << i : *x & ~(1 << i));
+}
+#else
+typedef Bits Mask;
+inline Mask less_than(Lane a, Lane b) { return a.v < b.v; }
+inline Mask at_most(Lane a, Lane b) { return a.v <= b.v; }
+inline Mask mask_not(Mask a) { return ~a; }
+inline Mask mask_all(int a) { return a ? ~Mask{} : Mask{}; }
+inline int mask_in_lane(Mask a, int i) { return a[i] != 0; }
+inline Lane where(Mask m, Lane a, Lane b) { return select(m, a, b); }
+inline Mask where_mask(Mask m, Mask a, Mask b) { return (m & a) | (~m & b); }
+inline void set_lane_mask(Mask* x, int i, int value) { (*x)[i] = value ? -1 : 0; }
+#endif
 inline Lane minimum(Lane a, Lane b) { return fmin(a, b); }
 inline Lane maximum(Lane a, Lane b) { return fmax(a, b); }
 inline Lane absolute(Lane a) { return fabs(a); }
 inline Lane square_root(Lane a) { return sqrt(a); }
 inline double lane_value(const Lane* x, int i) { return x->v[i]; }
 inline void set_lane(Lane* x, int i, double value) { x->v[i] = value; }
-inline void set_lane_mask(Bits* x, int i, int value) { (*x)[i] = value ? -1 : 0; }
+
+// Numbers of other lanes: lane i of the result is lane from[i] of a.
+inline Bits lane_numbers() {
+  Bits numbers;
+  for (int i = 0; i < LANES; ++i) numbers[i] = i;
+  return numbers;
+}
+inline void set_lane_number(Bits* x, int i, int value) { (*x)[i] = value; }
+#if defined(__AVX512F__) && !defined(TRUM_PLAIN_LANES)
+inline Lane taken_from(Lane a, Bits from) { return (Vector)_mm512_permutexvar_pd((__m512i)from, (__m512d)a.v); }
+#elif defined(__AVX2__) && !defined(TRUM_PLAIN_LANES)
+inline Lane taken_from(Lane a, Bits from) {  // halves of numbers are what can be moved
+  const Bits halves = (from << 1) + (from << 33) + (1LL << 32);
+  return (Vector)_mm256_permutevar8x32_ps((__m256)a.v, (__m256i)halves);
+}
+#else
+inline Lane taken_from(Lane a, Bits from) {
+  Lane taken;
+  for (int i = 0; i < LANES; ++i) taken.v[i] = a.v[from[i]];
+  return taken;
+}
+#endif

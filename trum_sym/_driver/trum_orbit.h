@@ -20,6 +20,7 @@
 #include "orbit/types.h"
 #include "orbit/constants.h"
 #include "orbit/surface.h"
+#include "orbit/sharing.h"
 #include "orbit/derivatives.h"
 #include "orbit/collocation.h"
 #include "orbit/events.h"

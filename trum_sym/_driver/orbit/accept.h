@@ -163,9 +163,10 @@ static mask trum_advance_step(trum_lanes* lanes) {
   ratio = trum_error_ratio(lanes, &trial, minimal, &defect, longest);
   wrong = mask_not(at_most(ratio, REAL(1))) & mask_not(minimal);
   factor = REAL(trum_step_safety) * reciprocal(square_root(square_root(maximum(ratio, REAL(1e-5)))));
-  factor = minimum(REAL(trum_step_growth), maximum(REAL(0.15), factor));
+  factor = minimum(lanes->step.growth, maximum(REAL(0.15), factor));
   accepted = lanes->status.active & mask_not(next.retry) & mask_not(wrong), shrink = wrong & mask_not(next.retry);
   next.h = where(shrink, lanes->step.h * factor, next.h);
+  lanes->step.growth = where(shrink, REAL(1), where(accepted, REAL(trum_step_growth), lanes->step.growth));
   lanes->step.free_h = where(shrink, next.h, lanes->step.free_h);
   next.target_event = where(shrink, REAL(-1), next.target_event);
   next.curvature = where(shrink & less_than(REAL(0), next.curvature), REAL(0), next.curvature);

@@ -36,7 +36,7 @@ static int trum_solve_balance(trum_lanes* lanes, int i, trum_search* search) {
   if (in->m > in->n) return 0;
   if (!(motion <= TRUM_EITHER(4e-15, 2e-6) * in->W)) return 0;
   trum_start_lap(lanes, i, search);
-  trum_evaluate_surface(lanes, lanes->step.tau, &at);
+  trum_surface_at(&lanes->constants, &lanes->region, with_hertz(lanes), lanes->step.tau, &at);
   R_v = lane_value(&at.R_v, i), theta = lane_value(&at.theta, i);
   sense = lane_value(&at.cos_phi, i) < 0 ? -1 : 1; /* in which the crest travels */
   a = trum_angle_within(lane_value(&at.engagement, i), lane_value(&at.share, i), theta,

@@ -47,12 +47,13 @@ static void trum_evaluate_defect(const trum_lanes* lanes, const trum_trial_step*
   static const trum_real V[][NODES] = TRUM_CHECK_VALUES, U[][NODES] = TRUM_CHECK_INTEGRALS;
   const trum_equation* equation = &lanes->equation;
   const trum_step_control* step = &lanes->step;
+  trum_friction_state friction[CHECKS];
+  real v[CHECKS], rate[CHECKS];
   int i, j;
-  for (i = 0; i < 3; ++i) {
+  for (i = 0; i < CHECKS; ++i) {
     const real sigma = REAL(c[i]), z = sigma * (REAL(1) + step->curvature * (REAL(1) - sigma));
     const real T = step->h * (REAL(1) + step->curvature * (REAL(1) - REAL(2) * sigma));
-    real x = lanes->start.x, value = REAL(0), theta = REAL(0), ahead = stiff, f, f_v, larger, smaller;
-    trum_surface at;
+    real x = lanes->start.x, value = REAL(0), theta = REAL(0), ahead = stiff;
     for (j = 0; j < NODES; ++j) {
       const real G = trial->T[j] * trial->f[j];
       x = x + REAL(U[i][j]) * (equation->push * G - trial->T[j] * equation->drag);
@@ -60,12 +61,14 @@ static void trum_evaluate_defect(const trum_lanes* lanes, const trum_trial_step*
       theta = theta + REAL(V[i][j]) * (trial->T[j] * (j == 0 ? lanes->start.theta : trial->at[j].theta));
       ahead = ahead - REAL(U[i][j]) * K[j];
     }
-    trum_evaluate_surface(lanes, step->tau + step->h * z, &at);
-    trum_evaluate_friction(&at, equation->v0 + x, &f, &f_v, &larger, &smaller);
-    r[i] = value - T * f, angle[i] = theta - T * at.theta;
+    v[i] = equation->v0 + x;
+    r[i] = value, angle[i] = theta - T * trial->at[NODES + i].theta;
     exponent[i] = maximum(REAL(0), ahead), left[i] = step->h * (REAL(1) - z);
     *xx = *xx + REAL(b[i]) * T * (x * x);
+    rate[i] = T;
   }
+  trum_evaluate_frictions(lanes, trial->at + NODES, v, friction, CHECKS);
+  for (i = 0; i < CHECKS; ++i) r[i] = r[i] - rate[i] * friction[i].f;
 }
 
 /* What rounding makes of a step's integral of f: friction is a difference of two shares of the pressure, each rounded,

@@ -45,6 +45,40 @@ static real trum_cubic_slope(const trum_cubic* c, real z) {
   return c->d1 + (z - c->z1) * inner + z * (inner + (z - c->z1) * c->d3);
 }
 
+/* Where an event function leaves the side on which it begins: between two nodes, or at its lowest point between them
+ * (highest, if it begins negative). */
+typedef struct {
+  real from, to;
+  mask found;
+} trum_crossing;
+
+/* Looks for a crossing of the cubic through e at the nodes z, from the second node on where the step starts at the event. */
+static trum_crossing trum_find_crossing(const trum_cubic* c, const real* z, real (*e)[EVENT_COUNT], int k, mask starts_here) {
+  const mask positive = less_than(REAL(0), where(starts_here, e[1][k], e[0][k]));
+  trum_crossing crossing;
+  int j;
+  crossing.found = mask_all(0), crossing.from = crossing.to = REAL(0);
+  for (j = 1; j < NODES; ++j) {
+    const mask crossed = mask_not(crossing.found) & (less_than(REAL(0), e[j][k]) ^ positive);
+    crossing.from = where(crossed, z[j - 1], crossing.from), crossing.to = where(crossed, z[j], crossing.to);
+    crossing.found = crossing.found | crossed;
+  }
+  { /* a double crossing between two nodes: look at the cubic's minimum (maximum, if it begins negative) */
+    const real side = where(positive, REAL(1), REAL(-1));
+    const real c3 = side * c->d3, c2 = side * (c->d2 - (c->z1 + c->z2) * c->d3);
+    const real c1 = side * (c->d1 - c->z1 * (c->d2 - c->z2 * c->d3)), square = c2 * c2 - REAL(3) * c1 * c3;
+    const real below = c2 + square_root(maximum(square, REAL(0)));
+    const mask has_extremum = less_than(REAL(0), square) & less_than(REAL(TRUM_EITHER(1e-300, 1e-37)), absolute(below));
+    const real lowest = where(has_extremum, -c1 * reciprocal(where(has_extremum, below, REAL(1))), REAL(-1));
+    const real begin = where(starts_here, z[1], REAL(0));
+    const mask between = has_extremum & less_than(begin, lowest) & less_than(lowest, where(crossing.found, crossing.to, REAL(1)));
+    const mask crossed = between & at_most(side * trum_cubic_at(c, lowest), REAL(0));
+    crossing.from = where(crossed, begin, crossing.from), crossing.to = where(crossed, lowest, crossing.to);
+    crossing.found = crossing.found | crossed;
+  }
+  return crossing;
+}
+
 /* The first event in a step: its location in lengths of the step (2 if there is none) and its number.  Where friction
  * is saturated no point is as fast as the rotor, so there are no edges to cross. */
 static void trum_locate_first_event(const trum_lanes* lanes, const real* z, real (*e)[EVENT_COUNT], trum_cubic* cubic,
@@ -52,49 +86,37 @@ static void trum_locate_first_event(const trum_lanes* lanes, const real* z, real
   const trum_node_distances distances = trum_distances_of(z);
   const mask saturated =
       at_most(where(lanes->start.at_event[EVENT_SATURATION], e[1][EVENT_SATURATION], e[0][EVENT_SATURATION]), REAL(0));
+  trum_crossing crossing[EVENT_COUNT];
+  real root[EVENT_COUNT];
+  mask any = mask_all(0);
   int k, j;
-  *location = REAL(2), *event = REAL(-1);
   for (k = 0; k < EVENT_COUNT; ++k) {
-    const mask starts_here = lanes->start.at_event[k],
-               positive = less_than(REAL(0), where(starts_here, e[1][k], e[0][k]));
-    const trum_cubic c = cubic[k] = trum_interpolate(&distances, e[0][k], e[1][k], e[2][k], e[LAST_NODE][k]);
-    mask found = mask_all(0);
-    real from = REAL(0), to = REAL(0), root;
-    for (j = 1; j < NODES; ++j) {
-      const mask crossed = mask_not(found) & (less_than(REAL(0), e[j][k]) ^ positive);
-      from = where(crossed, z[j - 1], from), to = where(crossed, z[j], to), found = found | crossed;
-    }
-    { /* a double crossing between two nodes: look at the cubic's minimum (maximum, if it begins negative) */
-      const real side = where(positive, REAL(1), REAL(-1));
-      const real c3 = side * c.d3, c2 = side * (c.d2 - (c.z1 + c.z2) * c.d3);
-      const real c1 = side * (c.d1 - c.z1 * (c.d2 - c.z2 * c.d3)), square = c2 * c2 - REAL(3) * c1 * c3;
-      const real below = c2 + square_root(maximum(square, REAL(0)));
-      const mask has_extremum = less_than(REAL(0), square) & less_than(REAL(TRUM_EITHER(1e-300, 1e-37)), absolute(below));
-      const real lowest = where(has_extremum, -c1 * reciprocal(where(has_extremum, below, REAL(1))), REAL(-1));
-      const real begin = where(starts_here, z[1], REAL(0));
-      const mask between = has_extremum & less_than(begin, lowest) & less_than(lowest, where(found, to, REAL(1)));
-      const mask crossed = between & at_most(side * trum_cubic_at(&c, lowest), REAL(0));
-      from = where(crossed, begin, from), to = where(crossed, lowest, to), found = found | crossed;
-    }
-    if (k == EVENT_LARGER_PRESSURE || k == EVENT_SMALLER_PRESSURE) found = found & mask_not(saturated);
-    if (k != EVENT_FULL_CONTACT) found = found & mask_not(lanes->status.contact_only);
-    if (!any_lane(found & lanes->status.active)) continue;
-    {
-      const real at_from = trum_cubic_at(&c, from), at_to = trum_cubic_at(&c, to);
-      const mask bracket = less_than(at_from * at_to, REAL(0));
-      root = from + (to - from) * (at_from * reciprocal(where(bracket, at_from - at_to, REAL(1))));
-      root = where(bracket, root, from);
-    }
-    for (j = 0; j < 3; ++j) {
-      const real slope = trum_cubic_slope(&c, root);
+    cubic[k] = trum_interpolate(&distances, e[0][k], e[1][k], e[2][k], e[LAST_NODE][k]);
+    crossing[k] = trum_find_crossing(&cubic[k], z, e, k, lanes->start.at_event[k]);
+    if (k == EVENT_LARGER_PRESSURE || k == EVENT_SMALLER_PRESSURE)
+      crossing[k].found = crossing[k].found & mask_not(saturated);
+    if (k != EVENT_FULL_CONTACT) crossing[k].found = crossing[k].found & mask_not(lanes->status.contact_only);
+    any = any | crossing[k].found;
+  }
+  *location = REAL(2), *event = REAL(-1);
+  if (!any_lane(any & lanes->status.active)) return;
+  for (k = 0; k < EVENT_COUNT; ++k) {
+    const real from = crossing[k].from, to = crossing[k].to;
+    const real at_from = trum_cubic_at(&cubic[k], from), at_to = trum_cubic_at(&cubic[k], to);
+    const mask bracket = less_than(at_from * at_to, REAL(0));
+    root[k] = from + (to - from) * (at_from * reciprocal(where(bracket, at_from - at_to, REAL(1))));
+    root[k] = where(bracket, root[k], from);
+  }
+  for (j = 0; j < 3; ++j)
+    for (k = 0; k < EVENT_COUNT; ++k) { /* innermost, as the events do not wait for each other */
+      const real slope = trum_cubic_slope(&cubic[k], root[k]);
       const mask usable = less_than(REAL(trum_no_slope), absolute(slope));
-      root = where(usable, root - trum_cubic_at(&c, root) * reciprocal(where(usable, slope, REAL(1))), root);
-      root = maximum(from, minimum(to, root));
+      root[k] = where(usable, root[k] - trum_cubic_at(&cubic[k], root[k]) * reciprocal(where(usable, slope, REAL(1))), root[k]);
+      root[k] = maximum(crossing[k].from, minimum(crossing[k].to, root[k]));
     }
-    {
-      const mask earlier = found & less_than(root, *location);
-      *location = where(earlier, root, *location), *event = where(earlier, REAL(k), *event);
-    }
+  for (k = 0; k < EVENT_COUNT; ++k) {
+    const mask earlier = crossing[k].found & less_than(root[k], *location);
+    *location = where(earlier, root[k], *location), *event = where(earlier, REAL(k), *event);
   }
 }
 

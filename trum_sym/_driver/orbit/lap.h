@@ -7,6 +7,12 @@ static trum_real trum_fine_level(trum_real tolerance) {
   return trum_step_share * (tolerance < trum_coarsest ? tolerance : trum_coarsest);
 }
 
+/* That of the held rotor's lap: finer tolerances have more steps, whose errors add up. */
+static trum_real trum_held_level(trum_real tolerance) {
+  const trum_real share = tolerance < TRUM_C(1e-6) ? trum_pow(tolerance / TRUM_C(1e-6), TRUM_C(0.2)) : 1;
+  return share * trum_fine_level(tolerance);
+}
+
 /* A drive cycle: its regions' start phasors and lengths in drive periods, and the phasors' derivatives by resonance and
  * frequency difference. */
 typedef struct {
@@ -157,7 +163,7 @@ static void trum_start_lap(trum_lanes* lanes, int i, trum_search* search) {
   set_lane(&lanes->equation.push, i, held ? 0 : in->push), set_lane(&lanes->equation.drag, i, held ? 0 : in->drag);
   set_lane(&lanes->equation.v0, i, search->start_speed);
   trum_set_tolerances(lanes, i, search);
-  set_lane(&lanes->step.stiffness, i, 0);
+  set_lane(&lanes->step.stiffness, i, 0), set_lane(&lanes->step.growth, i, trum_step_growth);
   set_lane(&lanes->step.steps_left, i, trum_max_steps_per_period * in->m);
   set_lane(&lanes->step.free_h, i, trum_first_step * lane_value(&lanes->equation.period, i));
   set_lane(&start->x, i, 0), set_lane(&start->S, i, 1);

@@ -18,21 +18,24 @@ static void trum_select_derivatives(trum_derivatives* kept, const trum_derivativ
 /* Evaluates surface, friction and events where a lap starts. */
 static void trum_evaluate_lap_start(trum_lanes* lanes) {
   trum_surface at;
-  real f, f_v, e[EVENT_COUNT];
+  trum_friction_state friction;
+  real e[EVENT_COUNT];
   int k;
-  trum_evaluate_surface(lanes, lanes->step.tau, &at);
-  trum_evaluate_friction(&at, lanes->equation.v0 + lanes->start.x, &f, &f_v, &e[EVENT_LARGER_PRESSURE],
-                         &e[EVENT_SMALLER_PRESSURE]);
+  trum_surface_at(&lanes->constants, &lanes->region, with_hertz(lanes), lanes->step.tau, &at);
+  trum_friction_at(&at, lanes->equation.v0 + lanes->start.x, &friction);
+  e[EVENT_LARGER_PRESSURE] = trum_larger_pressure(&friction);
+  e[EVENT_SMALLER_PRESSURE] = trum_smaller_pressure(&friction);
   e[EVENT_SATURATION] = at.R_v * at.R_v - (lanes->equation.v0 + lanes->start.x) * (lanes->equation.v0 + lanes->start.x);
   e[EVENT_FULL_CONTACT] = at.W_c * at.W_c - lanes->constants.W_full * lanes->constants.W_full;
-  lanes->start.f = where(lanes->status.at_lap_start, f, lanes->start.f);
-  lanes->start.f_v = where(lanes->status.at_lap_start, f_v, lanes->start.f_v);
+  lanes->start.f = where(lanes->status.at_lap_start, friction.f, lanes->start.f);
+  lanes->start.f_v = where(lanes->status.at_lap_start, friction.f_v, lanes->start.f_v);
   lanes->start.theta = where(lanes->status.at_lap_start, at.theta, lanes->start.theta);
   lanes->start.cos_phi = where(lanes->status.at_lap_start, at.cos_phi, lanes->start.cos_phi);
   lanes->start.sin_phi = where(lanes->status.at_lap_start, at.sin_phi, lanes->start.sin_phi);
   if (with_slopes(lanes)) {
     trum_derivatives by;
-    trum_evaluate_derivatives(lanes, lanes->step.tau, &at, lanes->equation.v0 + lanes->start.x, &by);
+    trum_derivatives_at(&lanes->constants, &lanes->region, &lanes->region_slopes, with_hertz(lanes), lanes->step.tau, &at,
+                        lanes->equation.v0 + lanes->start.x, &by);
     trum_select_derivatives(&lanes->sensitivity.derivatives, &by, lanes->status.at_lap_start);
   }
   for (k = 0; k < EVENT_COUNT; ++k) {

@@ -1,12 +1,14 @@
 /* The number type of the orbit.
  *
  * Without TRUM_LANES a plain number and one lane; the C++ sources define TRUM_LANES and give `real` (a class of that
- * many points side by side), `mask` (their truth values) and the same operations on them beforehand. */
+ * many points side by side), `mask` (their truth values) and the same operations on them beforehand; `lane_index` and what
+ * takes numbers from other lanes; and TRUM_APART, by which a function stays one. */
 #ifndef TRUM_ORBIT_NUMBER_H
 #define TRUM_ORBIT_NUMBER_H
 
 #ifndef TRUM_LANES
 #define TRUM_LANES 1
+#define TRUM_APART
 #include "trum_kernels.h"
 typedef trum_real real;
 typedef int mask;

@@ -76,6 +76,7 @@ static int trum_run_tasks(const trum_orbit_in* in, trum_orbit_out* out, const tr
       }
       remaining += busy[i];
     }
+    trum_share_lanes(&lanes, busy);
     if (remaining && !trum_may_attempt(attempts)) return 0;
     if (remaining) trum_advance_lanes(&lanes, searches, busy);
   } while (remaining);
@@ -108,12 +109,14 @@ static int trum_history(const trum_orbit_in* in, const trum_orbit_out* orbit, tr
   trum_search searches[TRUM_LANES];
   trum_orbit_out unused;
   trum_record record;
-  int i, allowed = 1;
+  int busy[TRUM_LANES], i, allowed = 1;
   trum_initialise_lanes(&lanes, in->hertz > TRUM_C(0.5), 0);
   for (i = 0; i < TRUM_LANES; ++i) {
     trum_load_task(&lanes, i, &searches[i], in, &unused, 1, TRUM_NAN);
     if (i > 0) set_lane_mask(&lanes.status.active, i, 0);
+    busy[i] = i == 0;
   }
+  trum_share_lanes(&lanes, busy);
   searches[0].stage = STAGE_FINE, searches[0].level = orbit->level, searches[0].start_speed = orbit->start;
   searches[0].scales.speed = trum_fabs(orbit->low) > trum_fabs(orbit->high) ? trum_fabs(orbit->low) : trum_fabs(orbit->high);
   trum_start_lap(&lanes, 0, &searches[0]);

@@ -8,8 +8,14 @@
 #ifndef TRUM_ORBIT_SHOOTING_H
 #define TRUM_ORBIT_SHOOTING_H
 
-/* The level of laps far from the orbit: Newton's step from there leaves its square, so that one fine lap is enough. */
-static trum_real trum_rough_level(trum_real tolerance) { return TRUM_C(0.02) * trum_sqrt(tolerance); }
+/* The level of laps far from the orbit: their start is known so well in the end that one fine lap is enough. */
+static trum_real trum_rough_level(trum_real tolerance) { return TRUM_C(0.2) * trum_pow(tolerance, TRUM_C(0.8)); }
+
+/* The level at which a lap's own errors, which are `excess` times the tolerance at the level of this one, would be a
+ * third of it.  A finer level has more steps, whose errors add up, so that these fall more slowly than the level. */
+static trum_real trum_level_for(trum_real level, trum_real excess) {
+  return level * trum_pow(trum_larger(TRUM_C(0.35) / excess, TRUM_C(1e-3)), TRUM_C(1.2));
+}
 
 /* Slopes of the figures once the orbit is found.  The start speed follows a parameter by the implicit function theorem:
  * d0 = dx(end) / (1 - growth). */
@@ -55,6 +61,7 @@ static void trum_update_slope_scales(const trum_lanes* lanes, int i, trum_search
 /* What a finished lap says of the orbit. */
 typedef struct {
   trum_real gain, growth, decay;     /* of speed over the lap; S at its end; 1 - growth */
+  trum_real off;                     /* what it is off by, at most */
   trum_real exact_gain, uncertainty; /* the gain without the lap's errors; what it may still be off by */
   trum_real top, bound;              /* the largest speed of the lap; above all speeds that are possible */
   trum_real newton, saturated_gain;  /* Newton's step; the gain of a lap with saturated friction, where that is smaller */
@@ -73,6 +80,7 @@ static trum_lap_summary trum_summarise_lap(const trum_lanes* lanes, int i, trum_
   trum_lap_summary s;
   s.gain = lane_value(&lanes->start.x, i), s.growth = lane_value(&lanes->start.S, i);
   s.decay = trum_larger(1 - s.growth, trum_least_decay);
+  s.off = (1 + trum_first_order_share) * trum_fabs(error) + lane_value(&lap->remainder, i);
   s.exact_gain = s.gain - error, s.uncertainty = TRUM_C(0.1) * trum_fabs(error) + lane_value(&lap->remainder, i);
   s.bound = TRUM_C(1.5) * lane_value(&lap->fastest, i);
   s.top = trum_larger(trum_fabs(search->start_speed + lane_value(&lap->low, i)),
@@ -104,14 +112,22 @@ static void trum_compare_laps(const trum_search* search, trum_lap_summary* s) {
              trum_fabs(s->newton) + s->uncertainty / s->decay <= trum_larger(TRUM_C(0.1) * s->trusted, TRUM_C(0.05) * allowed);
 }
 
+/* By how much more than a lap's lowest and highest speed others may move, when its start changes so that its end changes by
+ * `change`.  Any speed moves by `growth` to 1 times the start's change, so that by which they differ is no more than the
+ * end's, for certain; and the start is off by the lap's own errors, twice. */
+static trum_real trum_rival(const trum_lap_summary* s, trum_real change) {
+  return (change + 2 * s->off) / trum_bound_safety;
+}
+
 /* What the change of the start speed is uncertain by: Newton's step in the ratio in which its slope is off, or the
  * bracket. */
 static trum_start_change trum_uncertain_change(const trum_search* search, const trum_lap_summary* s, trum_real change) {
   const trum_real width = search->bracket.sure_high - search->bracket.sure_low;
   trum_start_change start;
-  start.change = s->known ? s->newton : change, start.rival = trum_fabs(s->gain);
+  start.change = s->known ? s->newton : change;
   start.uncertainty = s->known ? trum_fabs(s->newton) * s->share : TRUM_HUGE;
   if (width < 2 * s->bound && width < start.uncertainty) start.uncertainty = width;
+  start.rival = trum_rival(s, trum_fabs(s->gain));
   return start;
 }
 
@@ -171,7 +187,7 @@ static int trum_finish_held_lap(trum_lanes* lanes, int i, trum_search* search) {
   }
   if (!with_slopes(lanes) && !met && ++search->refinements <= 6) {
     const trum_real error = trum_larger(out->contact_error, out->held_error);
-    search->level *= TRUM_C(0.3) * trum_larger(search->in->tolerance / error, TRUM_C(0.01));
+    search->level = trum_level_for(search->level, error / search->in->tolerance);
     trum_start_lap(lanes, i, search);
     return 1;
   }
@@ -192,17 +208,28 @@ static int trum_repeat_failed_lap(trum_lanes* lanes, int i, trum_search* search)
   return 1;
 }
 
+/* The bound of a lap's figures over its largest speed, were its start off by no more than the lap's own errors make it.
+ * Stores nothing. */
+static trum_real trum_own_bound(const trum_lanes* lanes, int i, trum_search* search, const trum_lap_summary* s) {
+  const trum_real error = trum_fabs(lane_value(&lanes->lap.error, i));
+  const trum_real uncertainty = s->share * error / s->decay;
+  const trum_start_change own = {s->newton, uncertainty, trum_rival(s, error)};
+  const trum_orbit_out kept = *search->out;
+  trum_real bound;
+  trum_store_orbit(lanes, i, search, own, s->top);
+  bound = search->out->error, *search->out = kept;
+  return bound;
+}
+
 /* After a fine lap whose bounds do not meet the tolerance: shorter steps if its own errors are too large; else from a
  * better start, or on both sides of a start whose gain has no certain sign.  Returns the next start. */
 static trum_real trum_refine(const trum_lanes* lanes, int i, trum_search* search, const trum_lap_summary* s, trum_real next) {
-  const trum_real allowed = search->in->tolerance * s->top, error = trum_fabs(lane_value(&lanes->lap.error, i));
+  const trum_real allowed = search->in->tolerance * s->top;
   const trum_real width = search->bracket.high - search->bracket.low, middle = search->start_speed;
   trum_newton_record* newton = &search->newton;
-  trum_start_change own = {s->known ? s->newton : next - middle, s->share * error / s->decay, error};
-  trum_store_orbit(lanes, i, search, own, s->top);
   if (s->known) {
-    const trum_real excess = search->out->error / search->in->tolerance;
-    if (excess > 1 && ++search->refinements <= 12) search->level *= TRUM_C(0.3) * trum_larger(1 / excess, TRUM_C(0.003));
+    const trum_real excess = trum_own_bound(lanes, i, search, s) / search->in->tolerance;
+    if (excess > 1 && ++search->refinements <= 12) search->level = trum_level_for(search->level, excess);
     return next;
   }
   if (s->certain) return next;
@@ -235,15 +262,22 @@ static int trum_finish_lap_with_slopes(trum_lanes* lanes, int i, trum_search* se
 static int trum_finish_rough_lap(trum_lanes* lanes, int i, trum_search* search, const trum_lap_summary* s,
                                  trum_real change) {
   const trum_real nearly = s->top * trum_sqrt(TRUM_C(0.1) * search->in->tolerance);
+  /* where laps forget their start, the next one begins close to the orbit however far this one did */
+  const int forgets = 5 * s->growth * trum_fabs(change) <= nearly && s->growth < TRUM_C(0.1) &&
+                      trum_fabs(change) >= TRUM_C(0.9) * trum_fabs(s->newton);
   if (s->last) {
     const trum_start_change start = {change, TRUM_HUGE, 0};
     trum_store_orbit(lanes, i, search, start, s->top);
     search->out->flags += trum_too_many_laps;
     return 0;
   }
-  if ((trum_fabs(change) <= nearly && s->change < TRUM_C(0.7)) || !s->certain ||
+  if ((trum_fabs(change) <= nearly && s->change < TRUM_C(0.7)) || forgets || !s->certain ||
       search->bracket.high - search->bracket.low <= nearly) {
-    search->stage = STAGE_FINE, search->level = trum_fine_level(search->in->tolerance);
+    const trum_real fine_level = trum_fine_level(search->in->tolerance);
+    trum_real wanted = fine_level;
+    if (s->known || forgets)
+      wanted = trum_level_for(search->level, trum_own_bound(lanes, i, search, s) / search->in->tolerance);
+    search->stage = STAGE_FINE, search->level = wanted < fine_level ? wanted : fine_level;
   } else if (search->laps == 1) {
     search->level = trum_rough_level(search->in->tolerance);
   }

@@ -23,7 +23,7 @@ static real trum_quadrature_error(const real* G) {
 
 /* An attempt at a step: location z and rate of time T of the nodes, and the solution there. */
 typedef struct {
-  trum_surface at[NODES]; /* from the second node on */
+  trum_surface at[NODES + CHECKS]; /* from the second node on; then at the check nodes (defect.h) */
   real z[NODES], T[NODES], x[NODES], f[NODES], f_v[NODES], events[NODES][EVENT_COUNT];
   trum_derivatives derivatives[NODES]; /* if slopes are wanted */
   mask damped;                         /* the first node's rate is extrapolated */
@@ -64,9 +64,11 @@ static real trum_limited(const trum_lanes* lanes, const trum_trial_step* trial, 
  * counts for a first change y, and for one that takes f more than half of the way to saturation; at most f goes on to
  * saturation, or not at all. */
 static void trum_solve_collocation(const trum_lanes* lanes, trum_trial_step* trial) {
-  static const trum_real A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS, c[NODES] = TRUM_COLLOCATION_POINTS;
+  static const trum_real A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS, c[NODES] = TRUM_COLLOCATION_POINTS,
+                         check[CHECKS] = TRUM_CHECK_POINTS;
   trum_factors equations;
-  real G[NODES], right[NODES], y[NODES], T_f[NODES], last_change = REAL(TRUM_EITHER(1e100, 1e37));
+  trum_friction_state friction[NODES];
+  real tau[NODES + CHECKS], v[NODES], G[NODES], right[NODES], y[NODES], T_f[NODES], last_change = REAL(TRUM_EITHER(1e100, 1e37));
   int i, j, k, tries;
   for (j = 0; j < NODES; ++j) {
     const real sigma = REAL(c[j]);
@@ -78,8 +80,13 @@ static void trum_solve_collocation(const trum_lanes* lanes, trum_trial_step* tri
   trial->not_converged = lanes->status.active, trial->unsolved = REAL(0);
   trial->x[0] = lanes->start.x, trial->f[0] = lanes->start.f, trial->f_v[0] = lanes->start.f_v;
   for (k = 0; k < EVENT_COUNT; ++k) trial->events[0][k] = lanes->start.events[k];
+  for (j = 1; j < NODES; ++j) tau[j] = lanes->step.tau + lanes->step.h * trial->z[j];
+  for (j = 0; j < CHECKS; ++j) {
+    const real sigma = REAL(check[j]);
+    tau[NODES + j] = lanes->step.tau + lanes->step.h * (sigma * (REAL(1) + lanes->step.curvature * (REAL(1) - sigma)));
+  }
+  trum_evaluate_surfaces(lanes, tau + 1, trial->at + 1, NODES - 1 + CHECKS);
   for (j = 1; j < NODES; ++j) {
-    trum_evaluate_surface(lanes, lanes->step.tau + lanes->step.h * trial->z[j], &trial->at[j]);
     trial->x[j] = trum_guess(lanes, trial, j);
     trial->f[j] = lanes->start.f, trial->f_v[j] = REAL(0), trial->events[j][EVENT_LARGER_PRESSURE] = REAL(0);
     trial->events[j][EVENT_SMALLER_PRESSURE] = REAL(0);
@@ -87,15 +94,16 @@ static void trum_solve_collocation(const trum_lanes* lanes, trum_trial_step* tri
   for (tries = 0; tries < 12 && any_lane(trial->not_converged); ++tries) {
     real change = REAL(0), bent = REAL(0), slope[NODES];
     slope[0] = REAL(0);
+    for (j = 1; j < NODES; ++j) v[j] = lanes->equation.v0 + trial->x[j];
+    trum_evaluate_frictions(lanes, trial->at + 1, v + 1, friction + 1, NODES - 1);
     for (j = 1; j < NODES; ++j) {
-      real f, f_v, larger, smaller;
-      trum_evaluate_friction(&trial->at[j], lanes->equation.v0 + trial->x[j], &f, &f_v, &larger, &smaller);
-      trial->f[j] = where(trial->not_converged, f, trial->f[j]);
-      trial->f_v[j] = where(trial->not_converged, f_v, trial->f_v[j]);
-      trial->events[j][EVENT_LARGER_PRESSURE] =
-          where(trial->not_converged, larger, trial->events[j][EVENT_LARGER_PRESSURE]);
-      trial->events[j][EVENT_SMALLER_PRESSURE] =
-          where(trial->not_converged, smaller, trial->events[j][EVENT_SMALLER_PRESSURE]);
+      real* events = trial->events[j];
+      trial->f[j] = where(trial->not_converged, friction[j].f, trial->f[j]);
+      trial->f_v[j] = where(trial->not_converged, friction[j].f_v, trial->f_v[j]);
+      events[EVENT_LARGER_PRESSURE] =
+          where(trial->not_converged, trum_larger_pressure(&friction[j]), events[EVENT_LARGER_PRESSURE]);
+      events[EVENT_SMALLER_PRESSURE] =
+          where(trial->not_converged, trum_smaller_pressure(&friction[j]), events[EVENT_SMALLER_PRESSURE]);
       G[j] = trial->T[j] * (lanes->equation.push * trial->f[j] - lanes->equation.drag);
       slope[j] = trial->T[j] * (lanes->equation.push * trial->f_v[j]);
     }
@@ -138,15 +146,15 @@ static void trum_solve_collocation(const trum_lanes* lanes, trum_trial_step* tri
   trial->f[0] = where(trial->damped, trum_extrapolate_first(T_f) * reciprocal(where(trial->damped, trial->T[0], REAL(1))),
                       trial->f[0]);
   for (j = 1; j < NODES; ++j) {
-    const real v = lanes->equation.v0 + trial->x[j];
-    trial->events[j][EVENT_SATURATION] = trial->at[j].R_v * trial->at[j].R_v - v * v;
+    v[j] = lanes->equation.v0 + trial->x[j];
+    trial->events[j][EVENT_SATURATION] = trial->at[j].R_v * trial->at[j].R_v - v[j] * v[j];
     trial->events[j][EVENT_FULL_CONTACT] =
         trial->at[j].W_c * trial->at[j].W_c - lanes->constants.W_full * lanes->constants.W_full;
-    if (with_slopes(lanes))
-      trum_evaluate_derivatives(lanes, lanes->step.tau + lanes->step.h * trial->z[j], &trial->at[j], v,
-                                &trial->derivatives[j]);
   }
-  if (with_slopes(lanes)) trial->derivatives[0] = lanes->sensitivity.derivatives;
+  if (with_slopes(lanes)) {
+    trial->derivatives[0] = lanes->sensitivity.derivatives;
+    trum_evaluate_derivatives(lanes, tau + 1, trial->at + 1, v + 1, trial->derivatives + 1, NODES - 1);
+  }
 }
 
 #endif

@@ -89,7 +89,7 @@ static int trum_load_task(trum_lanes* lanes, int i, trum_search* search, const t
   search->stage = STAGE_HELD, search->start_speed = 0;
   search->bracket.low = search->bracket.sure_low = -TRUM_HUGE;
   search->bracket.high = search->bracket.sure_high = TRUM_HUGE;
-  search->scales.speed = 0, search->level = trum_fine_level(in->tolerance);
+  search->scales.speed = 0, search->level = trum_held_level(in->tolerance);
   search->held_laps = 0, trum_reset_slope_scales(search);
   if (with_slopes(lanes)) trum_load_region_slopes(search);
   if (!held) return trum_start_search(lanes, i, search, known);
@@ -105,7 +105,11 @@ static void trum_initialise_lanes(trum_lanes* lanes, int hertz, int slopes) {
   lanes->hertz = hertz, lanes->slopes = slopes, lanes->record = 0;
   for (k = 0; k < EVENT_COUNT; ++k) lanes->start.at_event[k] = mask_all(0), lanes->start.events[k] = TRUM_NUMBER(0);
   lanes->step.tau = lanes->step.time_left = lanes->step.h = lanes->step.free_h = lanes->step.curvature =
-      lanes->step.target_event = lanes->step.retries = lanes->step.steps_left = lanes->step.stiffness = TRUM_NUMBER(0);
+      lanes->step.target_event = lanes->step.retries = lanes->step.steps_left = TRUM_NUMBER(0);
+  lanes->step.stiffness = lanes->step.growth = TRUM_NUMBER(0);
+#if TRUM_LANES > 1
+  lanes->sharing.at_work = 0, lanes->sharing.places = 1;
+#endif
 }
 
 #endif

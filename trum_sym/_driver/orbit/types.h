@@ -3,7 +3,7 @@
 #define TRUM_ORBIT_TYPES_H
 
 enum { FIGURES = TRUM_SLOPE_FIGURES_COUNT, PARAMETERS = TRUM_SLOPES ? TRUM_SLOPE_PARAMETERS_COUNT : 1 };
-enum { LAST_NODE = TRUM_COLLOCATION_NODES - 1, NODES = TRUM_COLLOCATION_NODES };
+enum { LAST_NODE = TRUM_COLLOCATION_NODES - 1, NODES = TRUM_COLLOCATION_NODES, CHECKS = 3 };
 
 /* Glossary.
  *
@@ -72,6 +72,7 @@ typedef struct {
   real target_event;   /* the event that the step is to end at, or -1 */
   real retries;        /* attempts at this step so far that were given up for an event */
   real steps_left;     /* attempts until the lap is given up */
+  real growth;         /* the most by which free_h may grow: none after a rejection */
   real stiffness;      /* rate at which the steps before drew speeds together, 1/s */
 } trum_step_control;
 
@@ -103,6 +104,16 @@ typedef struct {
   long count, written;
 } trum_record;
 
+#if TRUM_LANES > 1
+/* How lanes without a task serve those that have one (sharing.h): which ones have (a bit each), and how many places each has;
+ * for each place its owner and its number, and for each owner the first of its places. */
+typedef struct {
+  int at_work, places;
+  lane_index owner, home;
+  mask of_place[TRUM_LANES];
+} trum_sharing;
+#endif
+
 /* The state of the lanes. */
 typedef struct {
   trum_constants constants;
@@ -115,6 +126,9 @@ typedef struct {
   trum_sensitivity sensitivity;
   trum_status_masks status;
   trum_lap lap;
+#if TRUM_LANES > 1
+  trum_sharing sharing;
+#endif
   int hertz;           /* the contact law, of all lanes */
   int slopes;          /* whether sensitivities are wanted */
   trum_record* record; /* of a history, or none */
