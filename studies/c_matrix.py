@@ -67,7 +67,7 @@ def units(folder: Path) -> tuple[list[Path], list[Path]]:
 
     from trum_sym.studies.table_files import Rows, as_c
 
-    rows = Rows(np.array([1.0, 2.0]), [np.array([180.0, 181.0])], np.array([0.1, 0.1]))
+    rows = Rows(np.array([1.0, 2.0]), [np.array([180.0, 181.0])], np.array([0.1, 0.1]), np.array([1e-9, 1e-9]))
     table = as_c("table", ["a table"], {"prepressure": "N"}, [rows])
     use = (
         "double at(double v);\ndouble at(double v) { double d[TABLE_COLUMNS] = {0}; table_drive(v, d); return d[0]; }\n"

@@ -167,7 +167,7 @@ def test_height_over_full_height_falls_with_the_prepressure_and_rises_with_the_a
     (by_amplitude,) = found(r"TRUM_BY_AMPLITUDE\) height = speed = REAL\((-?\d+)\);")
     assert (int(by_prepressure), int(by_amplitude)) == (-1, 1)
     engaged = rotor.filling()["engagement"]
-    (of_layer,) = found(r"if \(!with_hertz\(lanes\)\) friction\.E_height = REAL\((-?\d+)\);")
+    (of_layer,) = found(r"if \(!hertz\) friction\.E_height = REAL\((-?\d+)\);")
     assert logarithmic(engaged, nomenclature.sym("W_c")[0]) == int(of_layer)
 
 

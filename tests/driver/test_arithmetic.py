@@ -21,7 +21,7 @@ def table(tmp_path_factory):
     from trum_sym.studies.table_files import Rows, as_c
 
     folder = tmp_path_factory.mktemp("table")
-    rows = Rows(np.array([1.0, 2.0]), [np.array([180.0, 181.0])], np.array([0.1, 0.1]))
+    rows = Rows(np.array([1.0, 2.0]), [np.array([180.0, 181.0])], np.array([0.1, 0.1]), np.array([1e-9, 1e-9]))
     (folder / "table.h").write_text(as_c("table", ["a table"], {"prepressure": "N"}, [rows]))
     return folder
 

@@ -77,7 +77,7 @@ def calibrate(
         (then logarithms are compared).  An uncertainty column multiplies either.
     confidence : float
         Of the intervals.
-    contact, resonance, foundation, amplitude, compliance, tangential, sampling_period
+    contact, resonance, foundation, amplitude, compliance, tangential, coupling, sampling_period
         As for :func:`trum_sym.evaluate`.
     progress : bool
         Whether to count the steps on the standard error.

@@ -62,7 +62,9 @@ def simulate(
 
     Parameters
     ----------
-    motor, drive, contact, resonance, foundation, amplitude, compliance, tangential, sampling_period, tolerance
+    motor, drive, contact, resonance, foundation, amplitude, compliance, tangential, coupling, sampling_period
+        As for :func:`trum_sym.evaluate`, but every number a single one.
+    tolerance
         As for :func:`trum_sym.evaluate`, but every number a single one.
     cycles : whole number
         Drive cycles.  The orbit repeats itself, the rotor's angle goes on.

@@ -359,7 +359,7 @@ def holding(
 
     Parameters
     ----------
-    motor, drive, contact, resonance, foundation, amplitude, compliance, tangential
+    motor, drive, contact, resonance, foundation, amplitude, compliance, tangential, coupling
         As for :func:`trum_sym.evaluate`; every number a single one.  ``tangential`` has to be ``"rigid"``.
     within : float
         Share of the mean speed that the speed is to be held within.

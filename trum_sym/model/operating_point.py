@@ -303,7 +303,7 @@ def evaluate(
         1e-6, and a single point goes on until its mean speed has four digits or 1e-9 is reached.
     progress : bool
         Whether to show a bar on the standard error while many points are computed.
-    contact, resonance, foundation, amplitude, compliance, tangential : str, optional
+    contact, resonance, foundation, amplitude, compliance, tangential, coupling : str, optional
         Levels of the model, see :class:`trum_sym.model.levels.Levels`.
 
     Returns

@@ -191,7 +191,7 @@ def sensitivities(
 
     Parameters
     ----------
-    motor, drive, contact, resonance, foundation, amplitude, compliance, tangential
+    motor, drive, contact, resonance, foundation, amplitude, compliance, tangential, coupling
         As for :func:`trum_sym.evaluate`; arrays broadcast.  ``tangential`` has to be ``"rigid"``.
     tolerance : float
         Of the orbit that is differentiated.  The slopes' median error is below it; single slopes are much worse

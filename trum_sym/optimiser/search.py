@@ -118,7 +118,7 @@ def optimize(
         As for :func:`trum_sym.holding`: what the answer says of holding it, and what limits and objectives count with.
     progress : bool
         Whether to say on the standard error what is done, with a bar while pulse counts are gone through.
-    contact, resonance, foundation, amplitude, compliance, tangential
+    contact, resonance, foundation, amplitude, compliance, tangential, coupling
         As for :func:`trum_sym.evaluate`; ``tangential`` has to be ``"rigid"``.
 
     Returns

@@ -204,7 +204,7 @@ def pareto(
         Problems solved along the front, 3 to 201.
     progress : bool
         Whether to show a bar on the standard error.
-    contact, resonance, foundation, amplitude, compliance, tangential
+    contact, resonance, foundation, amplitude, compliance, tangential, coupling
         As for :func:`trum_sym.evaluate`; ``tangential`` has to be ``"rigid"``.
 
     Returns

@@ -208,7 +208,7 @@ def robust(
         Instead: the cases themselves, each by the same names, ``[{"friction_coefficient": 0.22}, ...]``.
     progress : bool
         Whether to show a bar on the standard error.
-    contact, resonance, foundation, amplitude, compliance, tangential
+    contact, resonance, foundation, amplitude, compliance, tangential, coupling
         As for :func:`trum_sym.evaluate`; ``tangential`` has to be ``"rigid"``.
 
     Returns

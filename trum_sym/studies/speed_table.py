@@ -75,7 +75,7 @@ def speed_table(
         Allowed difference between a speed and what the motor does at the interpolated drive, over the speed.
     progress : bool
         Whether to report on the standard error.
-    contact, resonance, foundation, amplitude, compliance, tangential
+    contact, resonance, foundation, amplitude, compliance, tangential, coupling
         As for :func:`trum_sym.evaluate`; ``tangential`` has to be ``"rigid"``.
 
     Returns

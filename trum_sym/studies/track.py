@@ -288,7 +288,7 @@ def track(
 
     Parameters
     ----------
-    motor, drive, bounds, contact, resonance, foundation, amplitude, compliance, tangential
+    motor, drive, bounds, contact, resonance, foundation, amplitude, compliance, tangential, coupling
         As for :func:`trum_sym.speed_table`.
     target_speed : float or str, rad/s
         The mean speed, in the direction of its sign.

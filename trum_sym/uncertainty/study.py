@@ -186,7 +186,7 @@ def spread(
         What has to hold, such as ``"mean_speed >= 600 arcsec/s"``.
     seed : int
         Of points and bootstrap; the same seed gives the same bits.
-    contact, resonance, foundation, amplitude, compliance, tangential, sampling_period, tolerance, progress
+    contact, resonance, foundation, amplitude, compliance, tangential, coupling, sampling_period, tolerance, progress
         As for :func:`trum_sym.evaluate`.
 
     Returns
