@@ -351,7 +351,7 @@ def _integrate(to_powers, x, xs, step, record):
 def _region(c, a, e, to_powers, p, z, end, v0, allowed, push_only, h, most, record):
     """A region of a lap, from the state in the record; the next step's length, or 0 if it needs too many steps."""
     period = _TURN / p[2]
-    longest, shortest = period / 40, 1e-15 * period
+    longest, shortest = period / 160, 1e-15 * period
     at, one = np.zeros((_S, 8)), np.zeros(8)
     xs, fs, slopes = np.empty(_S), np.empty(_S), np.empty(_S)
     work = (np.empty((_S, _S)), np.empty(_S))

@@ -221,6 +221,9 @@ def friction() -> list[str]:
     for phi, v in itertools.product((-6.0, -3.0, 0.3, 3.0, 6.0), (-2.0, -0.5, 0.3, 0.9, 2.0)):
         found.append(f"kernel trum_friction 1.2 {math.cos(phi)} 40 {phi} -38 {math.sin(phi)} 0.39 0.4 {v}")
         found.append(f"kernel trum_friction_slopes 1.2 {math.cos(phi)} 40 {phi} -38 {math.sin(phi)} 0.39 0.4 {v}")
+        for theta in (0.4, 3.1):
+            crest, contact = f"{math.cos(phi)} {math.cos(theta)} 1.2", f"{math.sin(phi)} {math.sin(theta)} {theta}"
+            found.append(f"kernel trum_coupled_forces 0.003 180 1 1 {crest} 300 0.25 {phi} -0.4 0 {contact} {v}")
     return found + [f"kernel trum_interface 180 0.4 1 1.4 300 0.25 9 -0.4 0 {v} 1e-3 1e-3" for v in (-1, 1)]
 
 

@@ -24,7 +24,7 @@ _OTHERS = {
     "trum_fmi3.c",
 }
 _INCLUDE = re.compile(r'^#include "([^"]+)".*\n', re.M)
-_CALL = re.compile(r"^static inline void (trum_call_\w+)\(.*?^}\n\n", re.M | re.S)
+_CALL = re.compile(r"^static (?:inline )?void (trum_(?:call|plain)_\w+)\(.*?^}\n\n", re.M | re.S)
 # What an exported copy is compiled for stands in the header that every other includes first
 _CONFIGURED = "trum_math.h"
 
