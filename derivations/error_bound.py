@@ -25,6 +25,7 @@ __all__ = [
     "prove",
     "saturation",
     "start_speed",
+    "surface",
 ]
 
 x, t, tau, T = sp.symbols("x t tau T", positive=True)
@@ -70,6 +71,26 @@ def saturation() -> sp.Expr:
     _zero(sp.Min(1 - positive, 1 + positive) - (1 - sp.Abs(positive)), "the smaller, f >= 0")
     _zero(sp.Min(1 - negative, 1 + negative) - (1 - sp.Abs(negative)), "the smaller, f <= 0")
     return push * (1 - sp.Abs(f))
+
+
+def surface() -> sp.Expr:
+    """A rotor is ahead of the surface's largest speed R_v by no more than at a step's start, or than R_v gets away.
+
+    Past R_v friction is saturated against the motion, so the excess X = |v| - R_v changes at
+    -push - sign(v) drag - R_v' <= -(push - |drag|) + max |R_v'| while X > 0.  So X(h) is at most max(0, X(0)) + h times
+    that rate, if it is positive; and the exact solution lies within R_v + X of 0, so that its distance to a numerical
+    one u is at most R_v + X + |u|: where R_v passes zero this is small however steep friction is there.
+    """
+    push, drag = sp.Symbol("push", positive=True), sp.Symbol("drag", real=True)
+    away, size, gap = sp.symbols("away size gap", nonnegative=True)  # max |R_v'|, |drag|, by how much R_v' is above -away
+    forward, backward = -push - drag, -(push - drag)  # d|v|/dt at f = -1 for v > R_v, at f = 1 for v < -R_v
+    for slowed, name in ((forward, "v > R_v"), (backward, "v < -R_v")):
+        for sign in (1, -1):
+            rate = (slowed - (gap - away)).subs(drag, sign * size)
+            slack = sp.expand(-(push - size) + away - rate)
+            if not slack.is_nonnegative:
+                raise ProofError(f"the excess, {name}: {slack} can be negative")
+    return -(push - sp.Abs(drag)) + away
 
 
 def monotone_weight() -> sp.Expr:
@@ -150,6 +171,7 @@ class Theorem:
 THEOREMS = (
     Theorem("comparison", "friction does not rise with the rotor's speed", comparison),
     Theorem("saturation", "friction is at most mu times the pressure", saturation),
+    Theorem("surface", "friction is saturated past the surface's speed", surface),
     Theorem("monotone weight", "comparison", monotone_weight),
     Theorem("kronrod", "nothing", kronrod),
     Theorem("start speed", "comparison", start_speed),

@@ -93,6 +93,55 @@ def test_a_light_rotor_that_comes_to_saturation_within_a_step_is_held_by_its_err
     assert abs(point.mean_speed - 1.39041005061 / 0.0265) <= point.mean_speed_error  # studies/witness.py
 
 
+def standing_start(force, friction, share, **settings):
+    """A drive that starts from rest, whose wave stands still twice a period until the second phase is on."""
+    load = share * friction * force * 0.0265
+    return ts.Drive(prepressure=force, load_torque=load, start="rest", **settings)
+
+
+def test_a_light_rotor_that_stops_with_the_surface_knows_its_slowest_speed(trum60):
+    """Where the surface stops friction is infinitely steep: what the rotor is off by is bounded by the surface's speed."""
+    friction = 0.2538525993645326
+    motor = trum60.with_values({"rotor_inertia": 5.078087519521343e-09, "friction_coefficient": friction})
+    drive = standing_start(
+        149.1013569841104,
+        friction,
+        -0.9928216733135379,
+        frequency_difference=482.2306769358984,
+        periods=4,
+        on_periods=2,
+        switching_phase=5.232818615867192,
+    )
+    point = ts.evaluate(motor, drive, contact="hertz", tolerance=1.492069046286931e-07)
+    assert point.converged
+    assert abs(point.min_speed) <= point.min_speed_error  # it stops, and friction never drives it back
+    assert point.min_speed_error <= 1.5e-7 * point.max_speed
+
+
+@pytest.mark.filterwarnings("ignore::trum_sym.ValidityWarning")
+def test_a_light_rotor_slower_than_its_start_by_far_needs_no_endless_steps(trum60):
+    """Speeds are differences to 0, not to the lap's start: their rounding would be many times what friction leaves."""
+    values = {
+        "rotor_inertia": 8.998985101975003e-09,
+        "friction_coefficient": 0.9605112190391611,
+        "contact_radius": 0.024659672161990075,
+    }
+    with pytest.warns(ts.ImplausibleWarning):
+        motor = trum60.with_values(values)
+    drive = ts.Drive(
+        prepressure=440.35707444967466,
+        frequency_difference=-156.79393773940592,
+        periods=136,
+        on_periods=84,
+        load_torque=10.39673459427886,
+        start="rest",
+        switching_phase=0.07349202557912915,
+    )
+    point = ts.evaluate(motor, drive, contact="hertz", foundation="none", tolerance=1e-4)
+    assert point.converged
+    assert point.mean_speed == pytest.approx(-13.4837208271, abs=1e-8)  # also at 1e-6
+
+
 def random_drives(seed, count, nearest):
     rng = np.random.default_rng(seed)
     periods, force = rng.integers(1, 31, count), rng.uniform(100, 220, count)

@@ -149,7 +149,9 @@ static mask trum_extend_to_root(const trum_lanes* lanes, const trum_trial_step* 
 
 /* One attempt at a step on all lanes: collocation, events, error.  Returns the lanes whose step was accepted. */
 static mask trum_advance_step(trum_lanes* lanes) {
-  const mask minimal = at_most(lanes->step.h, REAL(trum_min_step) * lanes->equation.period);
+  const mask slow = less_than(absolute(lanes->equation.v0 + lanes->start.x), REAL(trum_slow) * lanes->lap.fastest);
+  const real shortest = where(slow, REAL(trum_min_slow_step), REAL(trum_min_step)) * lanes->equation.period;
+  const mask minimal = at_most(lanes->step.h, shortest);
   trum_trial_step trial;
   trum_next_step next;
   trum_defect defect;
@@ -181,7 +183,7 @@ static mask trum_advance_step(trum_lanes* lanes) {
     lanes->step.free_h = where(accepted, where(cut_short, minimum(longest, maximum(lanes->step.free_h, grown)), grown),
                                lanes->step.free_h);
     /* where errors are mostly rounding, they are no reason to go on ever more slowly */
-    lanes->step.free_h = maximum(lanes->step.free_h, REAL(trum_min_step) * lanes->equation.period);
+    lanes->step.free_h = maximum(lanes->step.free_h, shortest);
     lanes->step.tau = where(accepted, lanes->step.tau + lanes->step.h, lanes->step.tau);
     lanes->step.time_left =
         where(accepted, where(finished, REAL(0), lanes->step.time_left - lanes->step.h), lanes->step.time_left);

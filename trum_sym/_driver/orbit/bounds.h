@@ -59,11 +59,12 @@ static void trum_store_orbit(const trum_lanes* lanes, int i, trum_search* search
   const trum_real S = lane_value(&lap->S, i) / cycle_time, SS = lane_value(&lap->SS, i) / cycle_time;
   const trum_real xS = lane_value(&lap->xS, i) / cycle_time;
   const trum_real variance = xx - x * x + change * (2 * (xS - x * S) + change * (SS - S * S));
+  const trum_real v0 = lane_value(&lanes->equation.v0, i);
   trum_orbit_out* out = search->out;
   out->start = search->start_speed + change, out->level = search->level;
-  out->mean = search->start_speed + x + change * S;
-  out->low = search->start_speed + lane_value(&lap->low, i) + change * lane_value(&lap->S_low, i);
-  out->high = search->start_speed + lane_value(&lap->high, i) + change * lane_value(&lap->S_high, i);
+  out->mean = v0 + x + change * S;
+  out->low = v0 + lane_value(&lap->low, i) + change * lane_value(&lap->S_low, i);
+  out->high = v0 + lane_value(&lap->high, i) + change * lane_value(&lap->S_high, i);
   /* the change leaves the order of nearly equal speeds open */
   out->low = out->low < out->mean ? out->low : out->mean, out->high = out->high > out->mean ? out->high : out->mean;
   out->variance = variance > 0 ? variance : 0;

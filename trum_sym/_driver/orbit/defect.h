@@ -18,6 +18,8 @@ typedef struct {
   real xx;              /* the integral of x^2, exact for the interpolant */
   real kept, mean_kept; /* share of an error at the start that is kept at the end, and on average */
   real stiffness;       /* rate at which speeds draw together, 1/s */
+  real local_end, local_inside; /* bounds of the error at the end and within, if the step began exactly, */
+  real most_end, most_inside;   /* and with what the lap is off by so far */
 } trum_defect;
 
 /* exp(-z) and the mean of exp(-y) for y from 0 to z, for z >= 0, to a few per cent. */
@@ -92,6 +94,38 @@ static real trum_rounding(const trum_lanes* lanes, const trum_trial_step* trial)
   return h * (REAL(10 * trum_unit) * (REAL(1) + REAL(3) * reciprocal(theta * theta + REAL(trum_tiny))) + phase * at_stake);
 }
 
+/* Bounds of an error where R_v passes zero faster than steps resolve: a rotor that is faster than the surface is slowed by
+ * push - |drag|, so that |v| - R_v of the exact solution grows above what it is at the step's start (or 0) by no more than
+ * what R_v changes faster than that, and so the two solutions are no further apart than both are from 0.  Between nodes R_v
+ * changes up to a quarter faster than from node to node. */
+static void trum_bound_by_surface(const trum_lanes* lanes, const trum_trial_step* trial, trum_defect* d) {
+  static const trum_real c[NODES] = TRUM_COLLOCATION_POINTS, check[CHECKS] = TRUM_CHECK_POINTS;
+  const trum_equation* equation = &lanes->equation;
+  const real first = equation->v0 + lanes->start.x, past = absolute(first);
+  const real off = REAL(1 + trum_first_order_share) * absolute(lanes->lap.error) + lanes->lap.remainder;
+  const real R_first = square_root(maximum(lanes->start.events[EVENT_SATURATION] + first * first, REAL(0)));
+  const mask straight = trial->damped & at_most(absolute(lanes->step.curvature), REAL(0));
+  real before = R_first, since = REAL(0), fastest = R_first, furthest = past, change = REAL(0), ahead, end;
+  int j, k;
+  for (j = 1; j < NODES; ++j) {
+    for (k = 1; k >= 0; --k) {
+      const real R_v = trial->at[k ? NODES + j - 1 : j].R_v, at = REAL(k ? check[j - 1] : c[j]);
+      change = maximum(change, absolute(R_v - before) * reciprocal(at - since));
+      fastest = maximum(fastest, R_v), before = R_v, since = at;
+    }
+    furthest = maximum(furthest, absolute(equation->v0 + trial->x[j]));
+  }
+  ahead = REAL(1.25) * change - (equation->push - absolute(equation->drag)) * lanes->step.h;
+  ahead = maximum(REAL(0), ahead) + REAL(100 * trum_unit) * lanes->lap.fastest;
+  end = before + absolute(equation->v0 + trial->x[LAST_NODE]) + ahead, furthest = fastest + furthest + ahead;
+  ahead = maximum(REAL(0), past - R_first);
+  d->local_end = where(straight, end + ahead, REAL(TRUM_HUGE));
+  d->local_inside = where(straight, furthest + ahead, REAL(TRUM_HUGE));
+  ahead = maximum(REAL(0), past + off - R_first);
+  d->most_end = where(straight, end + ahead, REAL(TRUM_HUGE));
+  d->most_inside = where(straight, furthest + ahead, REAL(TRUM_HUGE));
+}
+
 /* What a trial step is off by. */
 static void trum_step_defect(const trum_lanes* lanes, const trum_trial_step* trial, real root_error, trum_defect* d) {
   static const trum_real b[] = TRUM_CHECK_WEIGHTS, full[] = TRUM_CHECK_FULL_WEIGHTS;
@@ -141,16 +175,35 @@ static void trum_step_defect(const trum_lanes* lanes, const trum_trial_step* tri
   d->remainder = push * d->friction_remainder + trial->unsolved +
                  push * size * stiff * stiff * reciprocal(REAL(20) + stiff * stiff * (REAL(4) + stiff));
   d->x_integral_remainder = where(trial->damped, push * lasting, h * d->remainder);
+  d->most_end = d->most_inside = REAL(TRUM_HUGE);
+  if (any_lane(trial->damped & lanes->status.active)) {
+    mask closer;
+    trum_bound_by_surface(lanes, trial, d);
+    closer = less_than(d->local_end, absolute(d->x) + d->remainder);
+    d->x = where(closer, REAL(0), d->x), d->remainder = where(closer, d->local_end, d->remainder);
+    d->inside = minimum(d->inside, d->local_inside);
+    closer = less_than(h * d->local_inside, absolute(d->x_integral) + d->x_integral_remainder);
+    d->x_integral = where(closer, REAL(0), d->x_integral);
+    d->x_integral_remainder = where(closer, h * d->local_inside, d->x_integral_remainder);
+  }
   d->angle_remainder = trum_quadrature_remainder(angle, &size) + REAL(TRUM_EITHER(1e-15, 5e-7)) * h;
   d->angle = REAL(b[0]) * angle[0] + REAL(b[1]) * angle[1] + REAL(b[2]) * angle[2];
+}
+
+/* A lap's error and remainder at a step's end. */
+static void trum_end_errors(const trum_lap* lap, const trum_defect* d, real* error, real* remainder) {
+  mask closer;
+  *error = lap->error * d->kept + d->x, *remainder = lap->remainder * d->kept + d->remainder;
+  closer = less_than(d->most_end, absolute(*error) + *remainder);
+  *error = where(closer, REAL(0), *error), *remainder = where(closer, d->most_end, *remainder);
 }
 
 /* Adds an accepted step's errors to its lap's; to be called before S and x move on. */
 static void trum_add_defect(trum_lanes* lanes, const trum_defect* d, const real* S, mask accepted) {
   trum_lap* lap = &lanes->lap;
   const real h = lanes->step.h, half = REAL(0.5) * h;
-  const real error = lap->error * d->kept + d->x, remainder = lap->remainder * d->kept + d->remainder;
-  real within;
+  real within, error, remainder;
+  trum_end_errors(lap, d, &error, &remainder);
   lap->error_sum = where(accepted, lap->error_sum + h * lap->error * d->mean_kept + d->x_integral, lap->error_sum);
   lap->error_square =
       where(accepted, lap->error_square + half * (lap->error * lap->error + error * error), lap->error_square);

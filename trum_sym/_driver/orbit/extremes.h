@@ -21,12 +21,16 @@ static void trum_update_extremes(const real* G, const real* x, const real* S, re
                                  mask accepted, mask damped, const trum_defect* defect, trum_lap* lap) {
   static const trum_real P[NODES][NODES] = TRUM_COLLOCATION_POWERS;
   real p[NODES], top = maximum(x[0], x[1]), bottom = minimum(x[0], x[1]), steepest = absolute(G[0]);
-  const real end_error = absolute(lap->error * defect->kept + defect->x);
-  const real end_remainder = lap->remainder * defect->kept + defect->remainder + where(damped, defect->inside, REAL(0));
-  const real error = maximum(absolute(lap->error), end_error);
-  const real remainder = maximum(lap->remainder, end_remainder) + defect->inside;
-  mask has_extremum = mask_all(0), relevant;
+  real end_error, end_remainder, error, remainder;
+  mask has_extremum = mask_all(0), relevant, closer;
   int k, j, parameter;
+  trum_end_errors(lap, defect, &end_error, &end_remainder);
+  end_error = absolute(end_error), end_remainder = end_remainder + where(damped, defect->inside, REAL(0));
+  error = maximum(absolute(lap->error), end_error), remainder = maximum(lap->remainder, end_remainder) + defect->inside;
+  closer = less_than(defect->most_end, end_error + end_remainder);
+  end_error = where(closer, REAL(0), end_error), end_remainder = where(closer, defect->most_end, end_remainder);
+  closer = less_than(defect->most_inside, error + remainder);
+  error = where(closer, REAL(0), error), remainder = where(closer, defect->most_inside, remainder);
   for (j = 1; j < NODES; ++j) {
     top = maximum(top, x[j]), bottom = minimum(bottom, x[j]), steepest = maximum(steepest, absolute(G[j]));
     has_extremum = has_extremum | (at_most(G[j] * G[j - 1], REAL(0)));

@@ -115,27 +115,27 @@ static void trum_set_tolerances(trum_lanes* lanes, int i, const trum_search* sea
 }
 
 /* Sets a lap's errors to none. */
-static void trum_clear_lap_errors(trum_lap* lap, int i) {
+static void trum_clear_lap_errors(trum_lap* lap, int i, trum_real x) {
   set_lane(&lap->error, i, 0), set_lane(&lap->remainder, i, 0);
   set_lane(&lap->error_sum, i, 0), set_lane(&lap->remainder_sum, i, 0);
   set_lane(&lap->error_square, i, 0), set_lane(&lap->error_S, i, 0), set_lane(&lap->SS, i, 0);
   set_lane(&lap->remainder_square, i, 0), set_lane(&lap->inside, i, 0);
   set_lane(&lap->low_error, i, 0), set_lane(&lap->low_remainder, i, 0);
   set_lane(&lap->high_error, i, 0), set_lane(&lap->high_remainder, i, 0);
-  set_lane(&lap->lowest, i, 0), set_lane(&lap->highest, i, 0);
+  set_lane(&lap->lowest, i, x), set_lane(&lap->highest, i, x);
   set_lane(&lap->friction_error, i, 0), set_lane(&lap->friction_remainder, i, 0);
   set_lane(&lap->angle_error, i, 0), set_lane(&lap->angle_remainder, i, 0);
 }
 
 /* Sets a lap's sums to those of no time. */
-static void trum_clear_lap(trum_lap* lap, int i, int slopes) {
+static void trum_clear_lap(trum_lap* lap, int i, trum_real x, int slopes) {
   int k;
   set_lane(&lap->x, i, 0), set_lane(&lap->xx, i, 0), set_lane(&lap->S, i, 0), set_lane(&lap->xS, i, 0);
-  set_lane(&lap->low, i, 0), set_lane(&lap->high, i, 0);
+  set_lane(&lap->low, i, x), set_lane(&lap->high, i, x);
   set_lane(&lap->S_low, i, 1), set_lane(&lap->S_high, i, 1);
   set_lane(&lap->friction, i, 0), set_lane(&lap->angle, i, 0);
   set_lane(&lap->full_contact, i, 0), set_lane(&lap->fastest, i, 0);
-  trum_clear_lap_errors(lap, i);
+  trum_clear_lap_errors(lap, i, x);
   for (k = 0; slopes && k < PARAMETERS; ++k) {
     set_lane(&lap->sum_abs_friction[k], i, 0), set_lane(&lap->sum_abs_angle[k], i, 0);
     set_lane(&lap->d_x[k], i, 0), set_lane(&lap->d_xx[k], i, 0);
@@ -155,20 +155,28 @@ static void trum_clear_sensitivity(trum_sensitivity* sensitivity, int i, int slo
   set_lane(&d->theta_E, i, 0), set_lane(&d->R_v_rate, i, 0), set_lane(&d->W_c_rate, i, 0);
 }
 
+/* The speed that a lap's are differences to: its start's, so that small changes keep their digits; 0 where friction can
+ * turn the speed round many times in a drive period, so that small speeds do. */
+static trum_real trum_reference_speed(const trum_lanes* lanes, int i, const trum_search* search) {
+  const trum_real reach = search->in->push * lane_value(&lanes->equation.period, i);
+  return search->stage != STAGE_HELD && reach > 10 * trum_fabs(search->start_speed) ? 0 : search->start_speed;
+}
+
 /* Starts a lap in a lane: of the held rotor, which has no equation of motion, or from the search's start speed. */
 static void trum_start_lap(trum_lanes* lanes, int i, trum_search* search) {
   const trum_orbit_in* in = search->in;
   const int held = search->stage == STAGE_HELD;
+  const trum_real v0 = trum_reference_speed(lanes, i, search), x = search->start_speed - v0;
   trum_step_start* start = &lanes->start;
   set_lane(&lanes->equation.push, i, held ? 0 : in->push), set_lane(&lanes->equation.drag, i, held ? 0 : in->drag);
-  set_lane(&lanes->equation.v0, i, search->start_speed);
+  set_lane(&lanes->equation.v0, i, v0);
   trum_set_tolerances(lanes, i, search);
   set_lane(&lanes->step.stiffness, i, 0), set_lane(&lanes->step.growth, i, trum_step_growth);
   set_lane(&lanes->step.steps_left, i, trum_max_steps_per_period * in->m);
   set_lane(&lanes->step.free_h, i, trum_first_step * lane_value(&lanes->equation.period, i));
-  set_lane(&start->x, i, 0), set_lane(&start->S, i, 1);
+  set_lane(&start->x, i, x), set_lane(&start->S, i, 1);
   set_lane(&start->f, i, 0), set_lane(&start->f_v, i, 0), set_lane(&start->theta, i, 0);
-  trum_clear_lap(&lanes->lap, i, with_slopes(lanes));
+  trum_clear_lap(&lanes->lap, i, x, with_slopes(lanes));
   trum_clear_sensitivity(&lanes->sensitivity, i, with_slopes(lanes));
   set_lane_mask(&lanes->status.at_lap_start, i, 1), set_lane_mask(&lanes->status.failed, i, 0);
   set_lane_mask(&lanes->status.active, i, 1);

@@ -76,15 +76,14 @@ typedef struct {
 static trum_lap_summary trum_summarise_lap(const trum_lanes* lanes, int i, trum_search* search) {
   const trum_lap* lap = &lanes->lap;
   const trum_orbit_in* in = search->in;
-  const trum_real error = lane_value(&lap->error, i);
+  const trum_real error = lane_value(&lap->error, i), v0 = lane_value(&lanes->equation.v0, i);
   trum_lap_summary s;
-  s.gain = lane_value(&lanes->start.x, i), s.growth = lane_value(&lanes->start.S, i);
+  s.gain = lane_value(&lanes->start.x, i) - (search->start_speed - v0), s.growth = lane_value(&lanes->start.S, i);
   s.decay = trum_larger(1 - s.growth, trum_least_decay);
   s.off = (1 + trum_first_order_share) * trum_fabs(error) + lane_value(&lap->remainder, i);
   s.exact_gain = s.gain - error, s.uncertainty = TRUM_C(0.1) * trum_fabs(error) + lane_value(&lap->remainder, i);
   s.bound = TRUM_C(1.5) * lane_value(&lap->fastest, i);
-  s.top = trum_larger(trum_fabs(search->start_speed + lane_value(&lap->low, i)),
-                      trum_fabs(search->start_speed + lane_value(&lap->high, i)));
+  s.top = trum_larger(trum_fabs(v0 + lane_value(&lap->low, i)), trum_fabs(v0 + lane_value(&lap->high, i)));
   s.newton = s.gain / s.decay;
   s.saturated_gain = (in->push - trum_fabs(in->drag)) * lane_value(&lanes->equation.cycle_time, i);
   s.certain = trum_fabs(s.exact_gain) > s.uncertainty;

@@ -135,11 +135,13 @@ static void trum_solve_collocation(const trum_lanes* lanes, trum_trial_step* tri
                             : where(less_than(change, last_change), change * (change * reciprocal(last_change)), change)),
               trial->unsolved);
     last_change = where(trial->not_converged, change, last_change);
-    /* a first change says nothing of the next where friction is steep */
+    /* a first change says nothing of the next where friction is steep; the error of a damped step weighs more (error.h) */
     trial->not_converged =
         trial->not_converged &
         mask_not(at_most(change, lanes->tolerances.newton) &
                  at_most(bent * lanes->tolerances.inverse_step, REAL(trum_newton_share) * lanes->equation.push) &
+                 mask_not(trial->damped & less_than(REAL(trum_newton_share / trum_stiff_factor) * lanes->equation.push,
+                                                    trial->unsolved * lanes->tolerances.inverse_step)) &
                  (tries > 0 ? mask_all(1) : mask_not(trial->damped)));
   }
   for (j = 1; j < NODES; ++j) T_f[j] = trial->T[j] * trial->f[j];

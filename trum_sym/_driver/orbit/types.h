@@ -49,7 +49,7 @@ typedef struct {
   real f[PARAMETERS], ln_E[PARAMETERS], ln_R_v[PARAMETERS], theta_E, R_v_rate, W_c_rate;
 } trum_derivatives;
 
-/* The lap's equation of motion: x' = push f(v0 + x, t) - drag, over cycle_time, which is a number of drive periods. */
+/* The lap's equation of motion for the speed v0 + x: x' = push f(v0 + x, t) - drag, over cycle_time, which is a number of drive periods. */
 typedef struct {
   real push, drag, v0, period, cycle_time;
 } trum_equation;
