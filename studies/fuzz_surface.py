@@ -159,8 +159,9 @@ SMALL = {
     "robust": BOX,
     "speed-table": ["--points", "2", "--error", "0.5", *BOX],
     "sweep": ["--outputs", "amplitude"],
+    "characteristics": ["--points", "2"],
 }
-SLOW = ("spread", "optimize", "pareto", "robust", "speed-table", "calibrate", "report")
+SLOW = ("characteristics", "spread", "optimize", "pareto", "robust", "speed-table", "calibrate", "report")
 
 
 def console_calls(name: str) -> st.SearchStrategy[Any]:
