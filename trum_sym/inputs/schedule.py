@@ -121,7 +121,7 @@ class Schedule(Value):
         found = self.symbols(drive)
         period = np.arange(found["m"])
         off = [(period >= found[f"off_{phase}"]) & (period < found[f"on_{phase}"]) for phase in "AB"]
-        return 1.0 - np.stack(off, axis=1)
+        return (1 - np.stack(off, axis=1)).astype(np.float64)
 
     def symbols(self, drive: Drive) -> dict[str, float]:
         """What a lap needs of it, by the names of the lap's fields.
@@ -138,7 +138,8 @@ class Schedule(Value):
             "single": (0, 0, 0, m),
             "continuous": (0, 0, 0, 0),
         }[self.kind]
-        of_B, lead = self.voltage * self.ratio, float(np.asarray(drive.phase_lead))
+        of_B = 0.0 if self.kind == "single" else self.voltage * self.ratio
+        lead = float(np.asarray(drive.phase_lead))
         quarter = self.phase_difference == _QUARTER  # whose cosine is no exact 0
         return {
             "m": float(m),

@@ -24,6 +24,7 @@ from trum_sym.inputs.schedule import Schedule
 from trum_sym.model.coupling import coupled_values, held_wave
 from trum_sym.model.kernels import call
 from trum_sym.model.levels import Levels
+from trum_sym.values import Value
 
 __all__ = [
     "STARTS",
@@ -49,8 +50,8 @@ _STEPS = Domain(low=20, low_open=False, high=10_000, integer=True)
 _MASS = Domain(low=0.0, low_open=False, high=10.0)
 
 
-@dataclass(frozen=True)
-class CoupledOrbit:
+@dataclass(frozen=True, eq=False)
+class CoupledOrbit(Value):
     """What laps from one start come to; SI.
 
     Attributes

@@ -1,13 +1,13 @@
-"""Any drive on the coupled engine: the cycle that it comes back to, and how it starts from rest and stops (Sects. 1, 2).
+"""Any drive on the coupled engine: the cycle that it comes back to, its start from rest and its stop (Sects. 1, 2).
 
-The laps are those of :mod:`trum_sym.model.coupled_orbit`.  Here they follow each other in parts of a drive period, so that
-the rotor's path is known: what an encoder reads is differences of it.
+The laps are those of :mod:`trum_sym.model.coupled_orbit`.  Here they follow each other in parts of a drive period, so
+that the rotor's path is known: what an encoder reads is differences of it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Unpack
 
 import numpy as np
@@ -29,7 +29,7 @@ from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.output.result import Result
 from trum_sym.values import Value
 
-__all__ = ["DriveHistory", "DriveOrbit", "drive_history", "drive_orbit", "read_by_encoder"]
+__all__ = ["DriveHistory", "DriveOrbit", "drive_history", "drive_orbit", "history_of", "read_by_encoder"]
 
 _MOVING = [STATE.index(name) for name in ("w_A", "v_A", "w_B", "v_B", "v")]
 _SETTLING = 600  # drive periods before Newton: 22 of the time in which a free wave falls by e
@@ -66,8 +66,20 @@ class DriveHistory(Value):
     input_power: Array
 
 
-def _walk(values: Mapping[str, float], state: Array, gates: Array, samples: int) -> DriveHistory:
-    """Drive periods with given gates from a state, in parts of a period; a span at rest is one part."""
+def history_of(values: Mapping[str, float], state: Array, gates: Array, samples: int) -> DriveHistory:
+    """A motion through drive periods with given gates, in parts of a period; a span at rest is one part.
+
+    Parameters
+    ----------
+    values : mapping
+        From :func:`trum_sym.model.coupled_orbit.lap_values`; its own gates do not count.
+    state : (7,) array
+        At the start.
+    gates : (m, 2) array
+        Whether A and B are driven, 1 or 0, in each drive period.
+    samples : int
+        Parts of a drive period.
+    """
     span = 2 * np.pi / values["omega_q"]
     always = {"off_A": 0.0, "off_B": 0.0}
     ends, times, paths, powers, driven = [state], [0.0], [0.0], [], []
@@ -177,13 +189,13 @@ class DriveOrbit(Result, Value):
         skip = ("state", "multipliers")
         numbers = {name: value for name, value in vars(self.orbit).items() if name not in skip}
         return {
+            **self.inputs.record(),
             "schedule": dict(vars(self.schedule)),
             **numbers,
             "closed": self.orbit.closed,
             "stable": self.orbit.stable,
             "largest_multiplier": float(np.abs(self.orbit.multipliers).max()),
             **{name: getattr(self, name) for name in ("encoder_deviation", "encoder_low", "encoder_high")},
-            "inputs": self.inputs.to_dict(),
         }
 
     def to_text(self) -> str:
@@ -204,7 +216,7 @@ class DriveOrbit(Result, Value):
         rows += [("highest wave", 1e6 * orbit.highest_wave, "um"), ("power of the drive", orbit.input_power, "W")]
         word = "repeats itself" if orbit.closed else "does not repeat after a cycle"
         word += " and attracts" if orbit.closed and orbit.stable else ""
-        return f"{self.schedule.kind}, from {orbit.start}: {word}\n" + tabulate(rows, floatfmt=".6g")
+        return f"{self.schedule.kind}, from {orbit.start}: {word}\n{tabulate(rows, floatfmt='.6g')}"
 
 
 def _values(
@@ -228,7 +240,7 @@ def _coupled(levels: LevelChoice) -> Levels:
     """The levels with coupling, which no other word may deny."""
     if levels.get("coupling", "contact") != "contact":
         raise ParameterError("coupling", levels["coupling"], "contact: a wave that feels the rotor")
-    return Levels(**{**levels, "coupling": "contact"})
+    return replace(Levels(**levels), coupling="contact")
 
 
 def drive_orbit(
@@ -296,7 +308,9 @@ def drive_orbit(
     first = laps(values, begun[:, np.newaxis])[0][:, 0]
     again = np.array_equal(first[_MOVING], begun[_MOVING]) and not values["mass"]  # all has come to rest
     settling = 0 if again else max(30, int(np.ceil(_SETTLING / values["m"])))
-    return _answer(values, orbit_from(values, begun, start, settling), chosen, samples, motor, drive, chosen_levels, period)
+    return _answer(
+        values, orbit_from(values, begun, start, settling), chosen, samples, motor, drive, chosen_levels, period
+    )
 
 
 def _samples(samples_per_period: object, steps: object) -> int:
@@ -325,9 +339,9 @@ def _answer(
     period: float | None,
 ) -> DriveOrbit:
     """The orbit with the history of its cycle and what an encoder reads of it."""
-    walked = _walk(values, orbit.state, schedule.gates(drive), samples)
-    read = (None, None, None) if period is None else read_by_encoder(walked.time, walked.angle, period)
-    return DriveOrbit(schedule, orbit, walked, *read, Inputs(motor, drive, levels, period))
+    walked = history_of(values, orbit.state, schedule.gates(drive), samples)
+    spread, low, high = (None,) * 3 if period is None else read_by_encoder(walked.time, walked.angle, period)
+    return DriveOrbit(schedule, orbit, walked, spread, low, high, Inputs(motor, drive, levels, period))
 
 
 def drive_history(
@@ -384,4 +398,4 @@ def drive_history(
     mass = one_number("rotor_mass", rotor_mass, "kg")
     chosen, values = _values(motor, drive, schedule, chosen_levels, mass, steps)
     gates = np.concatenate([np.tile(chosen.gates(drive), (repeats, 1)), np.zeros((still, 2))])
-    return _walk(values, start_of("rest", values), gates, samples)
+    return history_of(values, start_of("rest", values), gates, samples)

@@ -1,0 +1,75 @@
+"""Which drive is steadiest: settings against the engine at them, the table and the picture of a few."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+import trum_sym as ts
+from studies import drives
+from studies.drives import DRIVES, Condition, conditions, main, solved
+from trum_sym.inputs.units import ARCSEC
+from trum_sym.model.coupling import coupled_values, plain_waves
+from trum_sym.model.drive_orbit import drive_orbit
+
+PLATE = 2.7e-4
+
+
+@pytest.fixture(scope="module")
+def motor():
+    return ts.load_motor()
+
+
+def test_bursts_far_apart_are_what_the_engine_makes_of_the_same_pause(motor):
+    condition = Condition("flange", 0.0, 0.05)
+    (record,) = solved(motor, condition, "bursts of 1", (20.0,))
+    schedule = ts.Schedule(kind="burst", periods=record["setting"], on_periods=1)
+    found = drive_orbit(motor, condition.drive(3000.0), schedule, compliance="flange", steps=80, sampling_period="2 ms")
+    assert record["mean"] == pytest.approx(20, rel=1e-3)
+    assert record["mean"] == pytest.approx(found.orbit.mean_speed / ARCSEC, rel=1e-9)
+    assert record["deviation"] == pytest.approx(found.orbit.deviation / ARCSEC, rel=1e-9)
+    assert record["encoder"] == pytest.approx(found.encoder_deviation / ARCSEC, rel=1e-9)
+    assert record["encoder_width"] * ARCSEC == pytest.approx(found.encoder_high - found.encoder_low, rel=1e-9)
+
+
+def test_a_phase_difference_and_a_voltage_give_the_mean_speed_that_was_asked_for(motor):
+    condition = Condition("flange", PLATE, 0.0)
+    (phase,) = solved(motor, condition, "phase difference", (100.0,))
+    schedule = ts.Schedule(kind="continuous", phase_difference=phase["setting"])
+    found = drive_orbit(motor, condition.drive(3000.0), schedule, start="steady", compliance="flange", steps=80)
+    assert found.orbit.mean_speed / ARCSEC == pytest.approx(100, rel=0.02)
+    assert phase["deviation"] < 1
+    (voltage,) = solved(motor, condition, "voltage", (100.0,))
+    values = coupled_values(motor, ts.Drive(load_torque=0.0, load_inertia=PLATE, on_periods=20), condition.levels)
+    waves = plain_waves({**values, "F_q": voltage["setting"] * values["F_q"]})
+    assert min(abs(speed / ARCSEC - 100) for speed in waves.speed) < 1
+
+
+def test_what_no_setting_reaches_is_said(motor):
+    """A hundred thousand arcsec/s take bursts that overlap."""
+    (record,) = solved(motor, Condition("flange", PLATE, 0.0), "bursts of 20", (1e5,))
+    assert record == {"target": 1e5, "reached": False, "why": "overlap"}
+
+
+def test_the_command_takes_up_where_its_file_ends_prints_and_draws(motor, tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(drives, "DRIVES", ("bursts of 1", "bursts of 20"))
+    file, picture = tmp_path / "drives.jsonl", tmp_path / "drives.png"
+    first = conditions(motor)[-2]
+    monkeypatch.setattr(drives, "conditions", lambda _: [first])
+    assert main([str(file), str(picture), "1"]) == 0
+    assert main([str(file), str(picture)]) == 0
+    assert [json.loads(line)["drive"] for line in file.read_text("utf-8").splitlines()] == [
+        "bursts of 1",
+        "bursts of 20",
+    ]
+    before = file.read_bytes()
+    assert main([str(file), str(picture)]) == 0
+    assert file.read_bytes() == before
+    assert picture.read_bytes().startswith(b"\x89PNG")
+    assert "bursts of 1" in capsys.readouterr().out
+    assert main([]) == 2
+
+
+def test_every_drive_has_a_place_in_the_table():
+    assert len(set(DRIVES)) == 7
