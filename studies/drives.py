@@ -20,7 +20,7 @@ import sys
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.optimize import brentq
@@ -35,6 +35,10 @@ from trum_sym.model.coupling import coupled_values, plain_waves
 from trum_sym.model.drive_orbit import drive_orbit, history_of, read_by_encoder
 from trum_sym.model.levels import Levels
 from trum_sym.output.progress import shown
+from trum_sym.plots.style import COLOURS, INK, figure_of, panels, styled
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 __all__ = ["DRIVES", "TARGETS", "Condition", "conditions", "main", "solved"]
 
@@ -334,55 +338,61 @@ def _key(condition: Condition, name: str) -> list[Any]:
     return [condition.contact, condition.inertia, condition.load, name]
 
 
-def _shown(value: float | None) -> str:
-    return "-" if value is None else f"{value:.2g}" if abs(value) < 1e5 else f"{value:.1e}"
+def _shown(value: float) -> str:
+    return f"{value:.2g}" if abs(value) < 1e5 else f"{value:.1e}"
+
+
+def rows(records: Iterable[dict[str, Any]]) -> list[tuple[str, ...]]:
+    """A row a record: deviations of the speed and of the encoder's readings, drift, and why there is none."""
+    found = []
+    for record in records:
+        of = {round(answer["target"]): answer for answer in record["found"]}
+        shown_at = [("deviation", _SHOWN), ("encoder", _SHOWN), ("drift", _SHOWN[2:3])]
+        cells = [
+            _shown(of[round(target)][name]) if of[round(target)]["reached"] else "-"
+            for name, targets in shown_at
+            for target in targets
+        ]
+        lacking = next((answer["why"] for answer in record["found"] if not answer["reached"]), "")
+        place = f"{record['contact']} {'plate' if record['inertia'] else 'alone'} {record['load']:g}"
+        found.append((place, record["drive"], *cells, lacking))
+    return found
 
 
 def table(records: Iterable[dict[str, Any]]) -> str:
-    """Deviations of the speed and of the encoder's readings in arcsec/s, and what more friction does to the mean."""
-    rows = []
-    for record in records:
-        of = {round(found["target"]): found for found in record["found"]}
-        cells = []
-        for name in ("deviation", "encoder", "drift"):
-            for target in _SHOWN:
-                found = of[round(target)]
-                cells.append(_shown(found.get(name)) if found["reached"] else "-")
-        lacking = next((found["why"] for found in record["found"] if not found["reached"]), "")
-        rows.append(
-            (record["contact"], f"{record['inertia']:g}", f"{record['load']:g}", record["drive"], *cells, lacking)
-        )
-    head = ["contact", "J_load", "N m", "drive"]
-    for name in ("speed", "2 ms", "drift"):
+    """Deviations in arcsec/s at some mean speeds; what more friction does to the mean at 100 arcsec/s."""
+    head = ["contact, rotor,\nload in N m", "drive"]
+    for name in ("speed", "2 ms"):
         head += [f"{name}\n{target:g}" for target in _SHOWN]
-    return tabulate(rows, (*head, "where not"), disable_numparse=True)
+    return tabulate(rows(records), (*head, "drift\n100", "where not"), disable_numparse=True)
 
 
-def picture(records: Iterable[dict[str, Any]], target: Path) -> None:
-    """Deviation of the speed, and of what the encoder reads, against the mean speed, without a load."""
-    from trum_sym.plots.style import COLOURS, INK, blank, figure_of, legend
-
-    axes = blank(2, 2, 6.0, sharex=True, sharey="row")
-    inertias = sorted({record["inertia"] for record in records})
-    for record in records:
-        if record["load"] or not any(found["reached"] and found["encoder"] for found in record["found"]):
-            continue
-        column, colour = inertias.index(record["inertia"]), COLOURS[DRIVES.index(record["drive"])]
-        speeds = [found["target"] for found in record["found"]]
-        line = "-" if record["contact"] == "layer" else "--"
+@styled
+def picture(records: Iterable[dict[str, Any]]) -> Figure:
+    """Deviation of the speed, and of what the encoder reads, against the mean speed, under the load."""
+    axes = panels(None, 2, 2, 5.6, sharex=True, sharey="row")
+    loaded = [record for record in records if record["load"]]
+    inertias = sorted({record["inertia"] for record in loaded})
+    for record in loaded:
+        speeds = [answer["target"] for answer in record["found"] if answer["reached"]]
+        column, colour = inertias.index(record["inertia"]), COLOURS[DRIVES.index(record["drive"]) % len(COLOURS)]
         for row, name in enumerate(("deviation", "encoder")):
-            values = [found[name] if found["reached"] else math.nan for found in record["found"]]
-            label = record["drive"] if line == "--" else None
-            axes[2 * row + column].loglog(speeds, values, line, marker=".", color=colour, label=label)
+            values = [answer[name] for answer in record["found"] if answer["reached"]]
+            if any(values):  # a plain wave has none
+                line = "-" if record["contact"] == "layer" else "--"
+                label = f"{record['drive']} ({record['contact']})"
+                axes[2 * row + column].loglog(speeds, values, line, marker=".", color=colour, label=label)
     for k, ax in enumerate(axes):
-        ax.loglog(TARGETS, TARGETS, ":", color=INK, linewidth=0.8)
-        ax.set_title(f"{'rotor alone' if k % 2 == 0 else 'with the plate'}")
+        ax.loglog(TARGETS, TARGETS, ":", color=INK, linewidth=0.8, label="as large as the mean")
+        ax.set_title("rotor alone" if k % 2 == 0 else "with the bench's plate")
         if k > 1:
             ax.set_xlabel("mean speed (arcsec/s)")
     axes[0].set_ylabel("deviation of the speed (arcsec/s)")
-    axes[2].set_ylabel("of 2 ms readings (arcsec/s)")
-    legend(axes[0], ncols=3, bbox_to_anchor=(0.0, 1.1))
-    figure_of(axes[0]).savefig(target, dpi=150, facecolor="white", metadata={"Software": None})
+    axes[2].set_ylabel("of readings over 2 ms (arcsec/s)")
+    figure = figure_of(axes[0])
+    named = {label: line for ax in axes for line, label in zip(*ax.get_legend_handles_labels(), strict=True)}
+    figure.legend(named.values(), named.keys(), loc="outside upper left", ncols=3)
+    return figure
 
 
 def main(arguments: list[str]) -> int:
@@ -401,7 +411,7 @@ def main(arguments: list[str]) -> int:
     records = sorted(_read(file), key=lambda r: order[json.dumps([r["contact"], r["inertia"], r["load"], r["drive"]])])
     print(table(records))
     if len(arguments) > 1:
-        picture(records, Path(arguments[1]))
+        picture(records).savefig(arguments[1], dpi=120, facecolor="white", metadata={"Software": None})
     return 0
 
 
