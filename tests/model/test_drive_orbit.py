@@ -107,6 +107,21 @@ def test_a_part_of_a_running_wave_turns_it_as_its_mirror_image_does_the_other_wa
         assert back == pytest.approx(-found, rel=3e-3)  # of 80 steps a drive period
 
 
+@pytest.mark.parametrize("lead", [1, -1])
+def test_without_reaction_both_phases_swing_as_far_apart_and_as_high_as_they_are_driven(motor, lead):
+    """Laps from rest come to the steady swing of two oscillators, whose complex amplitudes are as their forces."""
+    drive = ts.Drive(frequency_difference=500.0, load_torque=0.0, phase_lead=lead)
+    schedule = ts.Schedule(kind="continuous", phase_difference="40 deg", ratio=0.6, voltage=0.5)
+    values = lap_values(motor, drive, FLANGE, schedule, steps=80, reaction=False)
+    state, _ = laps({**values, "m": 1500.0, "on_A": 0.0, "on_B": 0.0}, start_of("rest", values)[:, np.newaxis])
+    w_A, v_A, w_B, v_B = state[:4, 0]
+    of_A, of_B = complex(w_A, -v_A / values["omega_q"]), complex(w_B, -v_B / values["omega_q"])
+    own, turn = values["omega_n0"], values["omega_q"]
+    free = 0.5 * values["F_q"] / values["M_q"] / complex(own**2 - turn**2, 2 * values["xi"] * own * turn)
+    assert of_A == pytest.approx(free * np.exp(1j * values["force_phase"]), rel=1e-6)
+    assert of_B / of_A == pytest.approx(0.6 * np.exp(1j * lead * math.radians(40)), rel=1e-6)
+
+
 def test_a_burst_is_a_motion_in_time_and_its_energy_adds_up(motor):
     """A cycle of a burst's orbit, two periods on and one off, integrated with all of its work by the witness."""
     from studies.coupling import after
@@ -158,10 +173,32 @@ def test_friction_stops_wave_and_rotor_and_when_it_is_said_to_matters_little(mot
     for share in (1.0, 0.3):
         end, lap = laps({**values, "held": share * values["held"]}, begun)
         assert not end[[0, 1, 2, 3, 6]].any()
+        assert lap["touching"][0] > 0.85  # all of the wave in the pause
         steps.append(float(lap["mean"][0]))
     assert steps[0] == pytest.approx(steps[1], rel=2e-3)
     end, _ = laps({**values, "held": 0.0}, begun)
     assert end[6].any()  # steps of a fixed size never come to rest
+
+
+def test_what_rests_moves_again_when_it_is_driven(motor, drive):
+    values = lap_values(motor, drive, FLANGE, PLAIN, steps=80)
+    begun = start_of("rest", values)[:, np.newaxis]
+    wanted, _ = laps({**values, "m": 2.0}, begun)
+    later, lap = laps({**values, "m": 5.0, "on_A": 3.0, "on_B": 3.0}, begun)
+    assert later == pytest.approx(wanted, rel=1e-12)
+    assert lap["high"][0] > 0
+
+
+def test_a_rotor_that_still_turns_is_not_at_rest_however_small_the_wave(motor):
+    """It begins with the rim at 0.2 m/s, which friction cannot take from it in a drive period."""
+    loaded = ts.Drive(frequency_difference=500.0, load_torque=0.0, load_inertia=2.7e-4)
+    values = lap_values(motor, loaded, FLANGE, PLAIN, steps=80)
+    begun = start_of("rest", values)
+    begun[STATE.index("v")] = 0.2
+    slowed = values["mu"] * values["F_c"] * values["r_c"] ** 2 / values["J_total"] * 2 * math.pi / values["omega_q"]
+    found = history_of(values, begun, np.zeros((100, 2)), 1)
+    assert 0.2 - found.speed[1] * values["r_c"] == pytest.approx(slowed, rel=0.05)
+    assert found.speed[-1] == 0
 
 
 def test_what_is_held_is_what_a_plain_wave_is_held_by(motor):
@@ -220,11 +257,12 @@ def test_an_encoder_reads_what_the_product_s_reads_of_the_same_path():
     rng = np.random.default_rng(1)
     angle = np.concatenate([[0.0], np.cumsum(rng.uniform(-1, 1.5, 40))])
     time = np.arange(41) / 40 * 5e-4
-    spread, low, high = read_by_encoder(time, angle, 2e-3)
+    spread, low, high = read_by_encoder(time, angle, 2.21e-3)
     starts = (np.arange(200_000) + 0.5) / 200_000
-    readings = encoder_readings(angle[1:], 5e-4, 2e-3, starts)
+    readings = encoder_readings(angle[1:], 5e-4, 2.21e-3, starts)
     assert spread == pytest.approx(np.std(readings), rel=1e-6)
     assert (low, high) == pytest.approx((readings.min(), readings.max()), rel=1e-3)
+    assert high > low
 
 
 def test_an_answer_is_a_table_and_a_record(motor, drive):
