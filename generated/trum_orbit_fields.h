@@ -69,10 +69,16 @@
   X(r_c, "m") \
   X(T_load, "N*m") \
   X(J_total, "kg*m^2") \
-  X(s, "1") \
   X(m, "1") \
-  X(n, "1") \
+  X(off_A, "1") \
+  X(on_A, "1") \
+  X(off_B, "1") \
+  X(on_B, "1") \
+  X(force_A, "1") \
+  X(force_B_along, "1") \
+  X(force_B_ahead, "1") \
   X(force_phase, "rad") \
+  X(held, "m") \
   X(mass, "kg") \
   X(reaction, "1") \
   X(steps, "1")
@@ -258,10 +264,16 @@ typedef struct {
   trum_real r_c; /* m: contact radius */
   trum_real T_load; /* N*m: load torque */
   trum_real J_total; /* kg*m^2: moment of inertia of all that turns or moves with the rotor */
-  trum_real s; /* 1: phase lead of B in quarter periods, +1 or -1 */
-  trum_real m; /* 1: drive pulses per cycle (periods) */
-  trum_real n; /* 1: pulses each phase gets per cycle (on_periods) */
+  trum_real m; /* 1: drive periods in the lap; the last one may be a part */
+  trum_real off_A; /* 1: drive periods before A is off */
+  trum_real on_A; /* 1: drive periods before it is on again */
+  trum_real off_B; /* 1: drive periods before B is off */
+  trum_real on_B; /* 1: drive periods before it is on again */
+  trum_real force_A; /* 1: A's modal force over F_q */
+  trum_real force_B_along; /* 1: the part of B's over F_q that is in phase with A's */
+  trum_real force_B_ahead; /* 1: the part of it that is a quarter period ahead of A's */
   trum_real force_phase; /* rad: phase of A's modal force at the start of the cycle */
+  trum_real held; /* m: height of a wave that friction holds still, 0 if none */
   trum_real mass; /* kg: of the rotor that goes up and down; 0: it follows the wave */
   trum_real reaction; /* 1: share of the contact's forces that acts on the phases, 1 or 0 */
   trum_real steps; /* 1: time steps in a drive period */

@@ -143,6 +143,16 @@ GOOD = {
     "simulate": (ts.simulate, {"motor": MOTOR, "drive": ts.Drive(), "samples_per_period": 4}),
     "sensitivities": (ts.sensitivities, {"motor": MOTOR, "drive": ts.Drive()}),
     "characteristics": (ts.characteristics, {"motor": MOTOR, "drive": ts.Drive(), "points": 2, "tolerance": 1e-2}),
+    "drive_orbit": (
+        ts.drive_orbit,
+        {
+            "motor": MOTOR,
+            "drive": ts.Drive(),
+            "schedule": ts.Schedule(kind="burst", periods=200, on_periods=1),
+            "steps": 24,
+        },
+    ),
+    "Schedule": (ts.Schedule, {"kind": "burst", "periods": 3, "on_periods": 2}),
     "sweep": (ts.sweep, {"motor": MOTOR, "outputs": ["amplitude"], "prepressure": [170.0, 180.0]}),
     "spread": (
         ts.spread,

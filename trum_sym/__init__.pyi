@@ -15,6 +15,9 @@ from .inputs.motor import Motor as Motor
 from .inputs.motor import Parameter as Parameter
 from .inputs.motor_file import load_motor as load_motor
 from .inputs.motor_writer import save_motor as save_motor
+from .inputs.schedule import Schedule as Schedule
+from .model.drive_orbit import DriveOrbit as DriveOrbit
+from .model.drive_orbit import drive_orbit as drive_orbit
 from .model.histories import simulate as simulate
 from .model.holding import Holding as Holding
 from .model.holding import holding as holding
@@ -40,6 +43,7 @@ __all__ = [
     "ConvergenceError",
     "Distribution",
     "Drive",
+    "DriveOrbit",
     "Holding",
     "ImplausibleWarning",
     "MissingExtraError",
@@ -48,6 +52,7 @@ __all__ = [
     "Optimum",
     "Parameter",
     "ParameterError",
+    "Schedule",
     "Sensitivities",
     "StaleBuildWarning",
     "Tracking",
@@ -55,6 +60,7 @@ __all__ = [
     "ValidityWarning",
     "calibrate",
     "characteristics",
+    "drive_orbit",
     "evaluate",
     "holding",
     "load_motor",

@@ -318,8 +318,17 @@ _COUPLED_STATE = (
 )
 _COUPLED_IN = (
     *_COUPLED_STATE,
-    *_named("M_q omega_n0 xi F_q omega_q D k_c k_N n_j mu F_c r_c T_load J_total s m n"),
+    *_named("M_q omega_n0 xi F_q omega_q D k_c k_N n_j mu F_c r_c T_load J_total"),
+    Field("m", "1", "drive periods in the lap; the last one may be a part"),
+    Field("off_A", "1", "drive periods before A is off"),
+    Field("on_A", "1", "drive periods before it is on again"),
+    Field("off_B", "1", "drive periods before B is off"),
+    Field("on_B", "1", "drive periods before it is on again"),
+    Field("force_A", "1", "A's modal force over F_q"),
+    Field("force_B_along", "1", "the part of B's over F_q that is in phase with A's"),
+    Field("force_B_ahead", "1", "the part of it that is a quarter period ahead of A's"),
     Field("force_phase", "rad", "phase of A's modal force at the start of the cycle"),
+    Field("held", "m", "height of a wave that friction holds still, 0 if none"),
     Field("mass", "kg", "of the rotor that goes up and down; 0: it follows the wave"),
     Field("reaction", "1", "share of the contact's forces that acts on the phases, 1 or 0"),
     Field("steps", "1", "time steps in a drive period"),

@@ -598,3 +598,21 @@ def test_the_catalogue_has_every_figure_of_the_paper_that_can_be_drawn():
         "load-region",
         "contact-zone",
     }
+
+
+def test_the_start_and_the_stop_are_the_motion_that_the_engine_makes():
+    from trum_sym.model.coupled_orbit import lap_values, laps, start_of
+    from trum_sym.model.levels import Levels
+
+    drive, schedule = ts.Drive(load_torque=0.05), ts.Schedule(kind="burst", periods=40, on_periods=10)
+    figure = plots.start_and_stop(None, drive, schedule, cycles=2, pause=30, compliance="flange")
+    upper, lower = figure.axes
+    values = lap_values(ts.load_motor(), drive, Levels(compliance="flange"), schedule)
+    period = 2e3 * np.pi / values["omega_q"]
+    time, speed = data(upper)
+    end, lap = laps({**values, "m": 10.0}, start_of("rest", values)[:, np.newaxis])
+    assert np.interp(10 * period, time, speed) == pytest.approx(end[6, 0] / values["r_c"], rel=1e-6)
+    assert data(lower)[1].max() == pytest.approx(1e6 * lap["highest"][0], rel=0.02)
+    assert speed[-1] == 0
+    assert [patch.get_x() for patch in upper.patches] == pytest.approx([10 * period, 50 * period])
+    assert sum(patch.get_width() for patch in upper.patches) == pytest.approx(90 * period)

@@ -5,6 +5,9 @@
  * drive's and the contact's forces, and the rotor's height and speed.  Steps end where phases are switched.  Where contact or
  * friction has a kink within a step the order is lower: who wants to know how much takes half the steps as well.
  *
+ * With both phases off, friction stops wave and rotor in a finite time.  Once no more is left than it holds, both rest until
+ * a phase is driven again.
+ *
  * C99 without allocation or globals, which is also C++. */
 #ifndef TRUM_COUPLED_H
 #define TRUM_COUPLED_H
@@ -35,11 +38,34 @@ static inline trum_real trum_coupled_height(trum_coupled_point* p, trum_real W_c
   return -p->carried.share / p->carried.engagement_per_height;
 }
 
+/* Which phases are driven in a drive period of the lap. */
+static inline trum_gates trum_coupled_gates(const trum_coupled_lap_in* in, long period) {
+  trum_gates gates;
+  gates.g_A = period >= in->off_A && period < in->on_A ? 0 : 1;
+  gates.g_B = period >= in->off_B && period < in->on_B ? 0 : 1;
+  return gates;
+}
+
+/* Whether friction stops wave and rotor and then holds them: neither phase is driven, what is left of the wave is at most
+ * what it holds, and the rotor is no faster than the surface of such a wave. */
+static inline int trum_coupled_stops(const trum_coupled_point* p, const trum_coupled_vector* y) {
+  const trum_coupled_lap_in* in = p->in;
+  const trum_real held = in->held * in->omega_n0, a = y->y[0] * in->omega_n0, b = y->y[2] * in->omega_n0;
+  return held > 0 && p->gates.g_A == 0 && p->gates.g_B == 0 && trum_fabs(y->y[6]) <= in->D * in->k_c * held &&
+         a * a + b * b + y->y[1] * y->y[1] + y->y[3] * y->y[3] <= held * held;
+}
+
+/* Both phases and the rotor's turning at rest; a rotor with a mass goes on up and down. */
+static inline void trum_coupled_rest(trum_coupled_vector* y) {
+  y->y[0] = y->y[1] = y->y[2] = y->y[3] = y->y[6] = 0;
+}
+
 /* Rates of a state at a phase of the drive, without the phases' own swing. */
 static inline trum_coupled_vector trum_coupled_rates(trum_coupled_point* p, const trum_coupled_vector* of, trum_real phase) {
   const trum_coupled_lap_in* in = p->in;
-  const trum_real on_A = p->gates.g_A * in->F_q * trum_cos(phase);
-  const trum_real on_B = -p->gates.g_B * in->s * in->F_q * trum_sin(phase);
+  const trum_real cosine = trum_cos(phase), sine = trum_sin(phase);
+  const trum_real on_A = p->gates.g_A * in->F_q * in->force_A * cosine;
+  const trum_real on_B = p->gates.g_B * in->F_q * (in->force_B_along * cosine - in->force_B_ahead * sine);
   trum_coupled_state s;
   trum_coupled_surface surface;
   trum_coupled_acting acting;
@@ -102,17 +128,17 @@ static inline trum_coupled_vector trum_coupled_step(trum_coupled_point* p, const
   return trum_coupled_add(&swung, third / 2, &rates);
 }
 
-/* A drive cycle from a state: the state after it, and means and extremes. */
+/* Drive periods from a state: the state after them, and means and extremes. */
 static inline void trum_coupled_lap(const trum_coupled_lap_in* in, trum_coupled_lap_out* out) {
   const trum_real pi = TRUM_C(3.14159265358979323846);
-  const long steps = (long)in->steps, periods = (long)in->m, off = periods - (long)in->n;
   const trum_real h = 2 * pi / in->omega_q / in->steps;
   trum_coupled_point p;
   trum_coupled_vector y;
   trum_mode mode;
   trum_flow half;
-  long period, step;
-  p.in = in;
+  long period;
+  int resting = 0;
+  p.in = in, p.wave = 0;
   p.place.D = in->D, p.place.F_c = in->F_c, p.place.k_N = in->k_N, p.place.k_c = in->k_c, p.place.mu = in->mu;
   p.place.n_j = in->n_j;
   trum_plain_engagement(&p.place, &p.carried);
@@ -122,12 +148,27 @@ static inline void trum_coupled_lap(const trum_coupled_lap_in* in, trum_coupled_
   y.y[4] = in->height, y.y[5] = in->climb, y.y[6] = in->v;
   out->mean = out->square = out->input = out->touching = out->highest = 0;
   out->low = out->high = in->v;
-  for (period = 0; period < periods; ++period) {
-    p.gates.g_A = period < off ? 0 : 1;
-    p.gates.g_B = period >= off && period < 2 * off ? 0 : 1;
+  for (period = 0; (trum_real)period < in->m; ++period) {
+    const long steps = (long)(in->steps * trum_fmin(1, in->m - (trum_real)period) + TRUM_C(0.5));
+    long step;
+    p.gates = trum_coupled_gates(in, period);
+    resting = resting && p.gates.g_A == 0 && p.gates.g_B == 0;
     for (step = 0; step < steps; ++step) {
       const trum_real phase = in->force_phase + 2 * pi * (trum_real)step / in->steps, before = y.y[6];
+      resting = resting || trum_coupled_stops(&p, &y);
+      if (resting) {
+        trum_coupled_rest(&y);
+        out->low = trum_fmin(out->low, 0), out->high = trum_fmax(out->high, 0);
+        if (!(in->mass > 0)) { /* nothing moves: the whole wave touches */
+          out->touching += pi * (trum_real)(steps - step);
+          break;
+        }
+      }
       y = trum_coupled_step(&p, &y, &half, h, phase, out);
+      if (resting) {
+        trum_coupled_rest(&y);
+        continue;
+      }
       out->mean += (before + y.y[6]) / 2;
       out->square += (before * before + before * y.y[6] + y.y[6] * y.y[6]) / 3;
       out->low = trum_fmin(out->low, y.y[6]), out->high = trum_fmax(out->high, y.y[6]);

@@ -20,9 +20,11 @@ from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
 from trum_sym.inputs.points import one_number
-from trum_sym.model.coupling import coupled_values
+from trum_sym.inputs.schedule import Schedule
+from trum_sym.model.coupling import coupled_values, held_wave
 from trum_sym.model.kernels import call
 from trum_sym.model.levels import Levels
+from trum_sym.values import Value
 
 __all__ = [
     "STARTS",
@@ -48,8 +50,8 @@ _STEPS = Domain(low=20, low_open=False, high=10_000, integer=True)
 _MASS = Domain(low=0.0, low_open=False, high=10.0)
 
 
-@dataclass(frozen=True)
-class CoupledOrbit:
+@dataclass(frozen=True, eq=False)
+class CoupledOrbit(Value):
     """What laps from one start come to; SI.
 
     Attributes
@@ -102,6 +104,7 @@ def lap_values(
     motor: Motor,
     drive: Drive,
     levels: Levels,
+    schedule: Schedule | None = None,
     *,
     rotor_mass: float = 0.0,
     steps: float = 400,
@@ -117,6 +120,8 @@ def lap_values(
     ----------
     motor, drive, levels
         Of one point; ``levels.coupling`` is taken as ``contact``.
+    schedule : Schedule
+        The drive's superimposed pulses if not given.
     rotor_mass : float, kg
         That goes up and down under the prepressure; without one the rotor follows the wave.
     steps : int
@@ -139,8 +144,8 @@ def lap_values(
     lead = float(np.angle(complex(own**2 - turn**2, 2 * xi * own * turn)))
     return {
         **{name: float(value) for name, value in values.items()},
-        "m": float(np.asarray(drive.periods)),
-        "n": float(np.asarray(drive.on_periods)),
+        **(Schedule() if schedule is None else schedule).symbols(drive),
+        "held": held_wave(values) if reaction else 0.0,
         "mass": one_number("rotor_mass", rotor_mass, "kg", _MASS),
         "reaction": float(reaction),
         "steps": one_number("steps", steps, "1", _STEPS),
@@ -171,8 +176,8 @@ def start_of(name: str, values: Mapping[str, float]) -> Array:
         own, turn = values["omega_n0"], values["omega_q"]
         force = values["F_q"] * np.exp(1j * values["force_phase"])
         swing = force / values["M_q"] / complex(own**2 - turn**2, 2 * values["xi"] * own * turn)
-        of_B = 1j * values["s"] * swing
-        state[:4] = swing.real, (1j * turn * swing).real, of_B.real, (1j * turn * of_B).real
+        of_A, of_B = values["force_A"] * swing, complex(values["force_B_along"], values["force_B_ahead"]) * swing
+        state[:4] = of_A.real, (1j * turn * of_A).real, of_B.real, (1j * turn * of_B).real
         state[4] += float(np.hypot(state[0], state[2]))
     elif name != "rest":
         raise ParameterError("start", name, f"one of {', '.join(STARTS)}")
@@ -294,6 +299,5 @@ def one_phase(motor: Motor, drive: Drive, levels: Levels, rotor_mass: float, ste
     ``highest_wave`` is the amplitude.  The drive's load and pulses do not count.
     """
     alone = Drive(prepressure=drive.prepressure, frequency_difference=drive.frequency_difference, load_torque=0.0)
-    values = lap_values(motor, alone, levels, rotor_mass=rotor_mass, steps=steps)
-    values |= {"m": 1.0, "n": 1.0, "s": 0.0}  # no lead: B is not driven
+    values = lap_values(motor, alone, levels, Schedule(kind="single"), rotor_mass=rotor_mass, steps=steps)
     return orbit_from(values, start_of("steady", values), "steady", settling=300)

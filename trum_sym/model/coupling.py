@@ -22,7 +22,7 @@ from trum_sym.model.kernels import call
 from trum_sym.model.levels import Levels
 from trum_sym.model.stator import solve_stator
 
-__all__ = ["PlainWaves", "check_coupling", "coupled_values", "plain_waves", "wave_at"]
+__all__ = ["PlainWaves", "check_coupling", "coupled_values", "held_wave", "plain_waves", "wave_at"]
 
 Values = Mapping[str, ArrayLike]
 Rotor = Literal["loaded", "held"]
@@ -288,6 +288,26 @@ def _root(values: Values, low: float, high: float, rotor: Rotor) -> list[float]:
             break
         low, high = float(within[other[0] - 1]), float(within[other[0]])
     return [(low + high) / 2]
+
+
+def held_wave(values: Values) -> float:
+    """Height in m up to which friction holds a wave still that nothing drives, under a rotor at rest with its load.
+
+    Pressure is then the same all round, and a traction of its limit takes the load by one part of the circumference and
+    the wave by its part in cos u (:func:`derivations.coupling.reaction`).  0 where friction cannot hold the load.
+
+    Parameters
+    ----------
+    values : mapping
+        From :func:`coupled_values`.
+    """
+    loaded = abs(_fraction(values))
+    if not loaded < 1:
+        return 0.0
+    even = {"engagement": 0.0, "share": 1 / np.pi, "theta": np.pi, "alpha": np.pi * (1 + loaded) / 2}
+    along = np.asarray(call("trum_plain_reaction", {**values, **even})["along"])
+    spring = np.asarray(values["M_q"]) * np.asarray(values["omega_n0"]) ** 2
+    return float(np.asarray(values["D"]) * values["k_c"] * along / spring)
 
 
 def wave_at(values: Values, heights: Array, rotor: Rotor = "loaded") -> PlainWaves:

@@ -1,0 +1,320 @@
+"""Drives on the coupled engine: limits, a motion in time by another code, energy, starts and stops, an encoder."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import trum_sym as ts
+from trum_sym.model.coupled_orbit import STATE, lap_values, laps, orbit_from, start_of
+from trum_sym.model.coupling import coupled_values, plain_waves
+from trum_sym.model.drive_orbit import drive_history, drive_orbit, history_of, read_by_encoder
+from trum_sym.model.levels import Levels
+from trum_sym.model.rotor import encoder_readings
+
+FLANGE = Levels(compliance="flange")
+QUICK = {"compliance": "flange", "start": "steady", "steps": 80}
+PLAIN = ts.Schedule(kind="continuous")
+
+
+@pytest.fixture(scope="module")
+def motor():
+    return ts.load_motor()
+
+
+@pytest.fixture(scope="module")
+def drive():
+    return ts.Drive(frequency_difference=500.0, load_torque=0.0)
+
+
+@pytest.mark.parametrize(
+    "schedule",
+    [
+        ts.Schedule(kind="burst", periods=1, on_periods=1),
+        ts.Schedule(kind="burst", periods=3, on_periods=3),
+        ts.Schedule(periods=2, on_periods=2),
+        PLAIN,
+    ],
+)
+def test_a_drive_that_is_never_off_is_the_plain_wave(motor, schedule):
+    drive = ts.Drive(frequency_difference=500.0, load_torque=0.4)
+    found = drive_orbit(motor, drive, schedule, **QUICK).orbit
+    plain = plain_waves(
+        coupled_values(motor, ts.Drive(frequency_difference=500.0, load_torque=0.4, on_periods=20), FLANGE)
+    )
+    assert found.closed
+    assert found.mean_speed == pytest.approx(plain.speed[-1], rel=1e-6)
+    assert found.deviation < 1e-6 * found.mean_speed
+    assert found.input_power == pytest.approx(plain.input_power[-1], rel=1e-5)
+
+
+@pytest.mark.parametrize("voltage", [0.2, 0.6])
+def test_a_share_of_the_voltage_is_a_share_of_the_modal_force(motor, drive, voltage):
+    values = coupled_values(motor, ts.Drive(frequency_difference=500.0, load_torque=0.0, on_periods=20), FLANGE)
+    plain = plain_waves({**values, "F_q": voltage * values["F_q"]})
+    found = drive_orbit(motor, drive, ts.Schedule(kind="continuous", voltage=voltage), **QUICK).orbit
+    assert found.mean_speed == pytest.approx(plain.speed[plain.highest], rel=1e-6)
+    assert found.highest_wave == pytest.approx(plain.amplitude[plain.highest], rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    "schedule",
+    [
+        ts.Schedule(kind="continuous", phase_difference=0.0),
+        ts.Schedule(kind="continuous", phase_difference="180 deg"),
+        ts.Schedule(kind="continuous", ratio=0.0),
+        ts.Schedule(kind="single"),
+    ],
+)
+def test_a_standing_wave_does_not_turn_the_rotor(motor, drive, schedule):
+    found = drive_orbit(motor, drive, schedule, **QUICK).orbit
+    assert found.closed
+    assert found.stable
+    assert found.highest_wave > 2e-6
+    assert abs(found.mean_speed) < 1e-7
+
+
+def test_a_standing_wave_on_the_bare_layer_turns_it_either_way(motor):
+    """The rotor at rest is an orbit there, too, but a small push grows; which way it then turns is the push's."""
+    drive = ts.Drive(load_torque=0.0)
+    values = lap_values(motor, drive, Levels(), ts.Schedule(kind="single"), steps=80)
+    still = orbit_from(values, start_of("steady", values), "steady", 0)
+    assert still.closed
+    assert abs(still.mean_speed) < 1e-9
+    assert not still.stable
+    speeds = []
+    for way in (1, -1):
+        pushed = still.state.copy()
+        pushed[STATE.index("v")] += way * 1e-6
+        speeds.append(orbit_from(values, pushed, "pushed", 300))
+    assert all(orbit.closed and orbit.stable for orbit in speeds)
+    assert speeds[0].mean_speed == pytest.approx(-speeds[1].mean_speed, rel=1e-6)
+    assert speeds[0].mean_speed > 1
+
+
+@pytest.mark.parametrize("words", [{"phase_difference": 0.3}, {"ratio": 0.3, "phase_difference": 0.3}])
+def test_a_part_of_a_running_wave_turns_it_as_its_mirror_image_does_the_other_way(motor, drive, words):
+    """B of the other sign is the mirror image, step for step; B behind by as much is one at other instants."""
+    found = drive_orbit(motor, drive, ts.Schedule(kind="continuous", **words), **QUICK).orbit.mean_speed
+    mirrored = ts.Schedule(kind="continuous", **{**words, "phase_difference": 0.3 - math.pi})
+    assert found > 1
+    assert drive_orbit(motor, drive, mirrored, **QUICK).orbit.mean_speed == pytest.approx(-found, rel=1e-9)
+    behind = ts.Drive(frequency_difference=500.0, load_torque=0.0, phase_lead=-1)
+    if "ratio" not in words:
+        back = drive_orbit(motor, behind, ts.Schedule(kind="continuous", **words), **QUICK).orbit.mean_speed
+        assert back == pytest.approx(-found, rel=3e-3)  # of 80 steps a drive period
+
+
+@pytest.mark.parametrize("lead", [1, -1])
+def test_without_reaction_both_phases_swing_as_far_apart_and_as_high_as_they_are_driven(motor, lead):
+    """Laps from rest come to the steady swing of two oscillators, whose complex amplitudes are as their forces."""
+    drive = ts.Drive(frequency_difference=500.0, load_torque=0.0, phase_lead=lead)
+    schedule = ts.Schedule(kind="continuous", phase_difference="40 deg", ratio=0.6, voltage=0.5)
+    values = lap_values(motor, drive, FLANGE, schedule, steps=80, reaction=False)
+    state, _ = laps({**values, "m": 1500.0, "on_A": 0.0, "on_B": 0.0}, start_of("rest", values)[:, np.newaxis])
+    w_A, v_A, w_B, v_B = state[:4, 0]
+    of_A, of_B = complex(w_A, -v_A / values["omega_q"]), complex(w_B, -v_B / values["omega_q"])
+    own, turn = values["omega_n0"], values["omega_q"]
+    free = 0.5 * values["F_q"] / values["M_q"] / complex(own**2 - turn**2, 2 * values["xi"] * own * turn)
+    assert of_A == pytest.approx(free * np.exp(1j * values["force_phase"]), rel=1e-6)
+    assert of_B / of_A == pytest.approx(0.6 * np.exp(1j * lead * math.radians(40)), rel=1e-6)
+
+
+def test_a_burst_is_a_motion_in_time_and_its_energy_adds_up(motor):
+    """A cycle of a burst's orbit, two periods on and one off, integrated with all of its work by the witness."""
+    from studies.coupling import after
+
+    schedule = ts.Schedule(kind="burst", periods=3, on_periods=2, phase_difference="90 deg")
+    drive = ts.Drive(frequency_difference=500.0, load_torque=0.3)
+    values = lap_values(motor, drive, FLANGE, schedule, rotor_mass=0.02) | {"force_phase": 0.0}
+    orbit = orbit_from(values, start_of("steady", values), "steady", 200)
+    assert orbit.closed
+    state, work = orbit.state[:, np.newaxis], np.zeros(4)
+    for gates in schedule.gates(drive):
+        found = after(values, state, 1, 0.02, 1e-9, tuple(gates))
+        state, work = found[:7], work + found[7:, 0]
+    sizes = np.array([1e-6, 0.3, 1e-6, 0.3, 1e-6, 0.3, 0.3])
+    assert np.abs((state[:, 0] - orbit.state) / sizes).max() < 1e-5
+    time = 3 * 2 * math.pi / values["omega_q"]
+    assert orbit.input_power * time == pytest.approx(work[0], rel=1e-6)
+    assert work[0] == pytest.approx(work[1:].sum(), rel=1e-5)
+    assert orbit.mean_speed * time * 0.3 == pytest.approx(work[3], rel=1e-5)
+
+
+def test_a_step_from_rest_is_the_witness_s(motor):
+    """A burst of one period, then one that is off: how far the rim has come.
+
+    From rest the steps are of first order.
+    """
+    from studies.coupling import after
+
+    drive = ts.Drive(frequency_difference=500.0, load_torque=0.05)
+    values = lap_values(motor, drive, FLANGE, PLAIN, rotor_mass=0.02) | {"force_phase": 0.0}
+    begun = start_of("rest", values)
+    first = after(values, begun[:, np.newaxis], 1, 0.02, 1e-8, (1.0, 1.0))
+    second = after(values, first[:7], 1, 0.02, 1e-8, (0.0, 0.0))
+    wanted = (first[10, 0] + second[10, 0]) / 0.05
+    coarse, fine = (
+        history_of({**values, "steps": steps}, begun, np.array([[1.0, 1.0], [0.0, 0.0]]), 8).angle[-1]
+        for steps in (400.0, 800.0)
+    )
+    assert fine == pytest.approx(wanted, rel=2e-4)
+    assert 2 * fine - coarse == pytest.approx(wanted, rel=1e-5)
+
+
+@pytest.mark.parametrize("compliance", ["layer", "flange"])
+def test_friction_stops_wave_and_rotor_and_when_it_is_said_to_matters_little(motor, drive, compliance):
+    schedule = ts.Schedule(kind="burst", periods=200, on_periods=2)
+    values = lap_values(motor, drive, Levels(compliance=compliance), schedule)
+    begun = start_of("rest", values)[:, np.newaxis]
+    steps = []
+    for share in (1.0, 0.3):
+        end, lap = laps({**values, "held": share * values["held"]}, begun)
+        assert not end[[0, 1, 2, 3, 6]].any()
+        assert lap["touching"][0] > 0.85  # all of the wave in the pause
+        steps.append(float(lap["mean"][0]))
+    assert steps[0] == pytest.approx(steps[1], rel=2e-3)
+    end, _ = laps({**values, "held": 0.0}, begun)
+    assert end[6].any()  # steps of a fixed size never come to rest
+
+
+def test_what_rests_moves_again_when_it_is_driven(motor, drive):
+    values = lap_values(motor, drive, FLANGE, PLAIN, steps=80)
+    begun = start_of("rest", values)[:, np.newaxis]
+    wanted, _ = laps({**values, "m": 2.0}, begun)
+    later, lap = laps({**values, "m": 5.0, "on_A": 3.0, "on_B": 3.0}, begun)
+    assert later == pytest.approx(wanted, rel=1e-12)
+    assert lap["high"][0] > 0
+
+
+def test_a_rotor_that_still_turns_is_not_at_rest_however_small_the_wave(motor):
+    """It begins with the rim at 0.2 m/s, which friction cannot take from it in a drive period."""
+    loaded = ts.Drive(frequency_difference=500.0, load_torque=0.0, load_inertia=2.7e-4)
+    values = lap_values(motor, loaded, FLANGE, PLAIN, steps=80)
+    begun = start_of("rest", values)
+    begun[STATE.index("v")] = 0.2
+    slowed = values["mu"] * values["F_c"] * values["r_c"] ** 2 / values["J_total"] * 2 * math.pi / values["omega_q"]
+    found = history_of(values, begun, np.zeros((100, 2)), 1)
+    assert 0.2 - found.speed[1] * values["r_c"] == pytest.approx(slowed, rel=0.05)
+    assert found.speed[-1] == 0
+
+
+def test_what_is_held_is_what_a_plain_wave_is_held_by(motor):
+    """A modal force a little below it leaves the plain wave still, one a little above does not."""
+    from trum_sym.model.coupling import held_wave
+
+    values = coupled_values(motor, ts.Drive(on_periods=20, load_torque=0.2), FLANGE)
+    force = held_wave(values) * values["M_q"] * values["omega_n0"] ** 2
+    assert "still" in plain_waves({**values, "F_q": 0.999 * force}).names
+    assert "still" not in plain_waves({**values, "F_q": 1.001 * force}).names
+    assert held_wave({**values, "T_load": 2.0}) == 0
+
+
+def test_a_rotor_with_a_mass_rests_while_it_still_goes_up_and_down(motor):
+    drive = ts.Drive(frequency_difference=500.0, load_torque=0.05)
+    values = lap_values(motor, drive, FLANGE, ts.Schedule(kind="burst", periods=60, on_periods=1), rotor_mass=0.02)
+    end, _ = laps(values, start_of("rest", values)[:, np.newaxis])
+    assert not end[[0, 1, 2, 3, 6]].any()
+    assert abs(end[5, 0]) > 0
+
+
+def test_a_motor_starts_from_rest_and_stops(motor, drive):
+    found = drive_history(motor, drive, PLAIN, cycles=200, pause=100, compliance="flange", steps=80)
+    plain = plain_waves(
+        coupled_values(motor, ts.Drive(frequency_difference=500.0, load_torque=0.0, on_periods=20), FLANGE)
+    )
+    driven = found.driven[:, 0] == 1
+    last = np.flatnonzero(driven)[-1] + 1
+    assert found.wave[0] == found.speed[0] == found.wave[-1] == found.speed[-1] == 0
+    assert found.wave[last] == pytest.approx(plain.amplitude[-1], rel=1e-3)
+    assert found.speed[last] == pytest.approx(plain.speed[-1], rel=1e-3)
+    assert found.time[-1] == pytest.approx(300 * found.time[last] / 200)
+    assert found.angle[-1] > found.angle[last]
+    assert not found.input_power[~driven].any()
+
+
+def test_parts_of_a_lap_are_the_lap(motor):
+    schedule = ts.Schedule(periods=4, on_periods=3)
+    values = lap_values(motor, ts.Drive(), FLANGE, schedule, rotor_mass=0.02, steps=80)
+    begun = start_of("steady", values)
+    end, lap = laps(values, begun[:, np.newaxis])
+    found = history_of(values, begun, schedule.gates(ts.Drive()), 16)
+    assert found.states[:, -1] == pytest.approx(end[:, 0], rel=1e-9)
+    assert found.angle[-1] / found.time[-1] == pytest.approx(float(lap["mean"][0]) / values["r_c"], rel=1e-10)
+    assert found.input_power.mean() == pytest.approx(float(lap["input"][0]), rel=1e-9)
+
+
+def test_gates_are_the_three_spans_of_the_superimposed_pulses():
+    gates = ts.Schedule(periods=5, on_periods=3).gates(ts.Drive())
+    assert gates[:, 0].tolist() == [0, 0, 1, 1, 1]
+    assert gates[:, 1].tolist() == [1, 1, 0, 0, 1]
+    assert ts.Schedule().gates(ts.Drive()).sum(axis=0).tolist() == [14, 14]
+    assert ts.Schedule(kind="single").gates(ts.Drive()).tolist() == [[1, 0]]
+
+
+def test_an_encoder_reads_what_the_product_s_reads_of_the_same_path():
+    rng = np.random.default_rng(1)
+    angle = np.concatenate([[0.0], np.cumsum(rng.uniform(-1, 1.5, 40))])
+    time = np.arange(41) / 40 * 5e-4
+    spread, low, high = read_by_encoder(time, angle, 2.21e-3)
+    starts = (np.arange(200_000) + 0.5) / 200_000
+    readings = encoder_readings(angle[1:], 5e-4, 2.21e-3, starts)
+    assert spread == pytest.approx(np.std(readings), rel=1e-6)
+    assert (low, high) == pytest.approx((readings.min(), readings.max()), rel=1e-3)
+    assert high > low
+
+
+def test_an_answer_is_a_table_and_a_record(motor, drive):
+    schedule = ts.Schedule(kind="burst", periods=1000, on_periods=1)
+    found = ts.drive_orbit(motor, drive, schedule, compliance="flange", sampling_period="2 ms", steps=80)
+    record = found.to_dict()
+    assert record["schedule"]["kind"] == "burst"
+    assert record["closed"]
+    assert record["encoder_deviation"] == found.encoder_deviation > 0
+    assert found.encoder_low == 0  # the pause is longer than 2 ms
+    assert "mean speed" in found.to_text()
+    assert "repeats itself and attracts" in found.to_text()
+    assert '"mean_speed"' in found.to_json()
+
+
+@pytest.mark.parametrize(
+    ("words", "naming"),
+    [
+        ({"kind": "bursts"}, "kind: got bursts, need one of pulses, burst, single, continuous"),
+        ({"kind": "burst", "periods": 10}, "on_periods: got None, need an integer >= 1 for a burst"),
+        ({"kind": "burst", "periods": 10, "on_periods": 0}, "on_periods: got 0"),
+        ({"kind": "single", "periods": 10}, "periods: got 10, need none where the schedule is single"),
+        ({"kind": "single", "ratio": 0.5}, "ratio: got 0.5, need none where the schedule is single"),
+        ({"voltage": 0.0}, "voltage: got 0"),
+        ({"ratio": -0.5}, "ratio: got -0.5"),
+        ({"phase_difference": 4.0}, "phase_difference: got 4.0"),
+        ({"phase_difference": "4 N"}, "phase_difference: got 4 N"),
+    ],
+)
+def test_a_schedule_that_is_none_is_refused(words, naming):
+    with pytest.raises(ts.ParameterError, match=naming):
+        ts.Schedule(**words)
+
+
+@pytest.mark.parametrize(
+    ("words", "naming"),
+    [
+        ({"schedule": "burst"}, "schedule: got burst, need a Schedule"),
+        ({"schedule": ts.Schedule(kind="burst", periods=3, on_periods=4)}, "on_periods: got 4"),
+        ({"schedule": ts.Schedule(periods=10, on_periods=4)}, "on_periods: got 4, need an integer from periods/2"),
+        ({"start": "moving"}, "start: got moving"),
+        ({"coupling": "none"}, "coupling: got none, need contact"),
+        ({"tangential": "brush"}, "coupling: got contact, need none where tangential is brush"),
+        ({"sampling_period": 0}, "sampling_period: got 0"),
+        ({"samples_per_period": 7}, "steps: got 400.0, need a multiple of samples_per_period, 7"),
+        ({"rotor_mass": -1}, "rotor_mass: got -1"),
+        ({"drive": ts.Drive(start="rest")}, "start: got rest, need periodic"),
+        ({"drive": ts.Drive(load_torque=[0.1, 0.2])}, "load_torque: got an array"),
+        ({"motor": "trum60"}, "motor: got trum60, need a Motor"),
+    ],
+)
+def test_what_no_orbit_can_be_found_of_is_refused(words, naming):
+    with pytest.raises(ts.ParameterError, match=naming):
+        drive_orbit(**words)
