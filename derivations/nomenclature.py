@@ -132,7 +132,7 @@ g           | m/s^2    | + | g | ours | standard gravity
 J_total     | kg*m^2   | + | J_{total} | ours | moment of inertia of all that turns or moves with the rotor
 M_q         | kg       | + | M_q | ours | modal mass of a phase's standing wave on the whole ring
 F_q         | N        | + | F_q | ours | modal force of a phase
-Theta_q     | N/V      | + | \Theta_q | ours | force factor of a phase: modal force per volt, and charge per displacement
+Theta_q     | N/V      | + | \Theta_q | ours | force factor of a phase: modal force per volt, charge per displacement
 C_0         | F        | + | C_0 | ours | capacitance of a phase whose stator is held still
 lead        | rad      | r | \delta_q | ours | angle by which the modal force is ahead of the wave
 height      | m        | r | y_r | ours | height of the layer's surface over that of a stator at rest

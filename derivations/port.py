@@ -75,8 +75,8 @@ def circuit() -> dict[str, sp.Expr]:
     """A phase without a rotor as a circuit: C_0 beside L_m, C_m and R_m in series; what open electrodes do.
 
     ``Theta_q`` is that of the modal force at hand, which may be a measured one.  With open electrodes the charge stays,
-    the voltage -Theta_q w / C_0 stiffens the phase, and it swings at ``omega_open``; ``k_eff_square`` is the share of the
-    energy put in at low frequency that is stored in the stator.
+    the voltage -Theta_q w / C_0 stiffens the phase, and it swings at ``omega_open``; ``k_eff_square`` is the share
+    of the energy put in at low frequency that is stored in the stator.
 
     Raises
     ------

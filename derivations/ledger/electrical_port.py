@@ -1,4 +1,4 @@
-"""What eq. 7 leaves out of the ceramic: the charge of its electrodes, and so current, admittance and power of a phase."""
+"""What eq. 7 leaves out of the ceramic: the charge of its electrodes, and so a phase's current and power."""
 
 from __future__ import annotations
 
@@ -45,8 +45,8 @@ def _derive() -> Derivation:
     return Derivation(
         (
             step(
-                "The strain along the ring is the mode's; solved for the stress, the ceramic's equations leave the charge "
-                "on the electrodes, per displacement and per voltage of a stator that is held still:",
+                "The strain along the ring is the mode's; solved for the stress, the ceramic's equations leave the "
+                "charge on the electrodes, per displacement and per voltage of a stator that is held still:",
                 sp.Eq(Theta_q, forms["Theta_q"]),
                 sp.Eq(C_0, forms["C_0"]),
             ),
@@ -55,8 +55,8 @@ def _derive() -> Derivation:
                 zero=charge["Theta_q"] - coupling.modal()["F_ceramic"] / U_s,
             ),
             step(
-                "Without a rotor a phase draws the charge of its motion and that of its capacitance, with the loss of the "
-                "ceramic; its real and imaginary part:",
+                "Without a rotor a phase draws the charge of its motion and that of its capacitance, with the loss of "
+                "the ceramic; its real and imaginary part:",
                 forms["conductance"],
                 forms["susceptance"],
             ),
@@ -150,9 +150,7 @@ def _judge(forms: Forms) -> Iterator[Evidence]:
         "P_reactive": "voltage a quarter of a period ago times current",
     }
     for name, words in against.items():
-        yield agrees(
-            {name: forms[name]}, _reference, symbols=symbols[name], ranges=_RANGES, count=4, against=words
-        )
+        yield agrees({name: forms[name]}, _reference, symbols=symbols[name], ranges=_RANGES, count=4, against=words)
     still = forms["susceptance"].subs(omega_q, sp.Symbol("e_s", positive=True))
     low = sp.limit(still / sp.Symbol("e_s", positive=True), sp.Symbol("e_s", positive=True), 0)
     yield evidence(
@@ -173,10 +171,10 @@ def _effect() -> str:
     drawn = q["U_s"] / circuit["R_m"]
     return (
         f"A phase that covers the whole ring has {figure(charge['Theta_q'])} N/V by the ceramic's data, and "
-        f"{figure(modal['F_measured'] / q['U_s'])} N/V by the {figure(1e6 * q['W_max'])} um measured. Held still it is a "
-        f"capacitor of {figure(1e9 * charge['C_0'])} nF, of {figure(1e9 * charge['C_0'] * 4 / 9)} nF under four of nine waves. "
-        f"At resonance without a rotor its motion is {figure(circuit['R_m'])} ohm and draws {figure(drawn)} A at "
-        f"{figure(q['U_s'])} V, {figure(q['U_s'] * drawn / 2)} W a phase. Open, it swings "
+        f"{figure(modal['F_measured'] / q['U_s'])} N/V by the {figure(1e6 * q['W_max'])} um measured. Held still it is "
+        f"a capacitor of {figure(1e9 * charge['C_0'])} nF, of {figure(1e9 * charge['C_0'] * 4 / 9)} nF under four of "
+        f"nine waves. At resonance without a rotor its motion is {figure(circuit['R_m'])} ohm and draws "
+        f"{figure(drawn)} A at {figure(q['U_s'])} V, {figure(q['U_s'] * drawn / 2)} W a phase. Open, it swings "
         f"{figure((circuit['omega_open'] - own) / (2 * mp.pi), 3)} Hz higher, by an effective coupling factor of "
         f"{figure(mp.sqrt(circuit['k_eff_square']), 3)}."
     )
@@ -199,8 +197,8 @@ ENTRIES = (
             "P_reactive": "W",
         },
         verdict="reconstructed",
-        reason="The paper drives the ceramic by a voltage. What the electrodes draw follows from the same integral: the "
-        "charge per displacement is the modal force per volt.",
+        reason="The paper drives the ceramic by a voltage. What the electrodes draw follows from the same integral: "
+        "the charge per displacement is the modal force per volt.",
         judge=_judge,
         derive=_derive,
         effect=_effect,

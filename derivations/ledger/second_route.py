@@ -785,7 +785,7 @@ def _wave_reaction() -> list[Any]:
 def _electrical_port() -> list[Any]:
     """Factor by sums of the charge along the ring, capacitance by k_31, circuit by Q and by the two frequencies."""
     v = stator()
-    mass, force = (_wave_reaction()[place] for place in (0, 2))
+    mass, _, force, *_ = _wave_reaction()
     own = 2 * mp.pi * mp.re(resonance(v, v["k_c"], mp.mpf(0))[0])
     square = v["d_31"] ** 2 / v["s_11E"] / v["eps_33T"]  # k_31
     area = 2 * mp.pi * v["n_j"] / v["k_c"] * v["b_p"]

@@ -47,9 +47,7 @@ def test_a_free_phase_is_a_circuit(values):
 
 def test_series_and_parallel_resonance_and_coupling_factor_are_the_circuits(values):
     port = port_of(values)
-    assert port.resonance == pytest.approx(
-        1 / (TURN * np.sqrt(port.inductance * port.motional_capacitance)), rel=1e-12
-    )
+    assert port.resonance == pytest.approx(1 / (TURN * np.sqrt(port.inductance * port.motional_capacitance)), rel=1e-12)
     both = port.capacitance * port.motional_capacitance / (port.capacitance + port.motional_capacitance)
     assert port.open_resonance == pytest.approx(1 / (TURN * np.sqrt(port.inductance * both)), rel=1e-12)
 
@@ -143,9 +141,7 @@ def test_a_wave_that_friction_holds_draws_the_current_of_the_capacitance():
     assert (found["amplitude"].values == 0).all()
     omega = TURN * found["frequency"].values
     assert found["susceptance"].values == pytest.approx(omega * float(found["capacitance"]), rel=1e-12)
-    assert found["conductance"].values == pytest.approx(
-        0.004 * omega * float(found["capacitance"]), rel=1e-12
-    )
+    assert found["conductance"].values == pytest.approx(0.004 * omega * float(found["capacitance"]), rel=1e-12)
 
 
 def test_far_from_resonance_a_pressed_phase_tends_to_a_free_one():

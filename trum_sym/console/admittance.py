@@ -167,5 +167,7 @@ def _as_text(found: xr.Dataset) -> str:
         f"{found.attrs['load_torque']:g} N m",
     ]
     if several:
-        lines.append(f"at {several} of {found.sizes['frequency']} frequencies the pressed wave has several steady states")
+        lines.append(
+            f"at {several} of {found.sizes['frequency']} frequencies the pressed wave has several steady states"
+        )
     return "\n".join(lines)

@@ -18,7 +18,19 @@ from trum_sym.inputs.units import parse_quantity
 from trum_sym.text import one_line
 from trum_sym.values import FrozenDict, Value
 
-__all__ = ["COUPLED", "FLANGE", "SPECS", "TO_DO", "UNCOUPLED", "Allowed", "Amount", "Motor", "Parameter", "Published", "spec"]
+__all__ = [
+    "COUPLED",
+    "FLANGE",
+    "SPECS",
+    "TO_DO",
+    "UNCOUPLED",
+    "Allowed",
+    "Amount",
+    "Motor",
+    "Parameter",
+    "Published",
+    "spec",
+]
 
 TO_DO = "to do"
 """How the source of a value begins that is a template's and not yet the motor's."""
@@ -131,9 +143,9 @@ class Amount(Value):
 class Motor(Value):
     """A travelling-wave rotary ultrasonic motor: every number with unit and source.
 
-    The names are those of the motor file and of ``--set``.  The last fifteen are optional: a measured value replaces the
-    modelled one, the rotor's flange is needed where its compliance counts, and the last four count where the rotor acts
-    back on the wave.  ``bench`` has what the file says of the
+    The names are those of the motor file and of ``--set``.  The last fifteen are optional: a measured value replaces
+    the modelled one, the rotor's flange is needed where its compliance counts, and the last four count where the rotor
+    acts back on the wave.  ``bench`` has what the file says of the
     bench that the published figures were measured on, by the names of :class:`trum_sym.Drive`; nothing is computed with
     it unless a drive takes it.  ``box`` has the ranges that searches vary, ``allowed`` those beyond which the hardware
     does not go, ``spreads`` how far inputs of a motor at work may be off.

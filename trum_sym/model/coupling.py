@@ -139,8 +139,8 @@ def coupled_values(
     motor, drive, levels
         Of one point: no arrays.
     coverage : float, optional
-        Share of the circumference that the electrodes of a phase drive, in place of the motor's ``phase_coverage``; counts
-        where ``amplitude`` is ``forced``, and in the capacitance.
+        Share of the circumference that the electrodes of a phase drive, in place of the motor's ``phase_coverage``;
+        counts where ``amplitude`` is ``forced``, and in the capacitance.
     rotor_mass : float, kg, optional
         In place of the motor's, as ``m_r``; no plain wave depends on it.
 

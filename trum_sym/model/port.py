@@ -124,7 +124,8 @@ def port_of(values: Values) -> Port:
     >>> import trum_sym as ts
     >>> from trum_sym.model.coupling import coupled_values
     >>> from trum_sym.model.levels import Levels
-    >>> values = coupled_values(ts.load_motor(), ts.Drive(on_periods=20), Levels(amplitude="forced", coupling="contact"))
+    >>> levels = Levels(amplitude="forced", coupling="contact")
+    >>> values = coupled_values(ts.load_motor(), ts.Drive(on_periods=20), levels)
     >>> found = port_of(values)
     >>> f"{found.force_factor:.3f} N/V, {1e9 * found.capacitance:.2f} nF, k_eff {found.coupling_factor:.3f}"
     '1.181 N/V, 24.21 nF, k_eff 0.169'

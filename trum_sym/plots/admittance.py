@@ -52,12 +52,14 @@ def _figure(found: xr.Dataset, kind: str, content: BytesIO) -> Figure:
     size, angle, circle, wave = blank(2, 2, 6.0)
     frequency = found["frequency"].values / 1e3
     for k, state in enumerate(found["state"].values):
-        of, style = found.sel(state=state), {"linestyle": _LINES[k], "color": COLOURS[k], "label": str(state)}
+        of, line = found.sel(state=state), _LINES[k]
         conductance, susceptance = of["conductance"].values, of["susceptance"].values
-        size.plot(frequency, 1e3 * np.hypot(conductance, susceptance), **style)
-        angle.plot(frequency, np.degrees(np.arctan2(susceptance, conductance)), **style)
-        circle.plot(1e3 * conductance, 1e3 * susceptance, **style)
-        wave.plot(frequency, 1e6 * of["amplitude"].values, **style)
+        size.plot(frequency, 1e3 * np.hypot(conductance, susceptance), line, color=COLOURS[k], label=str(state))
+        angle.plot(
+            frequency, np.degrees(np.arctan2(susceptance, conductance)), line, color=COLOURS[k], label=str(state)
+        )
+        circle.plot(1e3 * conductance, 1e3 * susceptance, line, color=COLOURS[k], label=str(state))
+        wave.plot(frequency, 1e6 * of["amplitude"].values, line, color=COLOURS[k], label=str(state))
     for panel, label in ((size, "admittance (mS)"), (angle, "phase (deg)"), (wave, "wave (um)")):
         panel.set_xlabel("frequency (kHz)")
         panel.set_ylabel(label)

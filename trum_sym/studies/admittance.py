@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict, replace
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import TYPE_CHECKING, Unpack
 
 import numpy as np
 
@@ -73,9 +73,10 @@ def admittance(
 ) -> xr.Dataset:
     """The admittance of a phase over frequency, without a rotor and under one.
 
-    Under the rotor (``pressed``) both phases drive a plain wave at the motor's voltage, at which the contact is far from
-    linear: of several steady states, the stable one of the highest wave is shown, and a wave that friction holds back
-    draws the current of the capacitance alone.  Without one (``free``) a phase is a circuit that any voltage shows.
+    Under the rotor (``pressed``) both phases drive a plain wave at the motor's voltage, at which the contact is far
+    from linear: of several steady states, the stable one of the highest wave is shown, and a wave that friction holds
+    back draws the current of the capacitance alone.  Without one (``free``) a phase is a circuit that any voltage
+    shows.
 
     Parameters
     ----------
@@ -96,8 +97,8 @@ def admittance(
     xarray.Dataset
         Over ``state`` (free, pressed) and ``frequency`` (Hz): conductance, susceptance (S), amplitude (m),
         electric_power (W); over ``frequency`` states, the steady states under the rotor; and the circuit of the free
-        phase: force_factor (N/V), capacitance, motional_capacitance (F), inductance (H), resistance (ohm), resonance and
-        open_resonance (Hz), coupling_factor.
+        phase: force_factor (N/V), capacitance, motional_capacitance (F), inductance (H), resistance (ohm), resonance
+        and open_resonance (Hz), coupling_factor.
 
     Raises
     ------
@@ -151,7 +152,8 @@ def admittance(
 
 def _chosen(levels: LevelChoice) -> Levels:
     """Levels of the system that acts back; those without effect refused."""
-    chosen, usual = Levels(**{"coupling": "contact", **levels}), Levels(coupling="contact")
+    given: LevelChoice = {"coupling": "contact", **levels}
+    chosen, usual = Levels(**given), Levels(coupling="contact")
     for name in ("contact", "foundation", "tangential", "coupling"):
         if getattr(chosen, name) != getattr(usual, name):
             raise ParameterError(name, getattr(chosen, name), f"{getattr(usual, name)} for an admittance")
