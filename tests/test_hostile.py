@@ -143,6 +143,7 @@ GOOD = {
     "simulate": (ts.simulate, {"motor": MOTOR, "drive": ts.Drive(), "samples_per_period": 4}),
     "sensitivities": (ts.sensitivities, {"motor": MOTOR, "drive": ts.Drive()}),
     "characteristics": (ts.characteristics, {"motor": MOTOR, "drive": ts.Drive(), "points": 2, "tolerance": 1e-2}),
+    "admittance": (ts.admittance, {"motor": MOTOR, "drive": ts.Drive(), "points": 2}),
     "sweep": (ts.sweep, {"motor": MOTOR, "outputs": ["amplitude"], "prepressure": [170.0, 180.0]}),
     "spread": (
         ts.spread,

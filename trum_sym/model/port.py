@@ -128,7 +128,7 @@ def port_of(values: Values) -> Port:
     >>> values = coupled_values(ts.load_motor(), ts.Drive(on_periods=20), levels)
     >>> found = port_of(values)
     >>> f"{found.force_factor:.3f} N/V, {1e9 * found.capacitance:.2f} nF, k_eff {found.coupling_factor:.3f}"
-    '1.181 N/V, 24.21 nF, k_eff 0.169'
+    '1.180 N/V, 24.22 nF, k_eff 0.169'
     """
     full = _full(values)
     circuit = {name: float(np.asarray(value)) for name, value in call("trum_port_circuit", full).items()}

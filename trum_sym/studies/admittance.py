@@ -90,7 +90,10 @@ def admittance(
         How many, if no frequencies are given.
     resonance, amplitude, compliance
         As for :func:`trum_sym.evaluate`.  ``amplitude = "measured"`` has the modal force that makes the free amplitude,
-        ``"forced"`` that of the ceramic's data.  The other levels have no effect and are refused.
+        ``"forced"`` that of the ceramic's data.
+    contact, foundation, tangential, coupling
+        Refused but for their defaults here, ``"winkler"``, ``"harmonic"``, ``"rigid"`` and ``"contact"``: they have no
+        effect.
 
     Returns
     -------
@@ -112,7 +115,7 @@ def admittance(
     >>> import trum_sym as ts
     >>> found = ts.admittance(frequencies=[38000.0, 38730.0, 39500.0], compliance="flange")
     >>> f"{1e9 * float(found.capacitance):.2f} nF, free to {float(found.open_resonance):.0f} Hz"
-    '24.21 nF, free to 39616 Hz'
+    '24.22 nF, free to 39616 Hz'
     """
     try:
         import xarray as xr

@@ -105,10 +105,6 @@ def coupled_curves(motor: Motor, drive: Drive, levels: Levels, axes: dict[str, A
     given = np.array([found.of("contact_power") for found in loaded])
     spent = np.array([found.of("input_power") for found in loaded])
     kept = np.array([_kept(rest, found) for found in loaded])
-    electric = {
-        name: np.array([found.drawn(name) for found in loaded])
-        for name in ("current", "electric_power", "reactive_power", "power_factor")
-    }
     with np.errstate(all="ignore"):
         return {
             "mean_speed": speed,
@@ -126,8 +122,7 @@ def coupled_curves(motor: Motor, drive: Drive, levels: Levels, axes: dict[str, A
             "input_power": spent,
             "contact_power": given,
             "efficiency": power / spent,
-            **electric,
-            "electric_efficiency": power / electric["electric_power"],
+            **_electric(loaded, power),
             "droop_compliance": kept,
             "droop_reaction": speed / rest.speed / kept,
             "states": np.array([float(found.waves.amplitude.size) for found in loaded]),
@@ -135,6 +130,15 @@ def coupled_curves(motor: Motor, drive: Drive, levels: Levels, axes: dict[str, A
             "states_by_frequency": np.array([float(found.waves.amplitude.size) for found in by_frequency]),
             "amplitude_by_prepressure": np.array([found.of("amplitude") for found in by_prepressure]),
         }
+
+
+def _electric(loaded: list[_Found], power: Array) -> dict[str, Array]:
+    """What the phases draw under each load, and the output power over it."""
+    draws = {
+        name: np.array([found.drawn(name) for found in loaded])
+        for name in ("current", "electric_power", "reactive_power", "power_factor")
+    }
+    return {**draws, "electric_efficiency": power / draws["electric_power"]}
 
 
 def _kept(rest: _Found, loaded: _Found) -> float:
