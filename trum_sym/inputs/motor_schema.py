@@ -92,7 +92,9 @@ _SECTIONS: dict[str, dict[str, Entry]] = {
         "flange_poisson_ratio": Entry("1", "of the flange"),
     },
     "Rotor and electrodes where the rotor acts back on the wave, --coupling contact; each is optional": {
-        "rotor_mass": Entry("g", "of what moves up and down with the rotor; none if not given; no plain wave depends on it"),
+        "rotor_mass": Entry(
+            "g", "of what moves up and down with the rotor; none if not given; no plain wave depends on it"
+        ),
         "phase_coverage": Entry(
             "1",
             "share of the circumference that a phase's electrodes drive: 1, as eq. 7 has it, if not given; 4/9 where "
