@@ -33,7 +33,7 @@ __all__ = [
     "work",
 ]
 
-M_q, F_q, coverage, omega_n0, omega_q, xi, W_max = sym("M_q F_q coverage omega_n0 omega_q xi W_max")
+M_q, F_q, c_p, omega_n0, omega_q, xi, W_max = sym("M_q F_q c_p omega_n0 omega_q xi W_max")
 rho, A, I_z, beta, k_c, D, n_j, k_N, F_c, mu, W, W_c = sym("rho A I_z beta k_c D n_j k_N F_c mu W W_c")
 engagement, share, theta, sin_theta, cos_theta = sym("engagement share theta sin_theta cos_theta")
 alpha, height, v, R_v, phi, cos_phi, sin_phi = sym("alpha height v R_v phi cos_phi sin_phi")
@@ -85,7 +85,7 @@ def modal() -> dict[str, sp.Expr]:
     _zero(force / (own * omega_n0**2 * resonator) - alone, "the forced amplitude without a rotor")
     return {
         "M_q": own,
-        "F_ceramic": coverage * force,
+        "F_ceramic": c_p * force,
         "F_measured": 2 * xi * omega_n0**2 * own * W_max,
     }
 

@@ -132,7 +132,9 @@ g           | m/s^2    | + | g | ours | standard gravity
 J_total     | kg*m^2   | + | J_{total} | ours | moment of inertia of all that turns or moves with the rotor
 M_q         | kg       | + | M_q | ours | modal mass of a phase's standing wave on the whole ring
 F_q         | N        | + | F_q | ours | modal force of a phase
-coverage    | 1        | + | c_p | ours | share of the circumference that the electrodes of a phase drive
+Theta_q     | N/V      | + | \Theta_q | ours | force factor of a phase: modal force per volt, charge per displacement
+C_0         | F        | + | C_0 | ours | capacitance of a phase whose stator is held still
+lead        | rad      | r | \delta_q | ours | angle by which the modal force is ahead of the wave
 height      | m        | r | y_r | ours | height of the layer's surface over that of a stator at rest
 alpha       | rad      | + | \alpha | ours | half of the part of a contact whose surface is faster than the rotor
 cos_theta   | 1        | r | \cos\vartheta | ours | cosine of the contact half-angle

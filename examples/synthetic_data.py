@@ -14,6 +14,8 @@ import trum_sym as ts
 from trum_sym.inputs.units import ARCSEC
 
 DAMPING, RESONANCE = 0.0055, 39703.0
+FREE_DAMPING, FREE_RESONANCE, FORCE_FACTOR, CAPACITANCE, LOSS_FACTOR = 0.0017, 38950.0, 0.53, 11e-9, 0.006
+MODAL_MASS = 0.0331257  # kg, of TRUM-60
 FRICTION, RADIUS, STIFFNESS = 0.23, "27.5 mm", 2.4e10
 
 
@@ -75,6 +77,24 @@ def main(folder: Path) -> None:
         "prepressure [N],resonance_frequency [kHz]",
         force,
         1e-3 * (resonance + noise.normal(0, 1, 13)),
+    )
+
+    # the circuit's admittance, typed here on its own as the decay is
+    hertz = np.linspace(37.5e3, 40.5e3, 101)
+    omega, own = 2 * np.pi * hertz, 2 * np.pi * FREE_RESONANCE
+    inductance = MODAL_MASS / FORCE_FACTOR**2
+    series = 2 * FREE_DAMPING * own * inductance + 1j * inductance * (omega - own**2 / omega)
+    admittance = 1 / series + 1j * omega * CAPACITANCE * (1 - 1j * LOSS_FACTOR)
+    scatter = noise.normal(0, 2e-5, (2, hertz.size))
+    write(
+        folder,
+        "admittance_synthetic.csv",
+        f"damping_ratio {FREE_DAMPING}, resonance {FREE_RESONANCE:g} Hz, force factor {FORCE_FACTOR} N/V on "
+        f"{1e3 * MODAL_MASS:g} g, {1e9 * CAPACITANCE:g} nF with loss factor {LOSS_FACTOR}, noise 0.02 mS",
+        "frequency [kHz],conductance [mS],susceptance [mS]",
+        1e-3 * hertz,
+        1e3 * (admittance.real + scatter[0]),
+        1e3 * (admittance.imag + scatter[1]),
     )
 
 

@@ -9,7 +9,7 @@
 #include "trum_math.h"
 
 /* SHA-256 of the expressions that the kernels are written from */
-#define TRUM_DERIVATIONS "11f3eb28e415cd1bf290dcb0b47ad90314d3ef65f3aac77a6ee204d07eb1c85c"
+#define TRUM_DERIVATIONS "3e1f68bf02820f198777bc827ddfff5f2abf4792a97655a704d30196779866dd"
 
 #ifdef __cplusplus
 extern "C" {
@@ -92,7 +92,7 @@ enum { trum_brush_turns_out_delay, trum_brush_turns_out_span, trum_brush_turns_n
 
 /* Modal mass of a phase, and its modal force by the ceramic and as measured */
 int trum_modal(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
-enum { trum_modal_in_A, trum_modal_in_D, trum_modal_in_I_z, trum_modal_in_U_s, trum_modal_in_W_max, trum_modal_in_b_p, trum_modal_in_beta, trum_modal_in_coverage, trum_modal_in_d_31, trum_modal_in_h_e, trum_modal_in_h_p, trum_modal_in_k_c, trum_modal_in_n_j, trum_modal_in_omega_n0, trum_modal_in_rho, trum_modal_in_s_11E, trum_modal_in_xi, trum_modal_n_arg };
+enum { trum_modal_in_A, trum_modal_in_D, trum_modal_in_I_z, trum_modal_in_U_s, trum_modal_in_W_max, trum_modal_in_b_p, trum_modal_in_beta, trum_modal_in_c_p, trum_modal_in_d_31, trum_modal_in_h_e, trum_modal_in_h_p, trum_modal_in_k_c, trum_modal_in_n_j, trum_modal_in_omega_n0, trum_modal_in_rho, trum_modal_in_s_11E, trum_modal_in_xi, trum_modal_n_arg };
 enum { trum_modal_out_M_q, trum_modal_out_F_ceramic, trum_modal_out_F_measured, trum_modal_n_res };
 
 /* What the contact of a plain wave does to the wave */
@@ -129,6 +129,26 @@ enum { trum_coupled_instant_out_W_c, trum_coupled_instant_out_sin_crest, trum_co
 int trum_coupled_forces(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_coupled_forces_in_D, trum_coupled_forces_in_F_c, trum_coupled_forces_in_R_v, trum_coupled_forces_in_cos_crest, trum_coupled_forces_in_cos_phi, trum_coupled_forces_in_cos_theta, trum_coupled_forces_in_engagement, trum_coupled_forces_in_k_c, trum_coupled_forces_in_mu, trum_coupled_forces_in_phi, trum_coupled_forces_in_share, trum_coupled_forces_in_sin_crest, trum_coupled_forces_in_sin_phi, trum_coupled_forces_in_sin_theta, trum_coupled_forces_in_theta, trum_coupled_forces_in_v, trum_coupled_forces_n_arg };
 enum { trum_coupled_forces_out_F_z, trum_coupled_forces_out_F_x, trum_coupled_forces_out_Q_A, trum_coupled_forces_out_Q_B, trum_coupled_forces_n_res };
+
+/* Force factor of a phase for its modal force, and its capacitance */
+int trum_port(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_port_in_F_q, trum_port_in_U_s, trum_port_in_b_p, trum_port_in_c_p, trum_port_in_d_31, trum_port_in_eps_33T, trum_port_in_h_p, trum_port_in_k_c, trum_port_in_n_j, trum_port_in_s_11E, trum_port_n_arg };
+enum { trum_port_out_Theta_q, trum_port_out_C_0, trum_port_n_res };
+
+/* A phase without a rotor as a circuit, and with open electrodes */
+int trum_port_circuit(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_port_circuit_in_C_0, trum_port_circuit_in_M_q, trum_port_circuit_in_Theta_q, trum_port_circuit_in_omega_n0, trum_port_circuit_in_xi, trum_port_circuit_n_arg };
+enum { trum_port_circuit_out_L_m, trum_port_circuit_out_C_m, trum_port_circuit_out_R_m, trum_port_circuit_out_omega_open, trum_port_circuit_out_k_eff_square, trum_port_circuit_n_res };
+
+/* Admittance of a phase without a rotor */
+int trum_free_admittance(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_free_admittance_in_C_0, trum_free_admittance_in_M_q, trum_free_admittance_in_Theta_q, trum_free_admittance_in_omega_n0, trum_free_admittance_in_omega_q, trum_free_admittance_in_tan_delta, trum_free_admittance_in_xi, trum_free_admittance_n_arg };
+enum { trum_free_admittance_out_conductance, trum_free_admittance_out_susceptance, trum_free_admittance_n_res };
+
+/* What the phases of a plain wave draw */
+int trum_plain_port(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_plain_port_in_C_0, trum_plain_port_in_Theta_q, trum_plain_port_in_U_s, trum_plain_port_in_W, trum_plain_port_in_lead, trum_plain_port_in_omega_q, trum_plain_port_in_tan_delta, trum_plain_port_n_arg };
+enum { trum_plain_port_out_conductance, trum_plain_port_out_susceptance, trum_plain_port_out_current, trum_plain_port_out_P_electric, trum_plain_port_out_P_dielectric, trum_plain_port_out_P_reactive, trum_plain_port_out_power_factor, trum_plain_port_n_res };
 
 /* Drive frequency and cycle time */
 int trum_drive(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
@@ -292,7 +312,7 @@ enum { trum_interface_out_v_x, trum_interface_out_v_x_slope, trum_interface_out_
   X(trum_brush_coefficient, 7, 2, "D W k_N k_T k_c mu omega_q", "grip R_v") \
   X(trum_brush_passage, 6, 4, "grip ratio t_0 theta u u_0", "stress limit stuck slid") \
   X(trum_brush_turns, 2, 2, "grip ratio", "delay span") \
-  X(trum_modal, 17, 3, "A D I_z U_s W_max b_p beta coverage d_31 h_e h_p k_c n_j omega_n0 rho s_11E xi", "M_q F_ceramic F_measured") \
+  X(trum_modal, 17, 3, "A D I_z U_s W_max b_p beta c_p d_31 h_e h_p k_c n_j omega_n0 rho s_11E xi", "M_q F_ceramic F_measured") \
   X(trum_plain_reaction, 6, 4, "F_c alpha engagement mu share theta", "f f_alpha central along") \
   X(trum_plain_balance, 10, 5, "D F_q M_q W along central k_c omega_n0 omega_q xi", "in_phase ahead residual lead omega_r") \
   X(trum_plain_powers, 12, 5, "D F_c M_q W along f k_c mu omega_n0 omega_q v xi", "P_in P_stator P_contact P_slip P_rotor") \
@@ -300,6 +320,10 @@ enum { trum_interface_out_v_x, trum_interface_out_v_x_slope, trum_interface_out_
   X(trum_mode_flow, 3, 4, "omega_n0 tau xi", "w_w w_v v_w v_v") \
   X(trum_coupled_instant, 10, 12, "D F_c height k_N k_c n_j v_A v_B w_A w_B", "W_c sin_crest cos_crest R_v phi cos_phi sin_phi theta sin_theta cos_theta engagement share") \
   X(trum_coupled_forces, 16, 4, "D F_c R_v cos_crest cos_phi cos_theta engagement k_c mu phi share sin_crest sin_phi sin_theta theta v", "F_z F_x Q_A Q_B") \
+  X(trum_port, 10, 2, "F_q U_s b_p c_p d_31 eps_33T h_p k_c n_j s_11E", "Theta_q C_0") \
+  X(trum_port_circuit, 5, 5, "C_0 M_q Theta_q omega_n0 xi", "L_m C_m R_m omega_open k_eff_square") \
+  X(trum_free_admittance, 7, 2, "C_0 M_q Theta_q omega_n0 omega_q tan_delta xi", "conductance susceptance") \
+  X(trum_plain_port, 7, 7, "C_0 Theta_q U_s W lead omega_q tan_delta", "conductance susceptance current P_electric P_dielectric P_reactive power_factor") \
   X(trum_drive, 3, 2, "Delta_omega m omega_n", "omega_q T") \
   X(trum_start_periodic, 8, 5, "Delta_omega W m n omega_n psi s xi", "a_A b_A a_B b_B repetition") \
   X(trum_start_rest, 5, 4, "Delta_omega W omega_n psi s", "a_A b_A a_B b_B") \

@@ -9,7 +9,7 @@
  * in  4: W_max [m]
  * in  5: b_p [m]
  * in  6: beta [1/m]
- * in  7: coverage [1]
+ * in  7: c_p [1]
  * in  8: d_31 [C/N]
  * in  9: h_e [m]
  * in  10: h_p [m]

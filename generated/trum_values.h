@@ -7,7 +7,9 @@
 enum {
   trum_at_A,
   trum_at_A_Q,
+  trum_at_C_0,
   trum_at_C_f,
+  trum_at_C_m,
   trum_at_D,
   trum_at_Delta_f,
   trum_at_Delta_omega,
@@ -33,9 +35,13 @@ enum {
   trum_at_J,
   trum_at_J_load,
   trum_at_J_total,
+  trum_at_L_m,
   trum_at_M_q,
   trum_at_P_contact,
+  trum_at_P_dielectric,
+  trum_at_P_electric,
   trum_at_P_in,
+  trum_at_P_reactive,
   trum_at_P_rotor,
   trum_at_P_slip,
   trum_at_P_stator,
@@ -44,6 +50,7 @@ enum {
   trum_at_Q_B,
   trum_at_Q_rate,
   trum_at_R,
+  trum_at_R_m,
   trum_at_R_v,
   trum_at_R_v_Delta_omega,
   trum_at_R_v_omega_n,
@@ -53,6 +60,7 @@ enum {
   trum_at_T_f_v,
   trum_at_T_load,
   trum_at_T_theta_E,
+  trum_at_Theta_q,
   trum_at_U_s,
   trum_at_W,
   trum_at_W_c,
@@ -103,11 +111,13 @@ enum {
   trum_at_b_p,
   trum_at_b_s,
   trum_at_beta,
+  trum_at_c_p,
   trum_at_central,
+  trum_at_conductance,
   trum_at_cos_crest,
   trum_at_cos_phi,
   trum_at_cos_theta,
-  trum_at_coverage,
+  trum_at_current,
   trum_at_d_31,
   trum_at_d_im,
   trum_at_d_re,
@@ -117,6 +127,7 @@ enum {
   trum_at_e_re,
   trum_at_engagement,
   trum_at_engagement_per_height,
+  trum_at_eps_33T,
   trum_at_eq6,
   trum_at_euler,
   trum_at_f,
@@ -174,6 +185,7 @@ enum {
   trum_at_k_c,
   trum_at_k_con,
   trum_at_k_dx,
+  trum_at_k_eff_square,
   trum_at_k_f,
   trum_at_k_flange,
   trum_at_k_tooth,
@@ -193,6 +205,7 @@ enum {
   trum_at_n_s,
   trum_at_omega_n,
   trum_at_omega_n0,
+  trum_at_omega_open,
   trum_at_omega_q,
   trum_at_omega_r,
   trum_at_p,
@@ -208,6 +221,7 @@ enum {
   trum_at_phi_Delta_omega,
   trum_at_phi_omega_n,
   trum_at_phi_tau,
+  trum_at_power_factor,
   trum_at_pressure,
   trum_at_printed,
   trum_at_psi,
@@ -261,7 +275,9 @@ enum {
   trum_at_step,
   trum_at_stress,
   trum_at_stuck,
+  trum_at_susceptance,
   trum_at_t_0,
+  trum_at_tan_delta,
   trum_at_tau,
   trum_at_tension,
   trum_at_theta,
@@ -386,7 +402,7 @@ static inline void trum_call_brush_turns(trum_real* v) {
 }
 
 static inline void trum_call_modal(trum_real* v) {
-  const trum_real* arg[trum_modal_n_arg] = {v + trum_at_A, v + trum_at_D, v + trum_at_I_z, v + trum_at_U_s, v + trum_at_W_max, v + trum_at_b_p, v + trum_at_beta, v + trum_at_coverage, v + trum_at_d_31, v + trum_at_h_e, v + trum_at_h_p, v + trum_at_k_c, v + trum_at_n_j, v + trum_at_omega_n0, v + trum_at_rho, v + trum_at_s_11E, v + trum_at_xi};
+  const trum_real* arg[trum_modal_n_arg] = {v + trum_at_A, v + trum_at_D, v + trum_at_I_z, v + trum_at_U_s, v + trum_at_W_max, v + trum_at_b_p, v + trum_at_beta, v + trum_at_c_p, v + trum_at_d_31, v + trum_at_h_e, v + trum_at_h_p, v + trum_at_k_c, v + trum_at_n_j, v + trum_at_omega_n0, v + trum_at_rho, v + trum_at_s_11E, v + trum_at_xi};
   trum_real* res[trum_modal_n_res] = {v + trum_at_M_q, v + trum_at_F_ceramic, v + trum_at_F_measured};
   (void)trum_modal(arg, res, 0, 0, 0);
 }
@@ -431,6 +447,30 @@ static inline void trum_call_coupled_forces(trum_real* v) {
   const trum_real* arg[trum_coupled_forces_n_arg] = {v + trum_at_D, v + trum_at_F_c, v + trum_at_R_v, v + trum_at_cos_crest, v + trum_at_cos_phi, v + trum_at_cos_theta, v + trum_at_engagement, v + trum_at_k_c, v + trum_at_mu, v + trum_at_phi, v + trum_at_share, v + trum_at_sin_crest, v + trum_at_sin_phi, v + trum_at_sin_theta, v + trum_at_theta, v + trum_at_v};
   trum_real* res[trum_coupled_forces_n_res] = {v + trum_at_F_z, v + trum_at_F_x, v + trum_at_Q_A, v + trum_at_Q_B};
   (void)trum_coupled_forces(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_port(trum_real* v) {
+  const trum_real* arg[trum_port_n_arg] = {v + trum_at_F_q, v + trum_at_U_s, v + trum_at_b_p, v + trum_at_c_p, v + trum_at_d_31, v + trum_at_eps_33T, v + trum_at_h_p, v + trum_at_k_c, v + trum_at_n_j, v + trum_at_s_11E};
+  trum_real* res[trum_port_n_res] = {v + trum_at_Theta_q, v + trum_at_C_0};
+  (void)trum_port(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_port_circuit(trum_real* v) {
+  const trum_real* arg[trum_port_circuit_n_arg] = {v + trum_at_C_0, v + trum_at_M_q, v + trum_at_Theta_q, v + trum_at_omega_n0, v + trum_at_xi};
+  trum_real* res[trum_port_circuit_n_res] = {v + trum_at_L_m, v + trum_at_C_m, v + trum_at_R_m, v + trum_at_omega_open, v + trum_at_k_eff_square};
+  (void)trum_port_circuit(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_free_admittance(trum_real* v) {
+  const trum_real* arg[trum_free_admittance_n_arg] = {v + trum_at_C_0, v + trum_at_M_q, v + trum_at_Theta_q, v + trum_at_omega_n0, v + trum_at_omega_q, v + trum_at_tan_delta, v + trum_at_xi};
+  trum_real* res[trum_free_admittance_n_res] = {v + trum_at_conductance, v + trum_at_susceptance};
+  (void)trum_free_admittance(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_plain_port(trum_real* v) {
+  const trum_real* arg[trum_plain_port_n_arg] = {v + trum_at_C_0, v + trum_at_Theta_q, v + trum_at_U_s, v + trum_at_W, v + trum_at_lead, v + trum_at_omega_q, v + trum_at_tan_delta};
+  trum_real* res[trum_plain_port_n_res] = {v + trum_at_conductance, v + trum_at_susceptance, v + trum_at_current, v + trum_at_P_electric, v + trum_at_P_dielectric, v + trum_at_P_reactive, v + trum_at_power_factor};
+  (void)trum_plain_port(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_drive(trum_real* v) {

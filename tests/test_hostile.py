@@ -153,6 +153,7 @@ GOOD = {
         },
     ),
     "Schedule": (ts.Schedule, {"kind": "burst", "periods": 3, "on_periods": 2}),
+    "admittance": (ts.admittance, {"motor": MOTOR, "drive": ts.Drive(), "points": 2}),
     "sweep": (ts.sweep, {"motor": MOTOR, "outputs": ["amplitude"], "prepressure": [170.0, 180.0]}),
     "spread": (
         ts.spread,

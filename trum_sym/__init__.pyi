@@ -27,6 +27,7 @@ from .model.sensitivities import Sensitivities as Sensitivities
 from .model.sensitivities import sensitivities as sensitivities
 from .optimiser.result import Optimum as Optimum
 from .optimiser.search import optimize as optimize
+from .studies.admittance import admittance as admittance
 from .studies.characteristics import characteristics as characteristics
 from .studies.pareto import pareto as pareto
 from .studies.robust import robust as robust
@@ -58,6 +59,7 @@ __all__ = [
     "Tracking",
     "UnfinishedError",
     "ValidityWarning",
+    "admittance",
     "calibrate",
     "characteristics",
     "drive_orbit",

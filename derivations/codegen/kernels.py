@@ -22,6 +22,7 @@ from derivations import (
     determinant,
     flange,
     phases,
+    port,
     rotor,
     section,
     square_roots,
@@ -207,6 +208,26 @@ def _coupling() -> list[Kernel]:
         ("trum_mode_flow", "Free motion of a phase: displacement and velocity after a time, of each", coupling.flow()),
         ("trum_coupled_instant", "Wave, surface speed and contact of two phases at any instant", coupling.instant()),
         ("trum_coupled_forces", "What the contact does to rotor and both phases at any instant", coupling.forces()),
+    )
+    return [Kernel(name, title, found, {of: units[of] for of in found}) for name, title, found in made]
+
+
+def _port() -> list[Kernel]:
+    units = {
+        **{"Theta_q": "N/V", "C_0": "F", "L_m": "H", "C_m": "F", "R_m": "ohm", "omega_open": "rad/s"},
+        **dict.fromkeys(("conductance", "susceptance"), "S"),
+        **dict.fromkeys(("P_electric", "P_dielectric", "P_reactive"), "W"),
+        **{"k_eff_square": "1", "current": "A", "power_factor": "1"},
+    }
+    made = (
+        (
+            "trum_port",
+            "Force factor of a phase for its modal force, and its capacitance",
+            {"Theta_q": port.F_q / port.U_s, "C_0": port.charge()["C_0"]},
+        ),
+        ("trum_port_circuit", "A phase without a rotor as a circuit, and with open electrodes", port.circuit()),
+        ("trum_free_admittance", "Admittance of a phase without a rotor", port.admittance()),
+        ("trum_plain_port", "What the phases of a plain wave draw", port.driven()),
     )
     return [Kernel(name, title, found, {of: units[of] for of in found}) for name, title, found in made]
 
@@ -486,6 +507,7 @@ def kernels() -> tuple[Kernel, ...]:
         + _contact()
         + _brush()
         + _coupling()
+        + _port()
         + _cycle()
         + _rotor()
         + _slopes()

@@ -9,7 +9,7 @@ from derivations.codegen.kernels import Kernel
 from trum_sym.c_library.numbers import CHOICES, DRIVE_SYMBOLS, motor_header
 from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import DRIVE_DOMAINS, LEAD, Drive
-from trum_sym.inputs.motor import SPECS
+from trum_sym.inputs.motor import UNCOUPLED
 from trum_sym.inputs.motor_file import load_motor
 from trum_sym.quantities import ERRORS, QUANTITIES
 
@@ -39,7 +39,7 @@ def _listed(name: str, rows: Iterable[str]) -> list[str]:
 
 
 def _fields() -> list[str]:
-    motor = [_field(name, spec.symbol, spec.unit, spec.domain, spec.required) for name, spec in SPECS.items()]
+    motor = [_field(name, spec.symbol, spec.unit, spec.domain, spec.required) for name, spec in UNCOUPLED.items()]
     domains = {**DRIVE_DOMAINS, "phase_lead": (LEAD, "1")}
     drive = [_field(name, DRIVE_SYMBOLS[name], unit, domain, True) for name, (domain, unit) in domains.items()]
     outputs = [f'  X({name}, "{output.unit}")' for name, output in {**QUANTITIES, **ERRORS}.items()]
@@ -66,7 +66,7 @@ def _fields() -> list[str]:
 
 def _values(kernels: tuple[Kernel, ...]) -> list[str]:
     """One position for every symbol, and every kernel called on a table of them."""
-    symbols = {spec.symbol for spec in SPECS.values()} | set(DRIVE_SYMBOLS.values())
+    symbols = {spec.symbol for spec in UNCOUPLED.values()} | set(DRIVE_SYMBOLS.values())
     for kernel in kernels:
         symbols |= {symbol.name for symbol in kernel.inputs} | set(kernel.results)
     lines = ["#ifndef TRUM_VALUES_H", "#define TRUM_VALUES_H", '#include "trum_kernels.h"', ""]

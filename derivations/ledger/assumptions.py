@@ -13,12 +13,13 @@ from dataclasses import dataclass, field
 from functools import cache
 from typing import Any
 
+import mpmath as mp
 import numpy as np
 
-from derivations import bench
+from derivations import beam, bench, coupling, port
 from derivations.ledger.course import Lap, share
 from derivations.ledger.history import values
-from derivations.ledger.operating import DRIVE, operating_point, stator
+from derivations.ledger.operating import DRIVE, at_point, operating_point, stator
 from derivations.ledger.witness import Drive
 from derivations.nomenclature import CONSTANTS, sym
 
@@ -219,7 +220,37 @@ def _electrodes_estimate() -> str:
         "with a "
         f"coupling of about {_K_31:g}, and the phase's own resonance {_open_hertz() - _own_hertz():+.0f} Hz higher "
         "while "
-        "it is off; computed is what that does if it held for both phases all cycle."
+        "it is off; computed is what that does if it held for both phases all cycle. By the phase's own force factor "
+        f"and capacitance (entry electrical-port) it is {_port()['open']:+.0f} Hz."
+    )
+
+
+@cache
+def _port() -> dict[str, float]:
+    """Of a phase over the whole ring, by the ceramic's data: modal force, capacitance, what open electrodes add."""
+    q: dict[str, Any] = dict(operating_point())
+    own = at_point(beam.resonance()["quartic"], {**q, "k_f": mp.mpf(0)})
+    whole = {**q, "omega_n0": own, "c_p": mp.mpf(1)}
+    modal = {name: at_point(expr, whole) for name, expr in coupling.modal().items()}
+    charge = {name: at_point(expr, whole) for name, expr in port.charge().items()}
+    around = {**whole, **charge, "M_q": modal["M_q"]}
+    open_ = at_point(port.circuit()["omega_open"], around)
+    return {
+        "force": float(modal["F_ceramic"]),
+        "capacitance": float(charge["C_0"]),
+        "open": float(open_ - own) / (2 * math.pi),
+        "least mass": float(q["J"] / q["r_c"] ** 2),
+    }
+
+
+def _rotor_estimate() -> str:
+    p = _port()
+    return (
+        f"With four of nine waves for each phase the ceramic's modal force is {p['force'] * 4 / 9:.0f} N in place of "
+        f"{p['force']:.0f} N, and the capacitance {4e9 / 9 * p['capacitance']:.1f} nF in place of "
+        f"{1e9 * p['capacitance']:.1f} nF; PZT-4 has 19 and 28 % more. No plain wave feels the rotor's mass; in pulses "
+        "and under one phase a rotor with a mass bounces, and the amplitudes of Table 2 hang on it "
+        f"(docs/coupling.md). J over the contact radius squared is {1000 * p['least mass']:.1f} g."
     )
 
 
@@ -315,11 +346,19 @@ ASSUMPTIONS: tuple[Assumption, ...] = (
     ),
     Assumption(
         "electrodes",
-        ("10", "decay"),
+        ("10", "decay", "electrical-port"),
         "Electrodes of a phase that is off",
         "A phase vibrates at the same f_n whether it is driven, shorted or open.",
         _electrodes,
         _electrodes_estimate,
+    ),
+    Assumption(
+        "rotor-and-electrodes",
+        ("7", "wave-reaction", "electrical-port"),
+        "The rotor's mass and the electrodes",
+        "A rotor of 20 g, electrodes of each phase over the whole ring as eq. 7 has them, a ceramic like PZT-8: they "
+        "count where the rotor acts back on the wave alone, so in none of the figures of the other tables.",
+        estimate=_rotor_estimate,
     ),
     Assumption(
         "equal-modes",

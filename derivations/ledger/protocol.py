@@ -48,8 +48,9 @@ PREMISES: tuple[tuple[str, tuple[str, ...], str], ...] = (
     ),
     (
         "Phases switched at whole drive periods, in no time and without electrical transients",
-        ("10", "14", "45"),
-        "the start of each region; open or shorted electrodes are estimated in docs/assumptions.md",
+        ("10", "14", "45", "electrical-port"),
+        "the start of each region; open or shorted electrodes are estimated in docs/assumptions.md, what a steady wave "
+        "draws is computed (docs/coupling.md)",
     ),
 )
 """Premises of the model itself that no level varies: what, the entries that rest on it, and how far it reaches."""

@@ -781,6 +781,38 @@ def _wave_reaction() -> list[Any]:
     ]
 
 
+@_route("electrical-port")
+def _electrical_port() -> list[Any]:
+    """Factor by sums of the charge along the ring, capacitance by k_31, circuit by Q and by the two frequencies."""
+    v = stator()
+    mass, _, force, *_ = _wave_reaction()
+    own = 2 * mp.pi * mp.re(resonance(v, v["k_c"], mp.mpf(0))[0])
+    square = v["d_31"] ** 2 / v["s_11E"] / v["eps_33T"]  # k_31
+    area = 2 * mp.pi * v["n_j"] / v["k_c"] * v["b_p"]
+    held = v["eps_33T"] * (1 - square) * area / v["h_p"]
+    angle = 2 * mp.pi * (np.arange(7200) + mp.mpf(1) / 2) / 7200
+    middle = v["h_e"] - v["D"] + v["h_p"] / 2
+    strain = mp.fsum(abs(mp.cos(a)) for a in angle) / len(angle) * v["beta"] * v["k_c"] * middle
+    factor = abs(v["d_31"]) / v["s_11E"] * strain * area
+    quality, branch = 1 / (2 * v["xi"]), factor**2 / (mass / 1000 * own**2)
+    resistance = 1 / (quality * own * branch)
+    current = v["U_s"] / resistance
+    parallel = own * mp.sqrt(1 + branch / held)
+    return [
+        factor,
+        force / v["U_s"],
+        12.6,
+        1e9 * held,
+        4e9 * held / 9,
+        resistance,
+        current,
+        v["U_s"],
+        current**2 * resistance / 2,
+        (parallel - own) / (2 * mp.pi),
+        mp.sqrt(1 - (own / parallel) ** 2),
+    ]
+
+
 # --- Tables -------------------------------------------------------------------------------------------------
 @_route("table-1-R")
 def _table_r() -> list[Any]:

@@ -15,7 +15,7 @@ from derivations.nomenclature import sym
 
 __all__ = ["ENTRIES"]
 
-M_q, F_q, coverage, omega_n0, omega_q, xi = sym("M_q F_q coverage omega_n0 omega_q xi")
+M_q, F_q, c_p, omega_n0, omega_q, xi = sym("M_q F_q c_p omega_n0 omega_q xi")
 rho, A, I_z, beta, k_c, D, n_j, F_c, mu, W = sym("rho A I_z beta k_c D n_j F_c mu W")
 engagement, share, theta, alpha, central, along, f = sym("engagement share theta alpha central along f")
 _RANGES = {
@@ -26,7 +26,7 @@ _RANGES = {
     "omega_n0": (2.3e5, 2.6e5),
     "central": (80.0, 220.0),
     "along": (-50.0, 60.0),
-    "coverage": (0.3, 1.0),
+    "c_p": (0.3, 1.0),
 }
 
 
@@ -110,7 +110,7 @@ def _reference(name: str, q: Point) -> mp.mpf:
         low, thick = q[sym("h_e")[0]] - q[D], q[sym("h_p")[0]]
         stress = abs(q[sym("d_31")[0]]) / q[sym("s_11E")[0]] * q[sym("U_s")[0]] / thick
         moment = stress * q[sym("b_p")[0]] * mp.quad(lambda z: z, [low, low + thick])
-        segments = 2 * q[n_j] * q[coverage]  # half a wave long, poled in turn
+        segments = 2 * q[n_j] * q[c_p]  # half a wave long, poled in turn
         return segments * mp.quad(lambda s: moment * q[beta] * mp.cos(s), [-mp.pi / 2, 0, mp.pi / 2])
     if name == "f":
         return _angle_sum(q, lambda u: mp.mpf(1), slip=True)  # noqa: ARG005
@@ -123,7 +123,7 @@ def _judge(forms: Forms) -> Iterator[Evidence]:
     scaled = {name: form.subs(alpha, alpha * theta) for name, form in forms.items() if name != "balance"}
     symbols = {
         "M_q": (rho, A, I_z, beta, n_j, k_c),
-        "F_q": (D, beta, n_j, coverage, *sym("h_e h_p d_31 s_11E U_s b_p")),
+        "F_q": (D, beta, n_j, c_p, *sym("h_e h_p d_31 s_11E U_s b_p")),
         "f": (theta, alpha),
         "central": (theta, alpha, F_c),
         "along": (theta, alpha, F_c, mu),
@@ -168,7 +168,7 @@ def _moves(equation: sp.Basic) -> Evidence:
 def _effect() -> str:
     q = operating_point()
     own = at_point(beam.resonance()["quartic"], {**q, "k_f": mp.mpf(0)})
-    found = {name: at_point(expr, {**q, "omega_n0": own, "coverage": 1}) for name, expr in coupling.modal().items()}
+    found = {name: at_point(expr, {**q, "omega_n0": own, "c_p": 1}) for name, expr in coupling.modal().items()}
     mass, most = found["M_q"], found["F_measured"]
 
     def shift(height: float) -> mp.mpf:

@@ -28,7 +28,7 @@ def _modal(p: Point, m: Maths) -> Found:
     mass = p.n_j * wave / p.k_c
     arm = p.h_e + p.h_p / 2 - p.D
     moment = m.absolute(p.d_31) * p.U_s / (p.s_11E * p.h_p) * p.b_p * p.h_p * arm
-    work = p.coverage * p.n_j * 4 * m.integral(lambda angle: moment * p.beta * m.cos(angle), zero, m.pi / 2)
+    work = p.c_p * p.n_j * 4 * m.integral(lambda angle: moment * p.beta * m.cos(angle), zero, m.pi / 2)
     speed = p.omega_n0 * p.W_max
     return {"M_q": mass, "F_ceramic": work, "F_measured": 2 * p.xi * p.omega_n0 * mass * speed}
 
@@ -247,7 +247,7 @@ PROOFS = (
         f"7 {_RESTS}",
         "twice the kinetic energy at unit speed; the ceramic's work on the mode; damping's force at resonance",
         _modal,
-        grid("A D I_z U_s W_max b_p beta coverage d_31 h_e h_p k_c n_j omega_n0 rho s_11E xi"),
+        grid("A D I_z U_s W_max b_p beta c_p d_31 h_e h_p k_c n_j omega_n0 rho s_11E xi"),
         "random points around TRUM-60",
         symbolic=True,
     ),

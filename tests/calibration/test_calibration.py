@@ -14,7 +14,10 @@ import trum_sym as ts
 from trum_sym import console
 from trum_sym.calibration.models import PointModel
 from trum_sym.inputs.measurements import from_columns
+from trum_sym.inputs.motor import SPECS
+from trum_sym.model.coupling import coupled_values
 from trum_sym.model.levels import Levels
+from trum_sym.model.port import free_admittance
 
 LEVELS = Levels()
 FORCE = np.array([100.0, 120, 140, 160, 180, 200, 220])
@@ -234,6 +237,98 @@ def test_a_search_cannot_begin_where_the_model_has_no_answer(trum60):
         ts.calibrate(data, slippery)
 
 
+# --- Admittance sweep: against a circuit typed here, and SciPy on it ------------------------------
+
+HERTZ = np.linspace(37.2e3, 40.6e3, 121)
+
+
+def circuit(hertz, damping, resonance, factor, capacitance, loss, mass):
+    """Admittance of L, C and R in series beside a capacitance with loss."""
+    omega, own = 2 * np.pi * hertz, 2 * np.pi * resonance
+    inductance, held = mass / factor**2, factor**2 / (mass * own**2)
+    series = 2 * damping * own * inductance + 1j * omega * inductance + 1 / (1j * omega * held)
+    return 1 / series + 1j * omega * capacitance * (1 - 1j * loss)
+
+
+SWEPT = {
+    "damping_ratio": 0.0017,
+    "free_resonance": 38950.0,
+    "force_factor": 0.53,
+    "capacitance": 11e-9,
+    "loss_factor": 0.006,
+}
+
+
+def modal_mass():
+    plain = ts.Drive(on_periods=20)
+    return float(coupled_values(ts.load_motor(), plain, Levels(coupling="contact"))["M_q"])
+
+
+def swept(rng=None, size=2e-5, **changed):
+    made = circuit(HERTZ, *(SWEPT | changed).values(), modal_mass())
+    scatter = np.zeros((2, HERTZ.size)) if rng is None else rng.normal(0, size, (2, HERTZ.size))
+    return {"frequency": HERTZ, "conductance": made.real + scatter[0], "susceptance": made.imag + scatter[1]}
+
+
+def test_a_sweep_without_noise_gives_back_its_circuit():
+    found = ts.calibrate(swept())
+    assert {name: found[name].value for name in SWEPT} == pytest.approx(SWEPT, rel=1e-7)
+    assert [e.name for e in found.estimates if e.in_motor] == ["damping_ratio"]
+    assert found.motor.damping_ratio.source == "calibrated"
+
+
+def test_a_sweep_gives_what_curve_fit_gives():
+    data, mass = swept(noise(3)), modal_mass()
+
+    def both(hertz, *values):
+        made = circuit(hertz, *values, mass)
+        return np.concatenate([made.real, made.imag])
+
+    measured = np.concatenate([data["conductance"], data["susceptance"]])
+    best, covariance = scipy.optimize.curve_fit(
+        both, HERTZ, measured, [0.003, 38900.0, 0.6, 1e-8, 0.01], x_scale=[1e-3, 10, 0.1, 1e-9, 1e-2], method="trf"
+    )
+    found = ts.calibrate(data)
+    assert [found[name].value for name in SWEPT] == pytest.approx(best, rel=1e-4)
+    assert [found[name].standard_error for name in SWEPT] == pytest.approx(np.sqrt(np.diag(covariance)), rel=1e-3)
+    assert found.residual_unit == "S"
+    assert found.residuals.standard_deviation == pytest.approx(2e-5, rel=0.2)
+
+
+@pytest.mark.filterwarnings("ignore::trum_sym.ImplausibleWarning")
+def test_the_ceramics_data_can_be_asked_for():
+    """That make the same factor and capacitance: d_31 goes with the factor, eps_33T is over d_31^2/s_11E."""
+    names = ["damping_ratio", "piezo_strain_constant", "piezo_permittivity", "piezo_loss_factor"]
+    known = {"piezo_strain_constant": -110e-12, "piezo_permittivity": 10e-9, "piezo_loss_factor": 0.01}
+    truth = ts.load_motor().with_values(known)
+    levels = Levels(amplitude="forced", coupling="contact")
+    curve = free_admittance(coupled_values(truth, ts.Drive(on_periods=20), levels), HERTZ)
+    data = {"frequency": HERTZ, **dict(zip(("conductance", "susceptance"), curve, strict=True))}
+    found = ts.calibrate(data, parameters=names)
+    assert {name: found[name].value for name in known} == pytest.approx(known, rel=1e-6)
+    assert found.motor.piezo_permittivity.interval is not None
+    halved = ts.calibrate(data, ts.load_motor().with_values({"phase_coverage": 0.5}), parameters=names)
+    assert halved["piezo_strain_constant"].value == pytest.approx(-220e-12, rel=1e-6)
+
+
+def test_size_and_phase_are_the_same_data():
+    data = swept(noise(4))
+    whole = data["conductance"] + 1j * data["susceptance"]
+    polar = {"frequency": HERTZ, "admittance": np.abs(whole), "phase": np.angle(whole)}
+    one, other = ts.calibrate(data), ts.calibrate(polar)
+    assert [e.value for e in other.estimates] == pytest.approx([e.value for e in one.estimates], rel=1e-6)
+
+
+def test_uncertainties_weigh_the_parts_of_a_sweep():
+    data = swept(noise(5))
+    data["conductance"][40] += 1.0
+    sigma = np.full(HERTZ.size, 2e-5)
+    far = sigma.copy()
+    far[40] = 1e6
+    found = ts.calibrate({**data, "conductance_uncertainty": far, "susceptance_uncertainty": sigma})
+    assert found["damping_ratio"].value == pytest.approx(SWEPT["damping_ratio"], rel=0.05)
+
+
 # --- Coverage: known parameters lie in their own 95 % intervals in 95 +- 3 % of 500 trials --------
 
 
@@ -272,12 +367,17 @@ def speed_trial(rng, motor):
     return truth, {"load_torque": LOADS, "mean_speed": speed_trial.clean + rng.normal(0, 0.02, 8)}, motor
 
 
+def sweep_trial(rng, motor):
+    return {name: SWEPT[name] for name in list(SWEPT)[:4]}, swept(rng), motor
+
+
 def covered(trial, trials, seed, motor):
     """How often each parameter's interval holds the truth, over fits none of which may be given up."""
     rng, hits = noise(seed), {}
     for _ in range(trials):
         truth, data, machine = trial(rng, motor)
-        found = ts.calibrate(data, machine, parameters=list(truth), drive=SHORT)
+        asked = [name for name in truth if name in SPECS]
+        found = ts.calibrate(data, machine, parameters=asked, drive=SHORT)
         assert found.status == "solved"
         for name, value in truth.items():
             hits[name] = hits.get(name, 0) + (found[name].low <= value <= found[name].high)
@@ -285,14 +385,14 @@ def covered(trial, trials, seed, motor):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("trial", [law_trial, decay_trial, resonance_trial, speed_trial])
+@pytest.mark.parametrize("trial", [law_trial, decay_trial, resonance_trial, speed_trial, sweep_trial])
 def test_500_intervals_hold_the_truth_in_95_percent(trum60, trial):
     for name, share in covered(trial, 500, 95, trum60).items():
         print(f"{trial.__name__}: {name} {100 * share:.1f} %")
         assert share == pytest.approx(0.95, abs=0.03), name
 
 
-@pytest.mark.parametrize("trial", [law_trial, decay_trial, resonance_trial])
+@pytest.mark.parametrize("trial", [law_trial, decay_trial, resonance_trial, sweep_trial])
 def test_a_sample_of_intervals_holds_the_truth(trum60, trial):
     # 60 trials at 95 %: fewer than 50 hits has a chance of 4e-5
     for name, share in covered(trial, 60, 7, trum60).items():
@@ -388,6 +488,19 @@ BAD_DATA = [
         "time [ms],displacement [um]\n0,5\n1,4\n2,3\n3,2\n4,1\n5,1\n",
         ("time", "rows up to 0.001 s apart", "half a period"),
     ),
+    ("frequency [kHz],conductance [mS]\n38,1\n39,2\n", ("data: got conductance and frequency", "susceptance")),
+    ("frequency [kHz],admittance [mS],susceptance [mS]\n38,1,1\n", ("data: got admittance", "admittance and phase")),
+    ("frequency [kHz],conductance [mS],susceptance [S],time [s]\n38,1,1,0\n", ("data", "frequency with conductance")),
+    (
+        "frequency [kHz],conductance [mS],susceptance [mS]\n38,1,1\n39,2,1\n39,1,1\n",
+        ("frequency: row 3: got 39000", "rise"),
+    ),
+    (
+        "frequency [kHz],conductance [mS],susceptance [mS]\n38,1,1\n39,2,1\n40,3,1\n41,4,1\n",
+        ("frequency: got 38000 to 41000 Hz", "largest conductance"),
+    ),
+    ("frequency [kHz],conductance [mS],susceptance [mS]\n38,1,1\n39,2,1\n", ("frequency", "inside")),
+    ("frequency [Hz],conductance [ohm],susceptance [S]\n38,1,1\n", ("column conductance: got ohm", "converts to S")),
     (b"\xff\xfe\x00", ("data", "not UTF-8")),
     ('prepressure [N],amplitude [um]\n"100,8.3\n120,7.3\n', ("data", "CSV file")),
 ]

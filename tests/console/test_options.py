@@ -23,6 +23,7 @@ BASE = {
     ("simulate",): (),
     ("sensitivities",): (),
     ("characteristics",): ("--points", "3"),
+    ("admittance",): ("--points", "3"),
     ("sweep",): ("--prepressure", "170:180:2", "--out", "base.csv"),
     ("spread",): ("--samples", "64", "--spread", "friction_coefficient"),
     ("calibrate",): ("examples/data/torque_speed_synthetic.csv", "--fit", "friction_coefficient"),
@@ -113,6 +114,8 @@ OTHER = {
     "--control-period": "1 ms",
     "--encoder-counts": "1000",
     "--disturb": "load_torque=+2 %@2 ms",
+    ("admittance", "--from"): "38 kHz",  # which needs the other end
+    ("admittance", "--to"): "39 kHz",
     **{(command, "--spread"): "prepressure=+-0.2 N" for command in ("evaluate", "optimize", "pareto", "speed-table")},
     ("robust", "--samples"): "cases.csv",
     ("speed-table", "--direction"): "both",
@@ -127,6 +130,7 @@ FILES = {
     ("calibrate", "--out"): "new.toml",
     ("evaluate", "--out"): "new.csv",
     ("characteristics", "--out"): "new.csv",
+    ("admittance", "--out"): "new.csv",
     ("characteristics", "--measured"): str(ROOT / "trum_sym" / "data" / "dual60.measured.toml"),
     ("speed-table", "--out"): "new.csv",
 }

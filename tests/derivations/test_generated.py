@@ -273,7 +273,7 @@ def random_arguments(kernel, rng):
         step=2e-7,
         M_q=0.033,
         F_q=240.0,
-        coverage=0.7,
+        c_p=0.7,
         omega_n0=2.43e5,
         central=170.0,
         along=25.0,
@@ -284,6 +284,9 @@ def random_arguments(kernel, rng):
         cos_theta=0.92,
         sin_crest=0.6,
         cos_crest=0.8,
+        Theta_q=1.2,
+        C_0=2.4e-8,
+        lead=1.1,
     )
     for name, rate in (("a_A", 4e-11), ("b_A", 6e-6), ("a_B", -3e-11), ("b_B", 5e-6)):
         usual |= {f"{name}_omega_n": rate, f"{name}_Delta_omega": -2 * rate}

@@ -16,7 +16,7 @@ from test_generated import exact_outputs, kernels, random_arguments
 
 import trum_sym as ts
 from trum_sym.console import main
-from trum_sym.inputs.motor import SPECS
+from trum_sym.inputs.motor import UNCOUPLED
 from trum_sym.model.kernels import call
 from trum_sym.quantities import ERRORS
 
@@ -216,7 +216,7 @@ def test_bad_input_is_one_line_that_names_the_field(example, argument, words):
 def test_the_c_library_refuses_what_the_package_refuses(example):
     for line in (
         *c_coverage.edges(),
-        *(f"{name}={value}" for name in SPECS for value in ("-1", "0", "1e309")),
+        *(f"{name}={value}" for name in UNCOUPLED for value in ("-1", "0", "1e309")),
     ):
         arguments = line.split()
         numbers = [a for a in arguments if a.count("=") == 1 and a.split("=")[1] and "tolerance" not in a]
@@ -224,7 +224,7 @@ def test_the_c_library_refuses_what_the_package_refuses(example):
             continue
         if any(a.startswith("max_steps=") for a in arguments):
             continue  # the package has no such bound
-        optional = [name for name, spec in SPECS.items() if not spec.required]
+        optional = [name for name, spec in UNCOUPLED.items() if not spec.required]
         if any(f"{name}=0" == a for name in optional for a in arguments):
             continue  # in C, 0 stands for not measured
         try:

@@ -29,6 +29,14 @@ from trum_sym.inputs.units import parse_quantity, parse_unit, unit_for
         ("1e3 /m", "1/m", None),
         (".5e1 1/mm", "1/m", 5000.0),
         ("90 deg", "rad", math.pi / 2),
+        ("22.7 mS", "A/V", 0.0227),
+        ("24 nF", "C/V", 24e-9),
+        ("15 mH", "V s/A", 15e-3),
+        ("44 Ω", "V/A", 44.0),
+        ("2 kohm", "1/S", 2000.0),
+        ("8.85 nF/m", "F/m", 8.85e-9),
+        ("3 mW", "N*m/s", 3e-3),
+        ("3 mm/S", "m/s", None),
     ],
 )
 def test_numbers_with_units_convert(text, unit, expected):
@@ -129,7 +137,7 @@ def test_usual_spellings_convert(text, unit, factor):
     [
         ("khz", "kHz"),
         ("mpa", "MPa, mPa"),
-        ("Mm/S", "s"),
+        ("mm/ss", "s"),
         ("Newtn", "newton"),
         ("NM", "Nm"),
         ("gm", "Gm"),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from trum_sym.inputs.drive import LOADS, STARTS, Drive
-from trum_sym.inputs.motor import SPECS, Motor
+from trum_sym.inputs.motor import UNCOUPLED, Motor
 from trum_sym.model.levels import (
     AMPLITUDES,
     COMPLIANCES,
@@ -74,7 +74,7 @@ def motor_header(motor: Motor, drive: Drive, levels: LevelChoice, names: tuple[s
     lines = ["/* Include after trum.h. */", f"#ifndef {guard}", f"#define {guard}", ""]
     quoted = as_comment(motor.name).replace('"', "'")
     lines += [f'#define {title} "{quoted}"', "", f"static const struct trum_motor {machine} = {{"]
-    for name, spec in SPECS.items():
+    for name, spec in UNCOUPLED.items():
         value = float(given[name].value) if name in given else 0.0
         source = as_comment(given[name].source) if name in given else "not measured"
         lines.append(f"  TRUM_C({value!r}), /* {name}, {spec.unit}: {source} */")

@@ -14,6 +14,7 @@ import numpy as np
 from trum_sym.calibration.least_squares import fit, interval_factor
 from trum_sym.calibration.models import FIT_TOLERANCE, DecayModel, Model, PointModel
 from trum_sym.calibration.result import Calibration, FittedParameter
+from trum_sym.calibration.sweep import SweepModel
 from trum_sym.errors import ImplausibleWarning, ParameterError, ValidityWarning
 from trum_sym.inputs.checks import Array
 from trum_sym.inputs.choices import choice, path_of, words
@@ -40,6 +41,8 @@ _USUAL = {  # what is fitted if nothing else is asked for, by what was measured
     "displacement": ("damping_ratio",),
     "velocity": ("damping_ratio",),
     "envelope": ("damping_ratio",),
+    "conductance": ("damping_ratio",),
+    "susceptance": ("damping_ratio",),
 }
 _USUAL_OTHERWISE = ("friction_coefficient", "contact_radius")
 _LAW = ("amplitude_factor", "amplitude_exponent")
@@ -63,13 +66,16 @@ def calibrate(
     ----------
     data : path, Measurements, mapping or data frame
         A CSV file with units in its headers, or columns in SI units by name: fields of the drive and at least one
-        figure of :func:`trum_sym.evaluate`, or ``time`` and one of ``displacement``, ``velocity``, ``envelope``.
+        figure of :func:`trum_sym.evaluate`, or ``time`` and one of ``displacement``, ``velocity``, ``envelope``, or
+        of a stator without a rotor ``frequency`` with ``conductance`` and ``susceptance`` or ``admittance`` and
+        ``phase``.
         Several measured columns need a ``NAME_uncertainty`` each, which weighs them.
     motor : Motor, name or path
         Its values are where the search begins, and stay where they are not fitted.
     parameters : sequence of str, optional
         Any continuous ones of the motor.  If not given: eq. 8's factor and exponent for ``amplitude``, the layer's
-        stiffness for ``resonance_frequency``, the damping ratio for a decay, else friction and contact radius.
+        stiffness for ``resonance_frequency``, the damping ratio for a decay or an admittance sweep, else friction and
+        contact radius.
     drive : Drive, optional
         What the data have no column for; Table 3 if not given.
     errors : {"absolute", "relative"}
@@ -134,6 +140,8 @@ def calibrate(
 def _model(data: Measurements, inputs: Inputs, names: tuple[str, ...]) -> Model:
     if data.is_decay:
         return DecayModel(data, inputs.motor, names, inputs.drive, inputs.levels)
+    if data.is_sweep:
+        return SweepModel(data, inputs.motor, names, inputs.drive, inputs.levels)
     period: float | None = inputs.sampling_period  # type: ignore[assignment]  # checked to be a single one
     return PointModel(data, inputs.motor, names, inputs.drive, inputs.levels, period)
 
@@ -292,6 +300,8 @@ def _at_ends(model: Model, values: Array, names: tuple[str, ...]) -> str:
 def _residual_unit(data: Measurements, model: Model, errors: str) -> str:
     if errors == "relative" or model.uncertainty is not None:
         return "1"
+    if data.is_sweep:
+        return "S"
     (name,) = data.observed
     return QUANTITIES[name].unit if name in QUANTITIES else model.units[-1]
 

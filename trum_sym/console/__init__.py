@@ -24,6 +24,7 @@ _SUMMARIES = {
     "simulate": "Time histories of one operating point on its periodic orbit.",
     "characteristics": "Speed, power and contact efficiency under load, speed by frequency and prepressure, stall by "
     "prepressure.",
+    "admittance": "Admittance of a phase over frequency, without a rotor and under one, and its circuit.",
     "sweep": "Operating points on a grid: every number may be a range, in --set too.",
     "spread": "How uncertain parameters spread an operating point's figures, and which to measure first.",
     "optimize": "The operating point of least objective in a box of prepressure and frequency difference, under "

@@ -74,8 +74,8 @@ def calibrate(
 
     DATA.csv has a header with units: prepressure [N],amplitude [um] for eq. 8; prepressure [N],resonance_frequency
     [Hz]; load_torque [N*m],mean_speed [arcsec/s] or other figures of evaluate; time [s] with displacement, velocity or
-    envelope for a decay.  What has no column is taken from the options.  Exit code 1: the data cannot fix these
-    parameters.
+    envelope for a decay; frequency [Hz] with conductance [S] and susceptance [S] for an admittance sweep without a
+    rotor.  What has no column is taken from the options.  Exit code 1: the data cannot fix these parameters.
     """
     from trum_sym.calibration.calibrate import calibrate as fit_motor
     from trum_sym.inputs.measurements import read_measurements

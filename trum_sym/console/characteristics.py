@@ -174,27 +174,36 @@ def _as_text(found: xr.Dataset) -> str:
     head = ("drive", "no load, rpm", "stall, N m", "speed at 49 % of stall", "at 56 %", "power, W", "efficiency, %")
     lines = [str(found.attrs["title"]), "", tabulate(rows, head, floatfmt=".4g")]
     if "amplitude" in found:
-        lines += ["", _coupled(found)]
+        lines += ["", _under_load(found, _WAVE), "", _under_load(found, _ELECTRIC)]
     if "point" in found.sizes:
         lines += ["", _compared(found)]
     return "\n".join(lines)
 
 
-def _coupled(found: xr.Dataset) -> str:
-    """The wave under load, where the rotor acts back on it."""
+_WAVE = {
+    "wave, um": ("amplitude", 1e6),
+    "force ahead, rad": ("lead", 1.0),
+    "resonance up by, Hz": ("resonance_shift", 1.0),
+    "power in, W": ("input_power", 1.0),
+    "efficiency, %": ("efficiency", 100.0),
+    "speed kept by contact": ("droop_compliance", 1.0),
+    "by reaction": ("droop_reaction", 1.0),
+    "states": ("states", 1.0),
+}
+_ELECTRIC = {
+    "current, A": ("current", 1.0),
+    "electric power, W": ("electric_power", 1.0),
+    "reactive, W": ("reactive_power", 1.0),
+    "power factor": ("power_factor", 1.0),
+    "efficiency, %": ("electric_efficiency", 100.0),
+}
+
+
+def _under_load(found: xr.Dataset, columns: dict[str, tuple[str, float]]) -> str:
+    """The wave under load, and what the phases draw, where the rotor acts back on it."""
     import numpy as np
     from tabulate import tabulate
 
-    columns = {
-        "wave, um": ("amplitude", 1e6),
-        "force ahead, rad": ("lead", 1.0),
-        "resonance up by, Hz": ("resonance_shift", 1.0),
-        "power in, W": ("input_power", 1.0),
-        "efficiency, %": ("efficiency", 100.0),
-        "speed kept by contact": ("droop_compliance", 1.0),
-        "by reaction": ("droop_reaction", 1.0),
-        "states": ("states", 1.0),
-    }
     torque, stall = found["torque"].values, float(found["stall_torque"].values[0])
     rows = [
         (

@@ -44,6 +44,7 @@ __all__ = [
     "number_option",
     "option_name",
     "pairs",
+    "plain_wave_options",
     "plot_options",
     "point_options",
     "robust_held_options",
@@ -321,6 +322,14 @@ def continuous_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """Give a command all options of an operating point but the encoder's."""
     drive = (_drive_option(quantity) for quantity in fields(Drive))
     return _given(command, (*_MOTOR, _POINT, *drive, *_LEVELS))
+
+
+def plain_wave_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Give a command motor and what counts of drive and levels for a plain wave that the rotor acts back on."""
+    drive = (_drive_option(q) for q in fields(Drive) if q.name in ("prepressure", "load_torque", "phase_lead"))
+    kept = zip(fields(Levels), _LEVELS, strict=True)
+    levels = (option for level, option in kept if level.name in ("resonance", "amplitude", "compliance"))
+    return _given(command, (*_MOTOR, *drive, *levels))
 
 
 def box_options(command: Callable[..., Any]) -> Callable[..., Any]:

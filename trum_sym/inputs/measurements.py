@@ -20,11 +20,22 @@ from trum_sym.inputs.units import Unit, parse_unit, unit_for
 from trum_sym.quantities import QUANTITIES
 from trum_sym.values import Value
 
-__all__ = ["INPUTS", "SIGNALS", "UNCERTAINTY", "Measurements", "from_columns", "read_measurements", "table_of"]
+__all__ = [
+    "ADMITTANCE",
+    "INPUTS",
+    "SIGNALS",
+    "UNCERTAINTY",
+    "Measurements",
+    "from_columns",
+    "read_measurements",
+    "table_of",
+]
 
 INPUTS = MappingProxyType({**DRIVE_DOMAINS, "phase_lead": (LEAD, "1")})
 SIGNALS = ("displacement", "velocity", "envelope")  # of a decay, each against time
+ADMITTANCE = ("conductance", "susceptance")  # of a sweep, against frequency
 UNCERTAINTY = "_uncertainty"
+_POLAR = {"admittance": "S", "phase": "rad"}  # the same as its size and angle
 
 _POSITIVE = (
     "amplitude",
@@ -46,8 +57,8 @@ class Measurements(Value):
     name : str
         What the data are called: the file's name, or what the caller says.
     columns : mapping of str to (n,) array
-        Fields of the drive, figures of an operating point, or time and a signal; ``NAME_uncertainty`` is
-        the standard uncertainty of a figure, row by row.
+        Fields of the drive, figures of an operating point, time and a signal, or frequency, conductance and
+        susceptance; ``NAME_uncertainty`` is the standard uncertainty of a figure, row by row.
     units : mapping of str to str
         The unit that each column was given in.
     synthetic : bool
@@ -73,8 +84,20 @@ class Measurements(Value):
         return "time" in self.columns
 
     @property
+    def is_sweep(self) -> bool:
+        """Whether these are admittances against frequency."""
+        return "frequency" in self.columns
+
+    @property
+    def abscissa(self) -> str | None:
+        """``time`` of a decay, ``frequency`` of a sweep."""
+        return "time" if self.is_decay else "frequency" if self.is_sweep else None
+
+    @property
     def observed(self) -> tuple[str, ...]:
-        """The measured columns: figures, or the signal of a decay."""
+        """The measured columns: figures, the signal of a decay, conductance and susceptance of a sweep."""
+        if self.is_sweep:
+            return ADMITTANCE
         return tuple(n for n in self.columns if n in (*QUANTITIES, *SIGNALS))
 
     @property
@@ -110,9 +133,36 @@ def from_columns(name: str, columns: Mapping[str, object], units: Mapping[str, s
         if length != next(iter(lengths.values())):
             first = next(iter(lengths))
             raise ParameterError(column, f"{length} rows", f"as many as {first}, {lengths[first]}")
+    if "frequency" in checked:
+        checked = _sweep(checked)
     data = Measurements(name, checked, units, synthetic)
     _check_columns(data)
     return data
+
+
+def _sweep(columns: dict[str, Array]) -> dict[str, Array]:
+    """The columns of an admittance sweep, as conductance and susceptance.
+
+    Raises
+    ------
+    ParameterError
+        Unless they are frequency and both parts of the admittance, or its size and phase, of frequencies that rise.
+    """
+    names = set(columns)
+    needed = ({*ADMITTANCE}, {*_POLAR}, {*ADMITTANCE, *(name + UNCERTAINTY for name in ADMITTANCE)})
+    if names - {"frequency"} not in needed:
+        allowed = (
+            f"frequency with {' and '.join(ADMITTANCE)} (both with {UNCERTAINTY} or neither), or {' and '.join(_POLAR)}"
+        )
+        raise ParameterError("data", " and ".join(sorted(names)), allowed)
+    hertz = columns["frequency"]
+    if np.any(np.diff(hertz) <= 0):
+        row = int(np.argmax(np.diff(hertz) <= 0)) + 2
+        raise ParameterError(f"frequency: row {row}", hertz[row - 1], "frequencies that rise from row to row")
+    if "phase" not in columns:
+        return columns
+    size, angle = columns["admittance"], columns["phase"]
+    return {"frequency": hertz, "conductance": size * np.cos(angle), "susceptance": size * np.sin(angle)}
 
 
 def _expected(column: object) -> tuple[str | None, Domain]:
@@ -128,17 +178,29 @@ def _expected(column: object) -> tuple[str | None, Domain]:
         return unit, domain
     if column == "time":
         return "s", Domain()
-    known = (*INPUTS, *QUANTITIES, "time", *SIGNALS)
+    if column == "frequency":
+        return "Hz", Domain(low=0.0)
+    if of in ADMITTANCE:
+        return "S", Domain(low=0.0) if of != column else Domain()
+    if column in _POLAR:
+        return _POLAR[column], Domain(low=0.0) if column == "admittance" else Domain()
+    known = (*INPUTS, *QUANTITIES, "time", *SIGNALS, "frequency", *ADMITTANCE, *_POLAR)
     from difflib import get_close_matches
 
     close = get_close_matches(column, known, n=3, cutoff=0.5)
     hint = f"; close names: {', '.join(close)}" if close else ""
-    raise ParameterError("column", column, f"a field of the drive, a figure of evaluate, or time with a signal{hint}")
+    raise ParameterError(
+        "column",
+        column,
+        f"a field of the drive, a figure of evaluate, time with a signal, or frequency with an admittance{hint}",
+    )
 
 
 def _check_columns(data: Measurements) -> None:
     """Whether the columns together make data that can be fitted."""
     names = set(data.columns)
+    if data.is_sweep:
+        return
     signals = names & set(SIGNALS)
     if data.is_decay:
         if len(signals) != 1:

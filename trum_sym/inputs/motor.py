@@ -18,7 +18,19 @@ from trum_sym.inputs.units import parse_quantity
 from trum_sym.text import one_line
 from trum_sym.values import FrozenDict, Value
 
-__all__ = ["FLANGE", "SPECS", "TO_DO", "Allowed", "Amount", "Motor", "Parameter", "Published", "spec"]
+__all__ = [
+    "COUPLED",
+    "FLANGE",
+    "SPECS",
+    "TO_DO",
+    "UNCOUPLED",
+    "Allowed",
+    "Amount",
+    "Motor",
+    "Parameter",
+    "Published",
+    "spec",
+]
 
 TO_DO = "to do"
 """How the source of a value begins that is a template's and not yet the motor's."""
@@ -131,8 +143,9 @@ class Amount(Value):
 class Motor(Value):
     """A travelling-wave rotary ultrasonic motor: every number with unit and source.
 
-    The names are those of the motor file and of ``--set``.  The last eleven are optional: a measured value replaces the
-    modelled one, and the rotor's flange is needed where its compliance counts.  ``bench`` has what the file says of the
+    The names are those of the motor file and of ``--set``.  The last fifteen are optional: a measured value replaces
+    the modelled one, the rotor's flange is needed where its compliance counts, and the last four count where the rotor
+    acts back on the wave.  ``bench`` has what the file says of the
     bench that the published figures were measured on, by the names of :class:`trum_sym.Drive`; nothing is computed with
     it unless a drive takes it.  ``box`` has the ranges that searches vary, ``allowed`` those beyond which the hardware
     does not go, ``spreads`` how far inputs of a motor at work may be off.
@@ -140,7 +153,7 @@ class Motor(Value):
     Attributes
     ----------
     name : str
-    radius, tooth_count, ..., flange_poisson_ratio : Parameter
+    radius, tooth_count, ..., piezo_loss_factor : Parameter
         What docs/motor-file.md lists, with symbols, units and what is allowed; values may be arrays that broadcast.
     bench : mapping of Parameter
         By name, in SI units.
@@ -225,6 +238,11 @@ class Motor(Value):
     flange_length: Parameter | None = _optional("m", "l_f", _SIZE)
     flange_young_modulus: Parameter | None = _optional("Pa", "E_f")
     flange_poisson_ratio: Parameter | None = _optional("1", "mu_f", _FLANGE_POISSON)
+    # Of the rotor and the electrodes: the level coupling = "contact" alone knows them
+    rotor_mass: Parameter | None = _optional("kg", "m_r", Domain(low=0.0, low_open=False, high=1e3))
+    phase_coverage: Parameter | None = _optional("1", "c_p", Domain(low=0.0, high=1.0, high_open=False))
+    piezo_permittivity: Parameter | None = _optional("F/m", "eps_33T")
+    piezo_loss_factor: Parameter | None = _optional("1", "tan_delta", Domain(low=0.0, low_open=False, high=1.0))
     bench: Mapping[str, Parameter] = field(default_factory=FrozenDict)
     published: tuple[Published, ...] = ()
     box: Mapping[str, Allowed] = field(default_factory=dict)  # what searches vary of the drive
@@ -336,6 +354,12 @@ SPECS: Mapping[str, Spec] = MappingProxyType(
 
 FLANGE = tuple(name for name in SPECS if name.startswith("flange_"))
 """The parameters of the rotor's flange, which the level compliance = "flange" needs."""
+
+COUPLED = ("rotor_mass", "phase_coverage", "piezo_permittivity", "piezo_loss_factor")
+"""The parameters that only the level coupling = "contact" knows."""
+
+UNCOUPLED: Mapping[str, Spec] = MappingProxyType({name: spec for name, spec in SPECS.items() if name not in COUPLED})
+"""All others: what the C library takes, which has not that level."""
 
 
 def spec(name: object) -> Spec:

@@ -91,6 +91,18 @@ _SECTIONS: dict[str, dict[str, Entry]] = {
         "flange_young_modulus": Entry("GPa", "of the flange"),
         "flange_poisson_ratio": Entry("1", "of the flange"),
     },
+    "Rotor and electrodes where the rotor acts back on the wave, --coupling contact; each is optional": {
+        "rotor_mass": Entry(
+            "g", "of what moves up and down with the rotor; none if not given; no plain wave depends on it"
+        ),
+        "phase_coverage": Entry(
+            "1",
+            "share of the circumference that a phase's electrodes drive: 1, as eq. 7 has it, if not given; 4/9 where "
+            "each phase has four of nine waves; counts with --amplitude forced, and in the capacitance",
+        ),
+        "piezo_permittivity": Entry("nF/m", "of the ceramic along its poling, at constant stress; current and power"),
+        "piezo_loss_factor": Entry("1", "tan delta of the ceramic's capacitance; none if not given"),
+    },
 }
 ENTRIES = {name: entry for section in _SECTIONS.values() for name, entry in section.items()}
 """Every parameter of a motor file."""

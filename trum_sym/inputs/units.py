@@ -122,6 +122,11 @@ _BASE: dict[str, Unit] = {
     "Pa": Unit(_dim(m=-1, kg=1, s=-2), Fraction(1)),
     "V": Unit(_dim(m=2, kg=1, s=-3, A=-1), Fraction(1)),
     "C": Unit(_dim(s=1, A=1), Fraction(1)),
+    "W": Unit(_dim(m=2, kg=1, s=-3), Fraction(1)),
+    "F": Unit(_dim(m=-2, kg=-1, s=4, A=2), Fraction(1)),
+    "S": Unit(_dim(m=-2, kg=-1, s=3, A=2), Fraction(1)),
+    "H": Unit(_dim(m=2, kg=1, s=-2, A=-2), Fraction(1)),
+    "ohm": Unit(_dim(m=2, kg=1, s=-3, A=-2), Fraction(1)),
     "rad": Unit(_dim(), Fraction(1), _ANGLE),
     "deg": Unit(_dim(), math.pi / 180, _ANGLE),
     "arcmin": Unit(_dim(), 60 * ARCSEC, _ANGLE),
@@ -131,10 +136,11 @@ _BASE: dict[str, Unit] = {
     "rpm": Unit(_dim(s=-1), math.pi / 30, _ANGLE),
 }
 _PREFIX = {"G": 9, "M": 6, "k": 3, "h": 2, "da": 1, "": 0, "d": -1, "c": -2, "m": -3, "u": -6, "n": -9, "p": -12}
-_PREFIXED = ("m", "g", "s", "A", "Hz", "N", "gf", "Pa", "V", "C", "rad")
+_PREFIXED = ("m", "g", "s", "A", "Hz", "N", "gf", "Pa", "V", "C", "W", "F", "S", "H", "ohm", "rad")
 _SPOKEN = {  # as CF conventions and units libraries write them, and plurals of them
     **{"meter": "m", "metre": "m", "gram": "g", "second": "s", "ampere": "A", "hertz": "Hz", "newton": "N"},
     **{"pascal": "Pa", "volt": "V", "coulomb": "C", "radian": "rad", "minute": "min", "percent": "%"},
+    **{"watt": "W", "farad": "F", "siemens": "S", "henry": "H"},
     **{"degree": "deg", "arcminute": "arcmin", "arcsecond": "arcsec", "turn": "rev", "revolution": "rev"},
     **{"dimensionless": "1", "revolutions_per_minute": "rpm", "sec": "s", "r": "rev"},
 }
@@ -173,6 +179,7 @@ _SPELLING = str.maketrans(
         "°": "deg",
         "′": "arcmin",
         "″": "arcsec",
+        **dict.fromkeys("Ω\u2126", "ohm"),
     }
 )
 _RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻", "0123456789+-")

@@ -17,6 +17,7 @@ from trum_sym.errors import ParameterError
 from trum_sym.inputs.checks import Array, ArrayLike
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
+from trum_sym.inputs.plausible import unquestioned
 from trum_sym.inputs.points import check_point, check_single, numbers_of
 from trum_sym.model.kernels import call
 from trum_sym.model.levels import Levels
@@ -124,7 +125,9 @@ def check_coupling(motor: Motor, drive: Drive, levels: Levels) -> None:
             raise ParameterError(name, 0, "a number > 0 where coupling is contact")
 
 
-def coupled_values(motor: Motor, drive: Drive, levels: Levels, *, coverage: float = 1.0) -> dict[str, ArrayLike]:
+def coupled_values(
+    motor: Motor, drive: Drive, levels: Levels, *, coverage: float | None = None, rotor_mass: float | None = None
+) -> dict[str, ArrayLike]:
     """What the coupled plain wave depends on, by symbol, in SI.
 
     The drive frequency is that of ``coupling = "none"``: the resonance under prepressure at eq. 8's amplitude, and the
@@ -135,8 +138,11 @@ def coupled_values(motor: Motor, drive: Drive, levels: Levels, *, coverage: floa
     ----------
     motor, drive, levels
         Of one point: no arrays.
-    coverage : float
-        Share of the circumference that the electrodes of a phase drive; counts where ``amplitude`` is ``forced``.
+    coverage : float, optional
+        Share of the circumference that the electrodes of a phase drive, in place of the motor's ``phase_coverage``;
+        counts where ``amplitude`` is ``forced``, and in the capacitance.
+    rotor_mass : float, kg, optional
+        In place of the motor's, as ``m_r``; no plain wave depends on it.
 
     Raises
     ------
@@ -146,10 +152,13 @@ def coupled_values(motor: Motor, drive: Drive, levels: Levels, *, coverage: floa
     check_point(motor, drive)
     check_single(numbers_of(motor, drive), "one number: a coupled wave is of one motor and drive")
     check_coupling(motor, drive, levels)
+    replaced = {"phase_coverage": coverage, "rotor_mass": rotor_mass}
+    with unquestioned():  # whoever asks for another value knows the stated range
+        motor = motor.with_values({name: value for name, value in replaced.items() if value is not None})
     pressed = solve_stator(motor, drive, replace(levels, amplitude="measured", coupling="none"), warn=False)
     values = {**motor.symbols(), **pressed.values, **drive.symbols()}
     modes = call("trum_resonance", {**values, "k_f": 0.0, "k_dx": 0.0})
-    values |= {"beta": modes["beta"], "omega_n0": modes[levels.resonance], "coverage": coverage}
+    values = {"c_p": 1.0, "m_r": 0.0, **values, "beta": modes["beta"], "omega_n0": modes[levels.resonance]}
     if motor.resonance_frequency is not None:
         mass = call("trum_modal", values)["M_q"]
         found = _reaction(values, np.array([float(np.asarray(values["W"]))]), "held")

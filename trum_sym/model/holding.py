@@ -12,7 +12,7 @@ import numpy as np
 from trum_sym.inputs.checks import Array, ArrayLike
 from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import DRIVE_DOMAINS, SPREADING, Drive
-from trum_sym.inputs.motor import SPECS, Amount, Motor
+from trum_sym.inputs.motor import COUPLED, SPECS, Amount, Motor
 from trum_sym.inputs.motor_file import load_motor
 from trum_sym.inputs.plausible import unquestioned
 from trum_sym.inputs.points import check_point, check_single, numbers_of, one_number
@@ -501,7 +501,7 @@ def _other_slopes(case: Case) -> dict[str, float]:
     """Slopes by the switching phase and by assumed values that count, by differences of sixth order, in one batch."""
     steps = {"switching_phase": _PHASE_STEP}
     for name, parameter in case.motor.assumed().items():
-        if name in SPREADING or SPECS[name].domain.integer:
+        if name in (*SPREADING, *COUPLED) or SPECS[name].domain.integer:
             continue
         step = _STEP * abs(float(np.asarray(parameter.value)))
         if step and _counts(case, name, step):

@@ -81,7 +81,8 @@ class Levels(Value):
         plain wave alone (both phases always on).
     coupling : {"none", "contact"}
         Whether the rotor acts back on the wave: not at all, so that amplitude and resonance are prescribed, or through
-        pressure and friction of the contact, which :func:`trum_sym.characteristics` computes for the plain wave.
+        pressure and friction of the contact, which :func:`trum_sym.characteristics` and :func:`trum_sym.admittance`
+        compute for the plain wave.
 
     Raises
     ------
@@ -109,7 +110,9 @@ class Levels(Value):
     def check_prescribed(self) -> None:
         """Raise a ParameterError unless the wave is prescribed, for all that knows no other."""
         if self.coupling != COUPLINGS[0]:
-            raise ParameterError("coupling", self.coupling, "none: of all answers, characteristics alone has another")
+            raise ParameterError(
+                "coupling", self.coupling, "none: of all answers, characteristics and admittance alone have another"
+            )
 
 
 LEVEL_NAMES = tuple(level.name for level in fields(Levels))

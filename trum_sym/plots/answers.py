@@ -206,16 +206,17 @@ def fitted(found: Calibration) -> Figure:
     width = interval_factor(found.confidence, found.residuals.degrees_of_freedom)
     variance = np.einsum("ij,jk,ik->i", slopes, found.covariance, slopes)
     band = np.split(width * np.sqrt(np.maximum(variance, 0)), len(data.observed))
-    varied = ["time"] if data.is_decay else [n for n in data.inputs if np.ptp(data.columns[n]) > 0]
+    varied = [data.abscissa] if data.abscissa else [n for n in data.inputs if np.ptp(data.columns[n]) > 0]
     name = varied[0] if len(varied) == 1 else None
     x = data.columns[name] if name is not None else np.arange(1.0, len(data) + 1)
-    unit = "s" if data.is_decay else DRIVE_DOMAINS[name][1] if name and name in DRIVE_DOMAINS else "1"
+    known = {"time": "s", "frequency": "Hz", **{field: unit for field, (_, unit) in DRIVE_DOMAINS.items()}}
+    unit = known.get(name or "", "1")
     order = np.argsort(x, kind="stable")
     axes = panels(None, len(data.observed), 1, 0.8 + 2.6 * len(data.observed), sharex=True)
     for ax, column, line, half in zip(axes, data.observed, fit, band, strict=True):
-        known = column in QUANTITIES
-        scale = float(readable(column, 1.0)) if known else 1.0
-        quantity = quantity_of(column) if known else Quantity(column, "", "", _SIGNAL[column])
+        figure = column in QUANTITIES
+        scale = float(readable(column, 1.0)) if figure else 1.0
+        quantity = quantity_of(column) if figure else Quantity(column, "", "", _SIGNAL[column])
         low, high = scale * (line - half)[order], scale * (line + half)[order]
         band_of = f"its {100 * found.confidence:g} % band"
         ax.plot(x[order], scale * line[order], color=COLOURS[0], label="fit")
@@ -232,7 +233,7 @@ def fitted(found: Calibration) -> Figure:
     return figure_of(axes[0])
 
 
-_SIGNAL = {"displacement": "m", "velocity": "m/s", "envelope": "as measured"}
+_SIGNAL = {"displacement": "m", "velocity": "m/s", "envelope": "as measured", "conductance": "S", "susceptance": "S"}
 _SHARE = 0.01
 
 

@@ -13,6 +13,7 @@ from trum_sym.inputs.motor import Motor
 from trum_sym.model.operating_point import evaluate
 from trum_sym.output.progress import shown
 from trum_sym.paper.claims import PARTLY
+from trum_sym.paper.coupled import coupled_tables
 from trum_sym.paper.ledger import Record, load_ledger
 from trum_sym.paper.tables import tables
 from trum_sym.plots import svg
@@ -67,6 +68,7 @@ def page(motor: Motor, *, progress: bool = False) -> str:
             for place, group in groupby(drawn, lambda item: item["picture"].place)
         ],
         tables=list(tables(motor)),
+        coupling=coupled_tables(motor),
         interactive=fragment(motor),
         judged=judged,
         labels=_labels(),

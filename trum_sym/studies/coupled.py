@@ -12,6 +12,7 @@ from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
 from trum_sym.model.coupling import PlainWaves, coupled_values, plain_waves, wave_at
 from trum_sym.model.levels import Levels
+from trum_sym.model.port import drawn, has_port
 
 __all__ = ["COUPLED", "coupled_curves"]
 
@@ -22,6 +23,11 @@ COUPLED = {
     "input_power": ("torque", "W", "that the modal forces of both phases put in"),
     "contact_power": ("torque", "W", "that the stator's surface gives to the contact"),
     "efficiency": ("torque", "1", "output power over input power"),
+    "current": ("torque", "A", "amplitude of a phase's current"),
+    "electric_power": ("torque", "W", "that both phases draw"),
+    "reactive_power": ("torque", "W", "of both phases, positive where the current is behind the voltage"),
+    "power_factor": ("torque", "1", "electric power over that of effective voltage and current"),
+    "electric_efficiency": ("torque", "1", "output power over electric power"),
     "droop_compliance": ("torque", "1", "speed over that without load, were the wave to stay as it is without load"),
     "droop_reaction": ("torque", "1", "what the load's effect on the wave makes of that"),
     "states": ("torque", "1", "steady states at this load"),
@@ -46,6 +52,12 @@ class _Found:
         """A field of the state."""
         index = self.waves.highest
         return float(getattr(self.waves, name)[index]) if index >= 0 else float("nan")
+
+    def drawn(self, name: str) -> float:
+        """A field of what the state draws, NaN where the motor file does not say what that takes."""
+        index = self.waves.highest
+        known = index >= 0 and has_port(self.values)
+        return float(getattr(drawn(self.values, self.waves), name)[index]) if known else float("nan")
 
     @property
     def speed(self) -> float:
@@ -110,6 +122,7 @@ def coupled_curves(motor: Motor, drive: Drive, levels: Levels, axes: dict[str, A
             "input_power": spent,
             "contact_power": given,
             "efficiency": power / spent,
+            **_electric(loaded, power),
             "droop_compliance": kept,
             "droop_reaction": speed / rest.speed / kept,
             "states": np.array([float(found.waves.amplitude.size) for found in loaded]),
@@ -117,6 +130,15 @@ def coupled_curves(motor: Motor, drive: Drive, levels: Levels, axes: dict[str, A
             "states_by_frequency": np.array([float(found.waves.amplitude.size) for found in by_frequency]),
             "amplitude_by_prepressure": np.array([found.of("amplitude") for found in by_prepressure]),
         }
+
+
+def _electric(loaded: list[_Found], power: Array) -> dict[str, Array]:
+    """What the phases draw under each load, and the output power over it."""
+    draws = {
+        name: np.array([found.drawn(name) for found in loaded])
+        for name in ("current", "electric_power", "reactive_power", "power_factor")
+    }
+    return {**draws, "electric_efficiency": power / draws["electric_power"]}
 
 
 def _kept(rest: _Found, loaded: _Found) -> float:

@@ -15,7 +15,7 @@ from trum_sym.inputs.choices import words
 from trum_sym.inputs.distributions import Distribution, checked
 from trum_sym.inputs.domain import Spec
 from trum_sym.inputs.drive import DRIVE_DOMAINS, Drive
-from trum_sym.inputs.motor import FLANGE, SPECS, Motor, Parameter, spec
+from trum_sym.inputs.motor import COUPLED, FLANGE, SPECS, Motor, Parameter, spec
 from trum_sym.inputs.motor_file import load_motor
 from trum_sym.inputs.plausible import unquestioned
 from trum_sym.inputs.points import check_point, check_single, numbers_of, period_of
@@ -90,9 +90,10 @@ def _spreads(parameters: Iterable[tuple[str, Parameter]]) -> dict[str, Distribut
 
 
 def _uncertain(motor: Motor, levels: Levels) -> dict[str, Distribution]:
-    """What the motor file gives a range or a distribution, but for a flange that the levels leave out."""
+    """What the motor file gives a range or a distribution, but for what the levels leave out."""
     counts = levels.compliance == "flange" and motor.contact_stiffness is None
-    return _spreads((name, p) for name, p in motor.parameters() if counts or name not in FLANGE)
+    left_out = COUPLED if counts else (*COUPLED, *FLANGE)
+    return _spreads((name, p) for name, p in motor.parameters() if name not in left_out)
 
 
 def _chosen(

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from trum_sym.errors import ParameterError
-from trum_sym.inputs.motor import SPECS, Motor
+from trum_sym.inputs.motor import UNCOUPLED, Motor
 from trum_sym.inputs.motor_file import SHIPPED, motor_text
 from trum_sym.model.levels import LEVEL_NAMES
 
@@ -36,7 +36,7 @@ def fragment(motor: Motor) -> str:
     """
     given = {name: parameter.value for name, parameter in motor.parameters()}
     values = {}
-    for name in SPECS:
+    for name in UNCOUPLED:
         value = given.get(name, 0.0)  # 0 stands for a value that the model finds
         if not isinstance(value, float | int) and value.ndim:
             raise ParameterError(name, f"an array of shape {value.shape}", "a single number")
