@@ -172,8 +172,8 @@ def pressure() -> sp.Expr:
     """A layer whose surface is off in height by at most a has friction off by at most 2 a / W_full.
 
     The layer's pressure per angle is k max(0, z - h), with h where it carries the load.  Raising z everywhere by a
-    raises h by a; h is monotone in z, so it is off by at most a, and the pressure by at most 2 k a; friction is a mean of
-    signs over the pressure, so over the whole wave it is off by at most 2 pi times that over the load.  At the wave
+    raises h by a; h is monotone in z, so it is off by at most a, and the pressure by at most 2 k a; friction is a mean
+    of signs over the pressure, so over the whole wave it is off by at most 2 pi times that over the load.  At the wave
     height W_full the whole wave just touches and the pressure, k (W_full + W_full cos u), carries 2 pi k W_full.
 
     Raises
@@ -191,7 +191,7 @@ def pressure() -> sp.Expr:
 
 
 def reversal() -> sp.Expr:
-    """The mean over a turn of min(1, c / |sin|) is at most c (1 - ln c), for c from 0 to 1; of 1/sqrt|cos| it is below 1.7.
+    """The mean over a turn of min(1, c / |sin|) is at most c (1 - ln c), for c from 0 to 1; of 1/sqrt|cos| below 1.7.
 
     A standing wave's speed and height go through zero so.  A part of the wave below c of its speed turns its friction
     around, a part of the height below c its contact (``surface`` bounds neither, for a rotor that is held).
@@ -218,8 +218,8 @@ def contact_edge() -> sp.Expr:
     """A layer whose surface is off in height by at most a has theta/pi off by at most sqrt(2 a / W_c).
 
     What touches is where the wave is above the level; both are off by at most a, so what changes lies within 2 a of the
-    level, 4 a of height, w = 4 a / W_c of the cosine.  Most of the circle lies within w of the cosine next to its crests,
-    on each side arccos(1 - w), which is at most pi/2 sqrt(2 w).
+    level, 4 a of height, w = 4 a / W_c of the cosine.  Most of the circle lies within w of the cosine next to its
+    crests, on each side arccos(1 - w), which is at most pi/2 sqrt(2 w).
 
     Raises
     ------

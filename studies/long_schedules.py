@@ -4,8 +4,8 @@ python -m studies.long_schedules [COUNT] [--seed N] [--longest M]
 
 The C library is built twice, once counting beyond 100 periods and once beyond none of the points' 200 to M (10,000).
 Random drives, damping ratios of 0.003 to 0.05, inertias of 1e-7 to 1e-4 kg m^2, tolerances of 1e-3 to 1e-8, all starts.
-Wrong is a point whose figures differ by more than both bounds together, or that converges in one way only.  The exit code
-is 1 if any is.
+Wrong is a point whose figures differ by more than both bounds together, or that converges in one way only.  The exit
+code is 1 if any is.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Schedules of up to a million periods, whose repeated periods are counted.
 
-Apart from what has died away, a schedule's means are a + b/m: a region's begin costs the same however long the region is,
-and the rest of it repeats one period.  Two short schedules, which are integrated whole, give a and b.
+Apart from what has died away, a schedule's means are a + b/m: a region's begin costs the same however long it is, and
+the rest of it repeats one period.  Two short schedules, which are integrated whole, give a and b.
 """
 
 from __future__ import annotations

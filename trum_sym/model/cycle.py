@@ -65,7 +65,7 @@ def modal_values(
 
 
 def lack_of_damping(values: Mapping[str, ArrayLike]) -> str | None:
-    """What to say where a lack of damping, not the motor, makes the figures; ``values`` are those of :func:`modal_values`.
+    """What to say where a lack of damping, not the motor, makes the figures of :func:`modal_values`' points.
 
     That is without damping less than a hundredth of a beat from the resonance, where a cycle has no steady state, and
     where a cycle repeats its own free vibration so nearly that it grows to ten times the forced one.

@@ -86,7 +86,7 @@ def _check_size(name: str, value: ArrayLike) -> None:
 
 
 def _check_prepressure(drive: Drive, values: Mapping[str, ArrayLike]) -> None:
-    """Raise a ParameterError where eq. 8, a falling power of the prepressure, gives no wave: one higher than it is long."""
+    """Raise a ParameterError where eq. 8, a falling power, gives no wave: one higher than it is long."""
     height, force = np.broadcast_arrays(np.multiply(values["W"], values["k_c"]), drive.prepressure)
     wrong = ~(height < 1)
     if wrong.any():
