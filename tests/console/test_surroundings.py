@@ -108,7 +108,9 @@ sys.meta_path.insert(0, Finder())
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-@pytest.mark.parametrize("module", ["click", "trum_sym.console", "numpy", "trum_sym.output.text_table", "trum_sym._kernels"])
+@pytest.mark.parametrize(
+    "module", ["click", "trum_sym.console", "numpy", "trum_sym.output.text_table", "trum_sym._kernels"]
+)
 def test_a_signal_while_modules_load_is_one_line(module, number):
     done = run("evaluate", before=WHILE.format(module=module, number=int(number)))
     one_line(done, 128 + number, "interrupted")

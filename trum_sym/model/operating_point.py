@@ -400,7 +400,7 @@ def prepare(
     check_steady_state(motor.damping_ratio.value, drive)
     if levels.tangential == "brush":
         check_drive(drive)
-    _check_sampled(drive, sampling_period is not None)
+    _check_sampled(drive, sampling_period)
     stator = solve_stator(motor, drive, levels, warn=warn)
     values = modal_values(stator.omega_n, motor.damping_ratio.value, drive)
     if warn and (said := lack_of_damping(values)) is not None:
@@ -412,15 +412,16 @@ def prepare(
     return Case(motor, drive, levels, shape, stator, values, symbols, arguments, sampling_period, tolerance)
 
 
-def _check_sampled(drive: Drive, encoder: bool) -> None:
+def _check_sampled(drive: Drive, sampling_period: ArrayLike | None) -> None:
     """Raise a ParameterError for a cycle too long to be kept as samples, where an encoder or a string ask for them."""
     longest = np.max(drive.periods)
     if longest <= _SAMPLED_PERIODS:
         return
-    for name, value, asked in (("sampling_period", "a time", encoder), ("load", "weight", drive.load == "weight")):
-        if asked:
-            allowed = f"none with periods = {longest:g}: at most {_SAMPLED_PERIODS} are kept as samples"
-            raise ParameterError(name, value, allowed)
+    why = f"with periods = {longest:g}: at most {_SAMPLED_PERIODS} are kept as samples"
+    if sampling_period is not None:
+        raise ParameterError("sampling_period", np.asarray(sampling_period).flat[0], f"none {why}")
+    if drive.load == "weight":
+        raise ParameterError("load", drive.load, f"torque {why}")
 
 
 def point_of(case: Case, progress: bool = False) -> OperatingPoint:
@@ -491,7 +492,7 @@ def _of_orbit(case: Case, cycle_time: ArrayLike, wanted: Collection[str], progre
 
 def encoder_deviation_of(case: Case, orbit: Orbit, period: ArrayLike) -> Array:
     """Standard deviation of an encoder's readings over a period in s, at every point of a case; rad/s."""
-    _check_sampled(case.drive, True)
+    _check_sampled(case.drive, period)
     cycle_time = call("trum_drive", case.values)["T"]
     readings = _encoder(case.arguments, orbit, cycle_time, period)
     return np.asarray(readings[..., 0] / np.asarray(case.symbols["r_c"]))
