@@ -47,6 +47,14 @@ static inline int trum_contact_of(const struct trum_motor* motor, const struct t
   return trum_is_size(v[trum_at_k_con]);
 }
 
+/* Whether the wave has a size, and, where eq. 8 gives its height, is not higher than it is long. */
+static inline enum trum_status trum_check_wave(int modelled, struct trum_point* point, const trum_real* v) {
+  if (!trum_is_size(v[trum_at_W]) || !trum_is_size(v[trum_at_D]) || !trum_is_size(v[trum_at_k_c])) return TRUM_NO_SIZE;
+  if (!modelled || v[trum_at_W] * v[trum_at_k_c] < 1) return TRUM_OK;
+  point->field = trum_drive_prepressure;
+  return TRUM_BAD_INPUT;
+}
+
 /* Section, resonance and amplitude under prepressure. */
 static inline enum trum_status trum_stator(const struct trum_motor* motor, const struct trum_drive* drive,
                                            struct trum_point* point, trum_real* v) {
@@ -80,12 +88,7 @@ static inline enum trum_status trum_stator(const struct trum_motor* motor, const
     }
   }
   if (i == 200) return TRUM_NOT_SETTLED;
-  if (!trum_is_size(v[trum_at_W]) || !trum_is_size(v[trum_at_D]) || !trum_is_size(v[trum_at_k_c])) return TRUM_NO_SIZE;
-  if (modelled && !(v[trum_at_W] * v[trum_at_k_c] < 1)) { /* eq. 8 gives a wave that is higher than it is long */
-    point->field = trum_drive_prepressure;
-    return TRUM_BAD_INPUT;
-  }
-  return TRUM_OK;
+  return trum_check_wave(modelled, point, v);
 }
 
 /* Free motion before t1 of phases of unit amplitude. */
