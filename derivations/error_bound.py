@@ -19,10 +19,14 @@ __all__ = [
     "THEOREMS",
     "Theorem",
     "comparison",
+    "contact_edge",
     "deviation",
     "kronrod",
     "monotone_weight",
+    "pressure",
     "prove",
+    "repetition",
+    "reversal",
     "saturation",
     "start_speed",
     "surface",
@@ -159,6 +163,126 @@ def deviation() -> sp.Expr:
     return slack
 
 
+def surface() -> sp.Expr:
+    """A surface whose speed is off by at most c moves the rotor's speed by at most c, however long it lasts.
+
+    Friction depends on the differences of surface and rotor's speed, so f at v with the surface off by at most c lies
+    between f(v + c) and f(v - c) with the surface as it was, pressure being the same: f falls in v.  So with u the
+    speed on the one surface, u + c rises at least as fast as the motion on the other does there, and u - c at most: a
+    solution that begins between them stays between.  Returns the least excess of the rate of u + c, which is 0.
+
+    Raises
+    ------
+    ProofError
+        If a step does not hold.
+    """
+    w, c, v, push, drag = sp.symbols("w c v push drag", real=True)
+    for side in (1, -1):  # all of the surface off to one side is the rotor's speed off to the other
+        _zero(sp.sign((w + side * c) - v) - sp.sign(w - (v - side * c)), "a shift of the surface is one of the rotor")
+    u, f, less = sp.Function("u")(t), sp.Function("f"), sp.Symbol("less", nonnegative=True)
+    rate = push * f(u) - drag
+    upper = u + c
+    other = push * (f(upper - c) - less) - drag  # at most the rate with all of the surface faster by c
+    excess = upper.diff(t).subs(u.diff(t), rate) - other
+    _zero(excess - push * less, "u + c rises at least as fast")
+    return excess.subs(less, 0)
+
+
+def pressure() -> sp.Expr:
+    """A layer whose surface is off in height by at most a has friction off by at most 2 a / W_full.
+
+    The layer's pressure per angle is k max(0, z - h), with h where it carries the load.  Raising z everywhere by a
+    raises h by a; h is monotone in z, so it is off by at most a, and the pressure by at most 2 k a; friction is a mean
+    of signs over the pressure, so over the whole wave it is off by at most 2 pi times that over the load.  At the wave
+    height W_full the whole wave just touches and the pressure, k (W_full + W_full cos u), carries 2 pi k W_full.
+
+    Raises
+    ------
+    ProofError
+        If a step does not hold.
+    """
+    k, a, h, z, W_full, u = sp.symbols("k a h z W_full u", positive=True)
+    _zero(sp.Max(0, (z + a) - (h + a)) - sp.Max(0, z - h), "a shift of the height is one of the level")
+    load = sp.integrate(k * (W_full + W_full * sp.cos(u)), (u, -sp.pi, sp.pi))
+    _zero(load - 2 * sp.pi * k * W_full, "the load at full contact")
+    bound = 2 * sp.pi * (2 * k * a) / load
+    _zero(bound - 2 * a / W_full, "the bound")
+    return bound
+
+
+def reversal() -> sp.Expr:
+    """The mean over a turn of min(1, c / |sin|) is at most c (1 - ln c), for c from 0 to 1; of 1/sqrt|cos| below 1.7.
+
+    A standing wave's speed and height go through zero so.  A part of the wave below c of its speed turns its friction
+    around, a part of the height below c its contact (``surface`` bounds neither, for a rotor that is held).
+
+    Raises
+    ------
+    ProofError
+        If a step does not hold.
+    """
+    c = sp.Symbol("c", positive=True)
+    chord = 2 * x / sp.pi  # sin x is above its chord from 0 to pi/2, as it is concave there
+    _zero(sp.sin(x).subs(x, sp.pi / 2) - chord.subs(x, sp.pi / 2), "the chord ends on the sine")
+    meets = sp.solve(sp.Eq(chord, c), x)[0]
+    mean = 2 / sp.pi * (meets + sp.integrate(c / chord, (x, meets, sp.pi / 2)))
+    bound = c * (1 - sp.log(c))
+    _zero(sp.expand_log(sp.simplify(mean - bound), force=True), "the mean under the chord")
+    whole = 2 / sp.pi * sp.gamma(sp.Rational(1, 4)) * sp.sqrt(sp.pi) / (2 * sp.gamma(sp.Rational(3, 4)))
+    if not whole.evalf(30) < sp.Rational(17, 10):
+        raise ProofError(f"reversal: the mean of 1/sqrt|cos| is {whole.evalf(6)}")
+    return bound
+
+
+def contact_edge() -> sp.Expr:
+    """A layer whose surface is off in height by at most a has theta/pi off by at most sqrt(2 a / W_c).
+
+    What touches is where the wave is above the level; both are off by at most a, so what changes lies within 2 a of the
+    level, 4 a of height, w = 4 a / W_c of the cosine.  Most of the circle lies within w of the cosine next to its
+    crests, on each side arccos(1 - w), which is at most pi/2 sqrt(2 w).
+
+    Raises
+    ------
+    ProofError
+        If a step does not hold.
+    """
+    w, a, W_c = sp.symbols("w a W_c", positive=True)
+    half = sp.Symbol("half", positive=True)  # of the angle: 1 - cos(2 half) = 2 sin(half)^2, sin above its chord
+    _zero(1 - sp.cos(2 * half) - 2 * sp.sin(half) ** 2, "half angles")
+    widest = 2 * sp.solve(sp.Eq(2 * (2 * half / sp.pi) ** 2, w), half)[0]
+    _zero(widest - sp.pi / 2 * sp.sqrt(2 * w), "by the chord")
+    bound = (widest / sp.pi).subs(w, 4 * a / W_c)
+    _zero(bound - sp.sqrt(2 * a / W_c), "the bound")
+    return bound
+
+
+def repetition() -> sp.Expr:
+    """A period that is repeated has, in each repetition, the errors of the first time but for drift / (1 - K) at most.
+
+    A period takes the solution from x_0 to x_1 and its error from e_0 to e_1 = K e_0 + r.  Repeated from x_0 again, the
+    solution jumps by x_0 - x_1 and its error with it: e' = K e + r - (x_1 - x_0).  From e_0 on this draws near to
+    e_0 - drift / (1 - K), where drift = (x_1 - x_0) - (e_1 - e_0) is what the exact motion changes by in the period.
+    Within a period errors differ by what is kept of their difference at its begin.  So remainders do, without drift.
+
+    Raises
+    ------
+    ProofError
+        If a step does not hold.
+    """
+    K, r, e_0, x_0, x_1, e = sp.symbols("K r e_0 x_0 x_1 e", real=True)
+    k = sp.Symbol("k", integer=True, nonnegative=True)
+    e_1 = K * e_0 + r
+    step = K * e + r - (x_1 - x_0)
+    limit = sp.solve(sp.Eq(step, e), e)[0]
+    drift = (x_1 - x_0) - (e_1 - e_0)
+    _zero(limit - (e_0 - drift / (1 - K)), "the limit")
+    after = limit + K**k * (e_0 - limit)
+    _zero(after.subs(k, k + 1) - step.subs(e, after), "the recursion")
+    _zero(after.subs(k, 0) - e_0, "it begins at e_0")
+    _zero((after - e_0) - (1 - K**k) * (limit - e_0), "it nears the limit from one side")
+    return drift / (1 - K)
+
+
 @dataclass(frozen=True)
 class Theorem:
     """A statement, what it rests on, and its proof."""
@@ -176,6 +300,11 @@ THEOREMS = (
     Theorem("kronrod", "nothing", kronrod),
     Theorem("start speed", "comparison", start_speed),
     Theorem("deviation", "nothing", deviation),
+    Theorem("surface", "comparison", surface),
+    Theorem("pressure", "a layer of bristles, each pressed by itself", pressure),
+    Theorem("reversal", "nothing", reversal),
+    Theorem("contact edge", "pressure", contact_edge),
+    Theorem("repetition", "comparison", repetition),
 )
 
 

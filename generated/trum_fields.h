@@ -58,8 +58,8 @@
 #define TRUM_DRIVE_FIELDS(X) \
   X(prepressure, F_c, "N", TRUM_C(0.0), TRUM_C(1000000.0), 1, 1, 0, 1) \
   X(frequency_difference, Delta_f, "Hz", TRUM_C(-1000000000.0), TRUM_C(1000000000.0), 1, 1, 0, 1) \
-  X(periods, m, "1", TRUM_C(1.0), TRUM_C(10000.0), 0, 0, 1, 1) \
-  X(on_periods, n, "1", TRUM_C(1.0), TRUM_C(10000.0), 0, 0, 1, 1) \
+  X(periods, m, "1", TRUM_C(1.0), TRUM_C(1000000.0), 0, 0, 1, 1) \
+  X(on_periods, n, "1", TRUM_C(1.0), TRUM_C(1000000.0), 0, 0, 1, 1) \
   X(load_torque, T_load, "N*m", TRUM_C(-1000000000.0), TRUM_C(1000000000.0), 1, 1, 0, 1) \
   X(load_inertia, J_load, "kg*m^2", TRUM_C(0.0), TRUM_C(1000000.0), 0, 1, 0, 1) \
   X(load_radius, r_s, "m", TRUM_C(0.0), TRUM_C(10.0), 0, 1, 0, 1) \

@@ -57,7 +57,7 @@ OUT_OF_DOMAIN = [
     ("--periods", "0", ("got 0", "an integer >= 1")),
     ("--periods", "-20", ("got -20", "an integer >= 1")),
     ("--periods", "20.5", ("got 20.5", "an integer")),
-    ("--periods", "10001", ("got 10001", "<= 10000")),
+    ("--periods", "1000001", ("got 1000001", "<= 1e+06")),
     ("--on-periods", "0", ("got 0", "an integer >= 1")),
     ("--on-periods", "-14", ("got -14", "an integer >= 1")),
     ("--on-periods", "13.5", ("got 13.5", "an integer")),

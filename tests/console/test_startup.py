@@ -28,7 +28,7 @@ EVALUATE = HELP | {
     *(f"model.{name}" for name in ("batch", "brush", "cycle", "inputs", "kernels", "levels", "operating_point")),
     *(f"model.{name}" for name in ("rotor", "stator", "string", "tables")),
     "output",
-    *(f"output.{name}" for name in ("digits", "json_text", "progress", "result")),
+    *(f"output.{name}" for name in ("digits", "json_text", "progress", "result", "text_table")),
     "quantities",
     "values",
 }
@@ -63,7 +63,7 @@ def test_the_help_loads_no_command_and_no_numpy():
 def test_evaluate_loads_what_a_point_needs_and_no_more():
     modules = loaded_by("evaluate")
     assert own(modules) == EVALUATE
-    assert foreign(modules) == {"click", "lazy_loader", "numpy", "tabulate"}
+    assert foreign(modules) == {"click", "lazy_loader", "numpy"}
     assert not modules & _DEAR
 
 

@@ -88,7 +88,7 @@ class Loader(importlib.abc.Loader):
             {turned}
 class Finder:
     def find_spec(self, name, path=None, target=None):
-        return importlib.machinery.ModuleSpec(name, Loader()) if name == "tabulate" else None
+        return importlib.machinery.ModuleSpec(name, Loader()) if name == "trum_sym.output.text_table" else None
 sys.meta_path.insert(0, Finder())
 """
 DESTROYED = """
@@ -98,7 +98,7 @@ class Last:
         for _ in range(1000): pass
 class Finder:
     def find_spec(self, name, path=None, target=None):
-        if name == "tabulate":
+        if name == "trum_sym.output.text_table":
             Last()
             import time
             time.sleep(2)
@@ -108,7 +108,9 @@ sys.meta_path.insert(0, Finder())
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-@pytest.mark.parametrize("module", ["click", "trum_sym.console", "numpy", "tabulate", "trum_sym._kernels"])
+@pytest.mark.parametrize(
+    "module", ["click", "trum_sym.console", "numpy", "trum_sym.output.text_table", "trum_sym._kernels"]
+)
 def test_a_signal_while_modules_load_is_one_line(module, number):
     done = run("evaluate", before=WHILE.format(module=module, number=int(number)))
     one_line(done, 128 + number, "interrupted")
@@ -127,7 +129,7 @@ def test_a_signal_in_a_destructor_is_not_lost():
 
 
 def test_a_second_signal_ends_at_once():
-    before = WHILE.format(module="tabulate", number=2) + (
+    before = WHILE.format(module="trum_sym.output.text_table", number=2) + (
         "import trum_sym.__main__ as m\n"
         "class Out:\n"
         "    def write(self, text): os.kill(os.getpid(), 15)\n"

@@ -128,6 +128,24 @@ static void edges(void) {
       expect(speed[1] != speed[1] && distance[0] != distance[0], "a history of no number");
     }
   }
+  for (contact = 0; contact < 2; ++contact) { /* most of whose periods are counted: of pulses, and of a plain wave */
+    trum_real speed, distance;
+    motor.damping_ratio = (trum_real)0.3;
+    drive = trum_table3, drive.periods = 20000, drive.on_periods = contact ? 20000 : 14000, drive.tolerance = (trum_real)1e-2;
+    drive.start = contact ? TRUM_START_REST : TRUM_START_STEADY;
+    expect(trum_solve_point(&motor, &drive, &point, &in, out, 0) == TRUM_OK, "a long schedule");
+    expect(!point.undamped, "a motor's damping is none that lacks");
+    trum_orbits(&in, out + 1, &slopes_in, &slopes_out, 1, 0);
+    expect(out[1].mean == out[0].mean && slopes_out.of[TRUM_OF_MEAN][TRUM_BY_DRAG] < 0, "slopes of a long schedule");
+    trum_history(&in, out, &speed, &distance, 1, 0);
+    expect(trum_fabs(distance / point.cycle_time - out[0].mean) <= 2 * out[0].mean_error, "the end of a long schedule");
+  }
+  motor = trum60, drive = trum_table3, drive.start = TRUM_START_STEADY;
+  motor.damping_ratio = 0, drive.frequency_difference = (trum_real)1e-2;
+  (void)trum_evaluate_determinants(&motor, &drive, &point);
+  expect(point.undamped, "an undamped resonance");
+  motor = trum60, drive.prepressure = (trum_real)1e-10;
+  expect(trum_evaluate(&motor, &drive, &point) == TRUM_BAD_INPUT && point.field == trum_drive_prepressure, "no wave");
 }
 
 int main(void) {

@@ -31,8 +31,10 @@ inline bool enter_region(Walk* w, Samples* s, int i) {
   do {
     if (++w->region == TRUM_REGIONS) return false;
     w->index = 0, w->count = trum_panel_count(&c, w->region, w->panels);
+    if (!(c.duration[w->region] > 0)) continue;
+    trum_cycle_enter(&c, w->region);
+    trum_add_steady(&c, &w->sums, w->region);
   } while (!(w->count > 0));
-  trum_cycle_enter(&c, w->region);
   s->arg[trum_response_in_a_A].set(i, c.state.a_A), s->arg[trum_response_in_b_A].set(i, c.state.b_A);
   s->arg[trum_response_in_a_B].set(i, c.state.a_B), s->arg[trum_response_in_b_B].set(i, c.state.b_B);
   s->arg[trum_response_in_g_A].set(i, c.gates.g_A), s->arg[trum_response_in_g_B].set(i, c.gates.g_B);
@@ -61,7 +63,7 @@ inline void cycle_sums(const trum_cycle_sums_in* in, trum_cycle_sums_out* out, l
       s.arg[trum_response_in_xi].set(i, v.xi), s.arg[trum_response_in_psi].set(i, v.psi);
       s.arg[trum_response_in_s].set(i, v.s);
       if (enter_region(&w, &s, i)) break;
-      out[w.point] = {};
+      out[w.point] = {w.sums.q_plus, w.sums.q_minus, w.sums.p_plus, w.sums.p_minus};
     }
     ++busy;
   };
@@ -72,7 +74,7 @@ inline void cycle_sums(const trum_cycle_sums_in* in, trum_cycle_sums_out* out, l
     for (int i = 0; i < LANES; ++i) {
       Walk& w = walks[i];
       if (w.point < 0) continue;
-      const double length = w.cycle.duration[w.region];
+      const double length = trum_covered(&w.cycle, w.region);
       w.from = length * (w.index / w.count), w.to = length * ((w.index + 1) / w.count);
       from.set(i, w.from), to.set(i, w.to);
     }

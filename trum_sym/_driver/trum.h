@@ -41,6 +41,7 @@ struct trum_point {
   int full_contact; /* is the whole wave in contact at times? */
   int taut;         /* no string, or one that friction cannot make slack whatever it does? */
   int outside_fit;  /* is the prepressure outside those at which the amplitude was measured? */
+  int undamped;     /* does a lack of damping next to a resonance make the figures, and not the motor? */
   int field;        /* bad input: which, for trum_field_name; else -1 */
 };
 

@@ -196,11 +196,35 @@ static inline void trum_panel(trum_cycle* c, trum_sums* sums, const trum_sample*
   trum_add(sums, integral, square);
 }
 
+/* The time of a region that the determinant's panels cover: all of it, or, in a long schedule, that in which the phases' free
+ * motion dies away to nothing beside the drive's.  What is left has one determinant, the steady wave's, or none. */
+static inline trum_real trum_covered(const trum_cycle* c, int region) {
+  const trum_cycle_constants* k = &c->constants;
+  const trum_free_motion* z = &c->start[region];
+  const trum_real decay = k->xi * k->omega_n;
+  trum_real omega_d, A, B, size, time;
+  if (!(k->m > TRUM_C(0.5) + TRUM_REPEATS_BEYOND && decay > 0)) return c->duration[region];
+  omega_d = k->omega_n * trum_sqrt(1 - k->xi * k->xi);
+  A = (z->b_A + decay * z->a_A) / omega_d, B = (z->b_B + decay * z->a_B) / omega_d;
+  size = trum_sqrt(z->a_A * z->a_A + A * A + (z->a_B * z->a_B + B * B));
+  time = size > 0 ? trum_log(size / (TRUM_C(1e-20) * k->W)) / decay : 0;
+  return time < 0 ? 0 : time < c->duration[region] ? time : c->duration[region];
+}
+
+/* Adds what the region entered last has beyond that time. */
+static inline void trum_add_steady(trum_cycle* c, trum_sums* sums, int region) {
+  const trum_real covered = trum_covered(c, region), left = c->duration[region] - covered;
+  if (left > 0) {
+    const trum_real Q = trum_sample_at(c, covered).Q;
+    trum_add(sums, left * Q, left * Q * Q);
+  }
+}
+
 /* How many panels a region takes, at so many in a period of the faster of drive and resonance. */
 static inline trum_real trum_panel_count(const trum_cycle* c, int region, trum_real panels_per_period) {
   const trum_real omega_n = c->constants.omega_n, driven = omega_n + c->constants.Delta_omega;
   const trum_real fastest = omega_n < driven ? driven : omega_n;
-  const trum_real turns = panels_per_period * c->duration[region] * fastest / TRUM_C(6.283185307179586);
+  const trum_real turns = panels_per_period * trum_covered(c, region) * fastest / TRUM_C(6.283185307179586);
   return trum_ceil(turns - TRUM_EITHER(1e-9, 1e-4));
 }
 
@@ -210,11 +234,12 @@ static inline trum_sums trum_cycle_sums(trum_cycle* c, trum_real panels_per_peri
   int region;
   trum_cycle_regions(c);
   for (region = 0; region < TRUM_REGIONS; ++region) {
-    const trum_real length = c->duration[region], count = trum_panel_count(c, region, panels_per_period);
+    const trum_real length = trum_covered(c, region), count = trum_panel_count(c, region, panels_per_period);
     trum_sample left;
     trum_real i;
-    if (!(length > 0)) continue;
+    if (!(c->duration[region] > 0)) continue;
     trum_cycle_enter(c, region);
+    trum_add_steady(c, &sums, region);
     left = trum_sample_at(c, 0);
     for (i = 0; i < count; ++i) {
       const trum_real from = length * (i / count), to = length * ((i + 1) / count);

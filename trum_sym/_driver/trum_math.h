@@ -50,6 +50,10 @@ typedef char trum_real_has_other_bits_than_TRUM_REAL_BITS[sizeof(trum_real) * CH
 /* Tolerances of an operating point that this type can keep */
 #define TRUM_FINEST_TOLERANCE TRUM_EITHER(1e-9, 1e-3)
 #define TRUM_COARSEST_TOLERANCE TRUM_C(1e-2)
+/* Periods of a drive cycle up to which each is integrated; of more, those that repeat others are counted (orbit/repeat.h) */
+#ifndef TRUM_REPEATS_BEYOND
+#define TRUM_REPEATS_BEYOND 10000
+#endif
 /* 1 or 0 */
 #define TRUM_LESS(a, b) (((a) < (b)) ? TRUM_C(1.0) : TRUM_C(0.0))
 

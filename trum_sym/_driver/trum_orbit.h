@@ -33,6 +33,7 @@
 #include "orbit/extremes.h"
 #include "orbit/error.h"
 #include "orbit/accept.h"
+#include "orbit/repeat.h"
 #include "orbit/lap.h"
 #include "orbit/bounds.h"
 #include "orbit/shooting.h"

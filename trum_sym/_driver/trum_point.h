@@ -47,6 +47,14 @@ static inline int trum_contact_of(const struct trum_motor* motor, const struct t
   return trum_is_size(v[trum_at_k_con]);
 }
 
+/* Whether the wave has a size, and, where eq. 8 gives its height, is not higher than it is long. */
+static inline enum trum_status trum_check_wave(int modelled, struct trum_point* point, const trum_real* v) {
+  if (!trum_is_size(v[trum_at_W]) || !trum_is_size(v[trum_at_D]) || !trum_is_size(v[trum_at_k_c])) return TRUM_NO_SIZE;
+  if (!modelled || v[trum_at_W] * v[trum_at_k_c] < 1) return TRUM_OK;
+  point->field = trum_drive_prepressure;
+  return TRUM_BAD_INPUT;
+}
+
 /* Section, resonance and amplitude under prepressure. */
 static inline enum trum_status trum_stator(const struct trum_motor* motor, const struct trum_drive* drive,
                                            struct trum_point* point, trum_real* v) {
@@ -80,8 +88,7 @@ static inline enum trum_status trum_stator(const struct trum_motor* motor, const
     }
   }
   if (i == 200) return TRUM_NOT_SETTLED;
-  if (!trum_is_size(v[trum_at_W]) || !trum_is_size(v[trum_at_D]) || !trum_is_size(v[trum_at_k_c])) return TRUM_NO_SIZE;
-  return TRUM_OK;
+  return trum_check_wave(modelled, point, v);
 }
 
 /* Free motion before t1 of phases of unit amplitude. */
@@ -171,6 +178,16 @@ static inline int trum_ride(const struct trum_drive* drive, const struct trum_po
   return 1;
 }
 
+/* Whether a lack of damping, not the motor, makes the figures: the drive is at an undamped resonance as far as a cycle can
+ * tell, or a cycle repeats the free motion before t1, that of phases of unit amplitude, nearly in phase. */
+static inline int trum_lacks_damping(const struct trum_motor* motor, const trum_real* v) {
+  const trum_real omega_n = v[trum_at_omega_n], difference = trum_fabs(v[trum_at_Delta_omega]);
+  const trum_real A = trum_sqrt(v[trum_at_a_A] * v[trum_at_a_A] + v[trum_at_b_A] / omega_n * (v[trum_at_b_A] / omega_n));
+  const trum_real B = trum_sqrt(v[trum_at_a_B] * v[trum_at_a_B] + v[trum_at_b_B] / omega_n * (v[trum_at_b_B] / omega_n));
+  if (!(motor->damping_ratio > 0) && difference * v[trum_at_m] < TRUM_C(0.01) * v[trum_at_omega_q]) return 1;
+  return A > 10 || B > 10;
+}
+
 /* Everything but the orbit; the values of all symbols are left in v. */
 static inline enum trum_status trum_solve_determinants(const struct trum_motor* motor, const struct trum_drive* drive,
                                                        struct trum_point* point, trum_real* v) {
@@ -180,7 +197,7 @@ static inline enum trum_status trum_solve_determinants(const struct trum_motor* 
 #define TRUM_UNKNOWN(name, unit) point->name = TRUM_NAN;
   TRUM_FIGURES(TRUM_UNKNOWN)
 #undef TRUM_UNKNOWN
-  point->converged = point->full_contact = point->outside_fit = point->taut = 0;
+  point->converged = point->full_contact = point->outside_fit = point->undamped = point->taut = 0;
   point->steps = 0;
   point->field = trum_wrong_field(motor, drive);
   if (point->field >= 0) return TRUM_BAD_INPUT;
@@ -202,6 +219,7 @@ static inline enum trum_status trum_solve_determinants(const struct trum_motor* 
   status = trum_begin_cycle(drive, v);
   if (status != TRUM_OK) return status;
   trum_call_drive(v);
+  point->undamped = trum_lacks_damping(motor, v);
   trum_determinants(v);
   point->resonance_frequency = v[trum_at_omega_n] / turn, point->drive_frequency = v[trum_at_omega_q] / turn;
   point->cycle_time = v[trum_at_T], point->amplitude = W;

@@ -52,6 +52,7 @@ static bool begin_cycle(trum_fmu* u) {
   const size_t needed = (size_t)(SAMPLES_PER_PERIOD * u->wanted.periods);
   int_least32_t attempts = INT_LEAST32_MAX;
   trum_orbit_out lap;
+  if (u->wanted.periods > TRUM_REPEATS_BEYOND) return complain(u, "a unit keeps a whole cycle: its periods are too many", "");
   if (!u->known || memcmp(&u->drive, &u->wanted, sizeof u->drive) != 0) {
     enum trum_status status;
     u->drive = u->wanted, u->known = false;

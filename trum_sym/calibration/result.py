@@ -16,6 +16,7 @@ from trum_sym.inputs.measurements import Measurements
 from trum_sym.inputs.motor import Motor
 from trum_sym.model.inputs import Inputs, units_of
 from trum_sym.output.result import Result
+from trum_sym.output.text_table import text_table
 from trum_sym.text import one_line
 from trum_sym.values import Value
 
@@ -204,8 +205,6 @@ def _estimate(e: FittedParameter) -> dict[str, object]:
 
 
 def _as_text(found: Calibration, motor: Motor) -> str:
-    from tabulate import tabulate
-
     rows = []
     for e in found.estimates:
         parameter = getattr(motor, e.name) if e.in_motor else None
@@ -215,12 +214,7 @@ def _as_text(found: Calibration, motor: Motor) -> str:
         value = f"{e.value:.6g}" if math.isfinite(e.standard_error) else "open"
         rows.append((e.name, value, ends, "" if e.unit == "1" else e.unit, before, source))
     interval = f"{100 * found.confidence:g} % interval"
-    table = tabulate(
-        rows,
-        headers=("", "fitted", interval, "unit", "before", "source before"),
-        disable_numparse=True,
-        colalign=("left", "right", "right", "left", "right", "left"),
-    )
+    table = text_table(rows, ("", "fitted", interval, "unit", "before", "source before"), "lrrlrl")
     left, apart = found.residuals, found.separation
     unit = "" if found.residual_unit == "1" else f" {found.residual_unit}"
     count = left.count // len(found.observed)

@@ -36,7 +36,7 @@ SPREADING = (
 )
 """What drifts while a motor works, of drive, load and motor: the motor file may state how far in ``[spreads]``."""
 
-_PULSES = Domain(low=1, low_open=False, high=10_000, high_open=False, integer=True)
+_PULSES = Domain(low=1, low_open=False, high=1_000_000, high_open=False, integer=True)
 LEAD = Domain(low=-1, low_open=False, high=1, high_open=False)
 """Of the phase lead, which is 1 or -1."""
 

@@ -9,6 +9,7 @@ from trum_sym.inputs.drive import BOX_NAMES, DRIVE_DOMAINS
 from trum_sym.inputs.motor import SPECS, TO_DO, Motor, Parameter
 from trum_sym.inputs.motor_schema import ENTRIES, in_unit
 from trum_sym.inputs.plausible import doubts, outside_range
+from trum_sym.output.text_table import text_table
 from trum_sym.text import one_line
 
 __all__ = ["as_dict", "as_table", "checked", "differences"]
@@ -63,15 +64,12 @@ def _range(name: str, parameter: Parameter) -> str:
 
 def as_table(motor: Motor) -> str:
     """Every value of a motor in the units that people write."""
-    from tabulate import tabulate
-
     rows = [
         (name, p.symbol, *_shown(name, p), _range(name, p), one_line(p.source), ENTRIES[name].meaning)
         for name, p in motor.parameters()
     ]
     headers = ("", "symbol", "value", "unit", "range", "source", "what it is")
-    align = ("left", "left", "right", "left", "left", "left", "left")
-    lines = [one_line(motor.name), "", tabulate(rows, headers, disable_numparse=True, colalign=align)]
+    lines = [one_line(motor.name), "", text_table(rows, headers, "llrllll")]
     optional = [name for name, spec in SPECS.items() if not spec.required and getattr(motor, name) is None]
     if optional:
         lines += ["", f"modelled, unless the file gives a measured value: {', '.join(optional)}"]
@@ -111,8 +109,6 @@ def checked(motor: Motor, further: Sequence[str] = ()) -> tuple[str, bool]:
 
 def differences(one: Motor, other: Motor, called: tuple[str, str] = ("", "")) -> str:
     """The values in which two motors differ, in the units that people write; ``called`` where one name is the other."""
-    from tabulate import tabulate
-
     rows = []
     for name in SPECS:
         a, b = getattr(one, name), getattr(other, name)
@@ -126,5 +122,4 @@ def differences(one: Motor, other: Motor, called: tuple[str, str] = ("", "")) ->
     if not rows:
         return f"{names[0]} and {names[1]} have the same values"
     headers = ("", *names, "unit", "change", *(f"source of {name}" for name in names))
-    align = ("left", "right", "right", "left", "right", "left", "left")
-    return str(tabulate(rows, headers, disable_numparse=True, colalign=align))
+    return text_table(rows, headers, "lrrlrll")

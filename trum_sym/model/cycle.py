@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import warnings
+from collections.abc import Mapping
 
 import numpy as np
 
-from trum_sym.errors import ParameterError, ValidityWarning
+from trum_sym.errors import ParameterError
 from trum_sym.inputs.checks import ArrayLike
 from trum_sym.inputs.drive import Drive
 from trum_sym.model.batch import call_in_blocks
 from trum_sym.model.kernels import call
 
-__all__ = ["check_steady_state", "cycle_sums", "modal_values", "response", "scaled", "warn_next_to_resonance"]
+__all__ = ["check_steady_state", "cycle_sums", "lack_of_damping", "modal_values", "response", "scaled"]
 
 _MIN_REPETITION = 1e-9
 _FREE = 10.0  # times the forced amplitude: the free vibration of TRUM-60 is at most twice that
@@ -64,8 +64,8 @@ def modal_values(
     return {**values, **start}
 
 
-def warn_next_to_resonance(values: dict[str, ArrayLike]) -> None:
-    """Warn where a lack of damping, not the motor, makes the figures; ``values`` are those of :func:`modal_values`.
+def lack_of_damping(values: Mapping[str, ArrayLike]) -> str | None:
+    """What to say where a lack of damping, not the motor, makes the figures of :func:`modal_values`' points.
 
     That is without damping less than a hundredth of a beat from the resonance, where a cycle has no steady state, and
     where a cycle repeats its own free vibration so nearly that it grows to ten times the forced one.
@@ -83,8 +83,8 @@ def warn_next_to_resonance(values: dict[str, ArrayLike]) -> None:
             "cycle repeats it nearly in phase"
         )
     else:
-        return
-    warnings.warn(f"{message}; the figures are the lack of damping's, not a motor's", ValidityWarning, stacklevel=4)
+        return None
+    return f"{message}; the figures are the lack of damping's, not a motor's"
 
 
 def scaled(values: dict[str, ArrayLike], amplitude: ArrayLike) -> dict[str, ArrayLike]:

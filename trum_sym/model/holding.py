@@ -27,6 +27,7 @@ from trum_sym.model.settling import RimOrbit, rim_orbits, settling_time
 from trum_sym.model.spreading import amounts_at, amounts_of, speeds_off, unit_of
 from trum_sym.model.string import SLACK, least_tension
 from trum_sym.output.result import Result
+from trum_sym.output.text_table import text_table
 from trum_sym.values import FrozenDict, Value
 
 __all__ = [
@@ -260,8 +261,6 @@ class Holding(Result, Value):
 
     def lines(self) -> list[str]:
         """The table and what else it takes, without the remarks."""
-        from tabulate import tabulate
-
         rows = [
             (
                 name,
@@ -281,7 +280,7 @@ class Holding(Result, Value):
             "drift arcsec/s",
             f"for {100 * self.within:g} % keep within",
         )
-        table = tabulate(rows, headers, disable_numparse=True, colalign=("left", "right", "left", *["right"] * 3))
+        table = text_table(rows, headers, "lrlrrr")
         speed = abs(self.mean_speed)
         of_mean = f", {100 * self.drift / speed:.4g} % of the mean" if speed > 0 else ""
         lines = [table, "", f"all of these off at once: {self.drift / ARCSEC:.4g} arcsec/s{of_mean}"] if rows else []
@@ -298,8 +297,6 @@ class Holding(Result, Value):
 
 def compared(labels: Sequence[str], holdings: Sequence[Holding], heading: str) -> str:
     """A table of what it takes to hold several points, a line a point: drifts by input, then start and encoder."""
-    from tabulate import tabulate
-
     names = list(dict.fromkeys(name for holding in holdings for name in holding.drifts))
     spreads = [_in_words(name, holdings[0].spreads[name], holdings[0].values[name]) for name in names]
     headers = [heading, *(f"drift by {off}\n{name}" for off, name in zip(spreads, names, strict=True))]
@@ -316,7 +313,7 @@ def compared(labels: Sequence[str], holdings: Sequence[Holding], heading: str) -
                 "-" if volatility is None else f"{100 * volatility:.4g}",
             )
         )
-    table = tabulate(rows, headers, disable_numparse=True, colalign=["right"] * len(headers))
+    table = text_table(rows, headers, "r" * len(headers))
     return f"to hold these points: what the mean speed drifts by, arcsec/s\n\n{table}"
 
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Collection, Mapping
 from dataclasses import asdict, dataclass, field, fields
 from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 
-from trum_sym.errors import MissingExtraError
+from trum_sym.errors import MissingExtraError, ParameterError, ValidityWarning
 from trum_sym.inputs.carried import Labels, labels_of
 from trum_sym.inputs.checks import Array, ArrayLike, broadcast_shape
 from trum_sym.inputs.domain import Domain
@@ -18,7 +19,7 @@ from trum_sym.inputs.motor_file import load_motor
 from trum_sym.inputs.points import check_point, numbers_of, one_number, period_of
 from trum_sym.inputs.shown import readable
 from trum_sym.model.brush import brush_values, check_drive
-from trum_sym.model.cycle import check_steady_state, cycle_sums, modal_values, scaled, warn_next_to_resonance
+from trum_sym.model.cycle import check_steady_state, cycle_sums, lack_of_damping, modal_values, scaled
 from trum_sym.model.inputs import Inputs, remarks_of, units_of
 from trum_sym.model.kernels import call
 from trum_sym.model.levels import LevelChoice, Levels
@@ -78,6 +79,7 @@ _DIGITS = 5e-5  # of the mean speed: four digits of it are right
 TOLERANCES = Domain(low=1e-9, low_open=False, high=1e-2, high_open=False)
 """Of a rotor's speeds, relative to the largest."""
 _ENCODER_SAMPLES = 64  # per drive period, of the path that the encoder differences
+_SAMPLED_PERIODS = 10_000  # that are kept as samples
 
 
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)
@@ -398,15 +400,28 @@ def prepare(
     check_steady_state(motor.damping_ratio.value, drive)
     if levels.tangential == "brush":
         check_drive(drive)
+    _check_sampled(drive, sampling_period)
     stator = solve_stator(motor, drive, levels, warn=warn)
     values = modal_values(stator.omega_n, motor.damping_ratio.value, drive)
-    if warn:
-        warn_next_to_resonance(values)
+    if warn and (said := lack_of_damping(values)) is not None:
+        warnings.warn(said, ValidityWarning, stacklevel=3)
     symbols = {**motor.symbols(), **stator.values, **drive.symbols()}
     arguments = orbit_values(scaled(values, stator.W), symbols, levels.contact, tolerance)
     if levels.tangential == "brush":
         arguments |= brush_values(symbols)
     return Case(motor, drive, levels, shape, stator, values, symbols, arguments, sampling_period, tolerance)
+
+
+def _check_sampled(drive: Drive, sampling_period: ArrayLike | None) -> None:
+    """Raise a ParameterError for a cycle too long to be kept as samples, where an encoder or a string ask for them."""
+    longest = np.max(drive.periods)
+    if longest <= _SAMPLED_PERIODS:
+        return
+    why = f"with periods = {longest:g}: at most {_SAMPLED_PERIODS} are kept as samples"
+    if sampling_period is not None:
+        raise ParameterError("sampling_period", np.asarray(sampling_period).flat[0], f"none {why}")
+    if drive.load == "weight":
+        raise ParameterError("load", drive.load, f"torque {why}")
 
 
 def point_of(case: Case, progress: bool = False) -> OperatingPoint:
@@ -477,6 +492,7 @@ def _of_orbit(case: Case, cycle_time: ArrayLike, wanted: Collection[str], progre
 
 def encoder_deviation_of(case: Case, orbit: Orbit, period: ArrayLike) -> Array:
     """Standard deviation of an encoder's readings over a period in s, at every point of a case; rad/s."""
+    _check_sampled(case.drive, period)
     cycle_time = call("trum_drive", case.values)["T"]
     readings = _encoder(case.arguments, orbit, cycle_time, period)
     return np.asarray(readings[..., 0] / np.asarray(case.symbols["r_c"]))

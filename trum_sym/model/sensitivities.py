@@ -22,6 +22,7 @@ from trum_sym.model.operating_point import Case, prepare
 from trum_sym.model.rotor import Orbit, as_orbit, weight_inertia
 from trum_sym.model.stator import solve_stator
 from trum_sym.output.result import Result
+from trum_sym.output.text_table import text_table
 from trum_sym.values import Value
 
 if TYPE_CHECKING:
@@ -110,8 +111,6 @@ class Sensitivities(Result, Value, Mapping[str, Mapping[str, Array]]):
 
     def to_text(self) -> str:
         """A table: a row a figure, a column a parameter, in the units that people read."""
-        from tabulate import tabulate
-
         rows = []
         for figure in self:
             quantity, scale = quantity_of(figure), readable(figure, 1.0)
@@ -120,8 +119,7 @@ class Sensitivities(Result, Value, Mapping[str, Mapping[str, Array]]):
             rows.append((quantity.label + unit, *(f"{float(x):.6g}" if not x.ndim else f"{x.shape}" for x in cells)))
         units = {by: "" if _unit_of(by) == "1" else f" [{_unit_of(by)}]" for by in PARAMETERS}
         headers = ("change of", *(f"per {by}\n{unit.strip()}" for by, unit in units.items()))
-        align = ("left", *["right"] * len(PARAMETERS))
-        return str(tabulate(rows, headers, disable_numparse=True, colalign=align))
+        return text_table(rows, headers, "l" + "r" * len(PARAMETERS))
 
     def to_frame(self) -> pd.DataFrame:
         """A pandas data frame of a single point: figures by parameters; ``attrs["units"]`` has the units.

@@ -85,6 +85,15 @@ def _check_size(name: str, value: ArrayLike) -> None:
         raise ParameterError("motor", f"{name} = {values[~good].flat[0]:g}", "values that give it a finite size")
 
 
+def _check_prepressure(drive: Drive, values: Mapping[str, ArrayLike]) -> None:
+    """Raise a ParameterError where eq. 8, a falling power, gives no wave: one higher than it is long."""
+    height, force = np.broadcast_arrays(np.multiply(values["W"], values["k_c"]), drive.prepressure)
+    wrong = ~(height < 1)
+    if wrong.any():
+        allowed = "a force at which eq. 8 gives an amplitude below 1/wavenumber; or set the motor's amplitude"
+        raise ParameterError("prepressure", f"{force[wrong].flat[0]:g}", allowed)
+
+
 def _check_drive_frequency(omega_n: ArrayLike, drive: Drive) -> None:
     """Raise a ParameterError unless the drive frequency is at least a tenth of the resonance."""
     f_n, difference = np.broadcast_arrays(np.asarray(omega_n) / _TURN, drive.frequency_difference)
@@ -142,6 +151,8 @@ def solve_stator(motor: Motor, drive: Drive, levels: Levels, *, warn: bool = Tru
         )
     for name, symbol in (("amplitude", "W"), ("neutral_axis", "D"), ("wavenumber", "k_c")):
         _check_size(name, values[symbol])
+    if fixed is None:
+        _check_prepressure(drive, values)
     return Stator(values["omega_n"], values["W"], values["D"], values["k_c"], values)
 
 

@@ -18,6 +18,7 @@ from trum_sym.inputs.units import parse_unit
 from trum_sym.model.inputs import Inputs
 from trum_sym.model.operating_point import OF_ORBIT, OperatingPoint, prepare, results
 from trum_sym.output.digits import with_error
+from trum_sym.output.text_table import text_table
 from trum_sym.quantities import QUANTITIES
 from trum_sym.text import one_line
 
@@ -31,18 +32,11 @@ _FAR = 10.0  # times: further apart, a difference is given in the figure's unit
 
 def histories_table(histories: xr.Dataset) -> str:
     """What the histories span: lowest, mean and highest value of each, in SI units."""
-    from tabulate import tabulate
-
     rows = [
         (name, *(f"{float(value):.6g}" for value in (h.min(), h.mean(), h.max())), h.units, h.long_name)
         for name, h in histories.data_vars.items()
     ]
-    table = tabulate(
-        rows,
-        headers=("", "lowest", "mean", "highest", "unit", ""),
-        disable_numparse=True,
-        colalign=("left", "right", "right", "right", "left", "left"),
-    )
+    table = text_table(rows, ("", "lowest", "mean", "highest", "unit", ""), "lrrrll")
     count, known = histories.sizes["time"], histories.attrs
     title = (
         f"{known['title']}, start {known['start']}\n"
@@ -161,8 +155,6 @@ def _another(name: str, parameter: Parameter) -> float:
 
 def as_table(point: OperatingPoint) -> str:
     """The point as a table: value, bound of its error, unit, and what is published of the same kind."""
-    from tabulate import tabulate
-
     inputs = point.inputs
     motor, drive, published = inputs.motor, inputs.drive, _published(inputs)
     resting = _resting_on_assumed(point)
@@ -183,10 +175,10 @@ def as_table(point: OperatingPoint) -> str:
             ]  # fmt: skip
         rows.append(row)
     headers = ["", "value", "+-", "unit"] + [""] * bool(marked)
-    align = ["left", "right", "left", "left"] + ["left"] * bool(marked)
+    align = "lrll" + "l" * bool(marked)
     if published:
-        headers, align = [*headers, "published", "difference", "printed in"], [*align, "right", "right", "left"]
-    table = tabulate(rows, headers=headers, disable_numparse=True, colalign=align)
+        headers, align = [*headers, "published", "difference", "printed in"], align + "rrl"
+    table = text_table(rows, headers, align)
     title = [f"{one_line(motor.name)} at {drive_in_words(drive)}", *reading_in_words(inputs)]
     return "\n".join([*title, "", table, *_notes(point, resting)])
 

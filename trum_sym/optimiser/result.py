@@ -13,6 +13,7 @@ from trum_sym.model.inputs import Inputs, units_of
 from trum_sym.output.digits import with_error
 from trum_sym.output.json_text import finite
 from trum_sym.output.result import Result
+from trum_sym.output.text_table import text_table
 from trum_sym.text import one_line
 from trum_sym.values import Value
 
@@ -204,8 +205,6 @@ def _shown(name: str, figures: Mapping[str, Any]) -> tuple[str, str, str, str]:
 
 
 def _as_table(optimum: Optimum, title: str) -> str:
-    from tabulate import tabulate
-
     heading = f"{title}\n\n{optimum.status}: {optimum.message}"
     if optimum.prepressure is None:
         return heading
@@ -241,7 +240,7 @@ def _as_table(optimum: Optimum, title: str) -> str:
         notes.append(f"{what}: {evidence.pulses} combinations, {evidence.pruned} ruled out by a coarse map")
     holding = optimum.holding
     held = [] if holding is None else ["", *holding.lines()]
-    table = tabulate(rows, disable_numparse=True, colalign=("left", "right", "left", "left"), tablefmt="plain")
+    table = text_table(rows, align="lrll")
     remarks = [f"remark: {remark}" for remark in ([] if holding is None else holding.remarks)]
     return "\n".join([heading, "", table, *held, "", *remarks, *[""] * bool(remarks), *notes])
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 import warnings
 from collections.abc import Mapping, Sequence
@@ -11,7 +12,8 @@ from typing import Any, Unpack
 
 import numpy as np
 
-from trum_sym.errors import ParameterError, ValidityWarning
+from trum_sym.errors import ConvergenceError, ParameterError, ValidityWarning
+from trum_sym.inputs.checks import Array
 from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import BOX_NAMES, DRIVE_DOMAINS, LEAD, Drive
 from trum_sym.inputs.motor import Motor
@@ -20,8 +22,10 @@ from trum_sym.inputs.points import check_point, check_single, numbers_of, one_nu
 from trum_sym.inputs.shown import full
 from trum_sym.inputs.spreads import Spread
 from trum_sym.inputs.units import ARCSEC
+from trum_sym.model.cycle import lack_of_damping
 from trum_sym.model.holding import SPEED_TIME, WITHIN, Asked, asked_of
 from trum_sym.model.levels import LevelChoice, Levels
+from trum_sym.model.operating_point import prepare
 from trum_sym.optimiser.chart import basins, chart
 from trum_sym.optimiser.expressions import Constraint, Expression, parse_constraint, parse_expression, symbol
 from trum_sym.optimiser.held import check_asked
@@ -40,7 +44,7 @@ __all__ = [
     "box_of",
     "check_scalars",
     "optimize",
-    "warn_outside_fit",
+    "warn_of_box",
 ]
 
 OBJECTIVES: Mapping[str, str] = MappingProxyType(
@@ -157,10 +161,12 @@ def optimize(
     limits = (*limits, *limits_of(asked, target, holds, starts))
     problem = Problem(motor, drive, Levels(**levels), box, aim, limits, asked, target)
     check_asked(problem.names, asked, target, motor)
-    warn_outside_fit(problem)
+    warn_of_box(problem)
     best, chosen, pruned, evaluations = _over_pulses(
         problem, pulses, ("maps", "pulse counts", "optimize") if progress else (None, None, None)
     )
+    if best.best is not None:
+        _warn_undamped(chosen, best.best.point, 3)
     return _optimum(objective, target, chosen, best, len(pulses), pruned, evaluations)
 
 
@@ -299,9 +305,16 @@ def aim_of(
     return aim, tuple(limits)
 
 
-def warn_outside_fit(problem: Problem) -> None:
-    """Warn of a box that reaches beyond the prepressures on which eq. 8 was fitted."""
+def warn_of_box(problem: Problem) -> None:
+    """Warn of a box that reaches beyond the prepressures on which eq. 8 was fitted, or to an undamped resonance."""
     motor, box = problem.motor, problem.box
+    if (
+        "frequency_difference" in box.names
+    ):  # as near to the resonance as the box goes, but for what has no state at all
+        nearest = box.low + 0.5 * (box.high - box.low)
+        k = box.names.index("frequency_difference")
+        nearest[k] = np.clip(0.0, box.low[k], box.high[k]) or 1e-3
+        _warn_undamped(problem, nearest, 4)
     if motor.amplitude is not None:
         return
     if "prepressure" in box.names:
@@ -318,6 +331,15 @@ def warn_outside_fit(problem: Problem) -> None:
             ValidityWarning,
             stacklevel=3,
         )
+
+
+def _warn_undamped(problem: Problem, place: Array, stacklevel: int) -> None:
+    """Warn of a place of the box whose figures a lack of damping makes."""
+    at: dict[str, Any] = dict(zip(problem.box.names, place.tolist(), strict=True))
+    with contextlib.suppress(ParameterError, ConvergenceError):  # which the search says of its own points
+        case = prepare(problem.motor, replace(problem.drive, **at), problem.levels, 1e-2, warn=False)
+        if (said := lack_of_damping(case.values)) is not None:
+            warnings.warn(said, ValidityWarning, stacklevel=stacklevel)
 
 
 def _over_pulses(

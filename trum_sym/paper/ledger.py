@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from trum_sym.errors import ParameterError
+from trum_sym.output.text_table import text_table
 
 __all__ = [
     "SEVERITIES",
@@ -107,15 +108,13 @@ def counted(records: list[Record]) -> str:
 
 def table(records: list[Record]) -> str:
     """One line per entry: id, title, verdict, how bad, how sure, whether confirmed, and by which kinds of evidence."""
-    from tabulate import tabulate
-
     rows = []
     for r in records:
         kinds = dict.fromkeys(e["kind"] for e in r["evidence"])
         state = "confirmed" if r["confirmed"] else "NOT CONFIRMED"
         rows.append((r["id"], r["title"], r["verdict"], r["severity"] or "", r["copy"], state, ", ".join(kinds)))
     headers = ("id", "title", "verdict", "severity", "copy", "", "evidence")
-    return str(tabulate(rows, headers=headers, disable_numparse=True))
+    return text_table(rows, headers)
 
 
 _MARKS = {None: "premise", True: "checked", False: "DOES NOT HOLD"}

@@ -28,6 +28,7 @@ from trum_sym.optimiser.model import Model, functions
 from trum_sym.optimiser.solve import Answer, Problem, map_of, solve
 from trum_sym.output.progress import shown
 from trum_sym.output.result import Result
+from trum_sym.output.text_table import text_table
 from trum_sym.studies.posed import Bound, Held, posed
 from trum_sym.text import one_line
 from trum_sym.values import Value
@@ -129,8 +130,6 @@ class ParetoFront(Result, Value):
 
     def to_text(self, title: str = "") -> str:
         """For people."""
-        from tabulate import tabulate
-
         rows = [
             (
                 f"{number}",
@@ -156,7 +155,7 @@ class ParetoFront(Result, Value):
         )
         lines = [title or one_line(self.inputs.motor.name), "", f"{self.status}: {self.message}"]
         if rows:
-            lines += ["", tabulate(rows, headers, disable_numparse=True, colalign=("right",) * 8)]
+            lines += ["", text_table(rows, headers, "r" * 8)]
         holdings = self.holdings
         if holdings:
             lines += ["", compared([f"{k}" for k in range(1, len(holdings) + 1)], holdings, "#"), ""]

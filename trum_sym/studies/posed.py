@@ -14,7 +14,7 @@ from trum_sym.model.holding import WITHIN
 from trum_sym.model.levels import Levels
 from trum_sym.optimiser.held import check_asked
 from trum_sym.optimiser.limits import Holds, limits_of
-from trum_sym.optimiser.search import Bound, aim_of, asked_to, box_of, check_scalars, warn_outside_fit
+from trum_sym.optimiser.search import Bound, aim_of, asked_to, box_of, check_scalars, warn_of_box
 from trum_sym.optimiser.solve import Problem
 
 __all__ = ["Bound", "Held", "posed"]
@@ -54,7 +54,7 @@ def posed(
     limits = (*limits, *limits_of(asked, target if held.target is None else held.target, held.holds, held.starts))
     problem = Problem(motor, drive, levels, box, aim, limits, asked, target if held.target is None else held.target)
     check_asked(problem.names, asked, problem.target, motor)
-    warn_outside_fit(problem)
+    warn_of_box(problem)
     return problem
 
 

@@ -28,6 +28,7 @@ from trum_sym.optimiser.model import Model
 from trum_sym.optimiser.solve import Problem, solve
 from trum_sym.output.progress import duration, said
 from trum_sym.output.result import Result
+from trum_sym.output.text_table import text_table
 from trum_sym.studies.minimax import Minimax, Outcome
 from trum_sym.studies.posed import Bound, Held, posed
 from trum_sym.text import one_line
@@ -140,8 +141,6 @@ class RobustPoint(Result, Value):
 
     def to_text(self, title: str = "") -> str:
         """For people: the point, then every case."""
-        from tabulate import tabulate
-
         lines = [title or one_line(self.inputs.motor.name), "", f"{self.status}: {self.message}"]
         if math.isfinite(self.prepressure):
             at = f"prepressure {full(self.prepressure)} N, frequency difference {full(self.frequency_difference)} Hz"
@@ -158,7 +157,7 @@ class RobustPoint(Result, Value):
                 for case in self.cases
             ]
             headers = ("case", self.objective, "mean arcsec/s", "volatility %", "stall N m", "violation")
-            lines += ["", tabulate(rows, headers, disable_numparse=True, colalign=("left", *["right"] * 5)), ""]
+            lines += ["", text_table(rows, headers, "lrrrrr"), ""]
             held = self.holding
             lines += [*held.lines(), ""] if held is not None else []
             lines += [f"remark on {remark}" for remark in self._remarks(held)]

@@ -18,6 +18,7 @@ from trum_sym.inputs.units import ARCSEC
 from trum_sym.model.holding import Asked, Holding, compared
 from trum_sym.model.inputs import Inputs, units_of
 from trum_sym.output.result import Result
+from trum_sym.output.text_table import text_table
 from trum_sym.text import one_line
 from trum_sym.values import Value
 
@@ -195,8 +196,6 @@ class SpeedTable(Result, Value):
 
 def _as_text(table: SpeedTable) -> str:
     """For people: the segments, the gaps, and how it was checked."""
-    from tabulate import tabulate
-
     rows = []
     for number, segment in enumerate(table.segments, 1):
         ends = [f"{value:.6g}" for value in (segment.speed[[0, -1]] / ARCSEC)]
@@ -210,9 +209,7 @@ def _as_text(table: SpeedTable) -> str:
         *(f"{name} {unit}" for name, unit in table.columns().items()),
     )
     low, high = (speed / ARCSEC for speed in table.reachable)
-    body = (
-        [tabulate(rows, headers, disable_numparse=True, colalign=("right",) * len(headers))] if rows else ["no entries"]
-    )
+    body = [text_table(rows, headers, "r" * len(headers))] if rows else ["no entries"]
     return "\n".join(
         [
             *table.about()[:2],

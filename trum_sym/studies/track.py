@@ -29,6 +29,7 @@ from trum_sym.model.spreading import unit_of
 from trum_sym.optimiser.search import check_scalars
 from trum_sym.output.progress import shown
 from trum_sym.output.result import Result
+from trum_sym.output.text_table import text_table
 from trum_sym.studies.loop import Loop, loop_at
 from trum_sym.studies.posed import Bound
 from trum_sym.studies.speed_table import speed_table
@@ -214,8 +215,6 @@ class Tracking(Result, Value):
 
     def to_text(self) -> str:
         """Both runs between disturbances, and the loop at every speed of the table."""
-        from tabulate import tabulate
-
         target = self.target_speed / ARCSEC
         head = (
             f"{one_line(self.inputs.motor.name)} tracked at {target:.6g} arcsec/s: PI every "
@@ -230,7 +229,7 @@ class Tracking(Result, Value):
             for w in self.windows
         ]
         headers = ["s", *(f"{run} loop\n{key}" for run in ("closed", "open") for key in ("mean", "error", "sigma %"))]
-        table = tabulate(rows, headers, disable_numparse=True, colalign=["right"] * 7)
+        table = text_table(rows, headers, "r" * 7)
         loops = [
             (
                 f"{speed / ARCSEC:.6g}",
@@ -252,7 +251,7 @@ class Tracking(Result, Value):
             "gain\nmargin",
             "phase\nmargin",
         )
-        margins = tabulate(loops, names, disable_numparse=True, colalign=["right"] * 7)
+        margins = text_table(loops, names, "r" * 7)
         changes = zip(self.disturbances, self.changes, strict=True)
         said = [f"{d.text}: {change / ARCSEC:+.5g} arcsec/s by itself" for d, change in changes]
         (low, high), speeds = self.reach.frequencies, [speed / ARCSEC for speed in self.reach.speeds]

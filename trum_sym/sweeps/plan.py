@@ -5,19 +5,21 @@ from __future__ import annotations
 import hashlib
 import math
 import os
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from trum_sym.errors import ConvergenceError, ParameterError
-from trum_sym.inputs.checks import ArrayLike
+from trum_sym.errors import ConvergenceError, ParameterError, ValidityWarning
+from trum_sym.inputs.checks import Array, ArrayLike
 from trum_sym.inputs.choices import choice, words
 from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import SPECS, Motor
 from trum_sym.inputs.points import check_point, one_number, period_of
+from trum_sym.model.cycle import lack_of_damping
 from trum_sym.model.levels import Levels
 from trum_sym.model.operating_point import OF_ORBIT, TOLERANCES
 from trum_sym.model.stator import warn_outside_fit
@@ -202,6 +204,24 @@ def _try(plan: Plan) -> None:
         if refusal is not None and not good.any():
             raise refusal from None
     swept = {name: values for axis in plan.grid.axes for name, values in axis.values.items()}
+    _warn_undamped(settings, task.values, swept)
     if settings.motor.amplitude is None and swept.keys().isdisjoint(("amplitude", *_FIT)):
         force = swept.get("prepressure", np.array([settings.numbers["prepressure"]]))
         warn_outside_fit(settings.motor, Drive(prepressure=np.array([force.min(), force.max()])))
+
+
+def _warn_undamped(settings: Settings, values: Mapping[str, Array], swept: Mapping[str, Array]) -> None:
+    """Warn if a lack of damping makes the figures of any of these points, or of one next to the resonance."""
+    first = {name: value[:1] for name, value in values.items()}
+    for name in ("frequency_difference", "damping_ratio"):
+        if name in swept:  # the nearest of all, which the sample may leave out
+            sizes = np.abs(swept[name])
+            nearest = np.argmin(np.where((sizes > 0) | (name == "damping_ratio"), sizes, np.inf))
+            first[name] = swept[name][[nearest]]
+    for points in (values, first):
+        good, _ = sort_out(settings, points)
+        if good.any():
+            said = lack_of_damping(settings.case({name: value[good] for name, value in points.items()}).values)
+            if said is not None:
+                warnings.warn(said, ValidityWarning, stacklevel=5)
+                return

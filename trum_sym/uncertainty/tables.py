@@ -9,6 +9,7 @@ import numpy as np
 
 from trum_sym.inputs.shown import full, readable
 from trum_sym.model.inputs import units_of
+from trum_sym.output.text_table import text_table
 from trum_sym.quantities import QUANTITIES
 from trum_sym.text import one_line
 from trum_sym.uncertainty.propagation import CONFIDENCE, Estimate, Indices
@@ -63,10 +64,7 @@ def as_text(study: Drawn) -> str:
 
 
 def _table(rows: Sequence[tuple[str, ...]], headers: tuple[str, ...], align: str) -> list[str]:
-    from tabulate import tabulate
-
-    names = {"l": "left", "r": "right"}
-    text: str = tabulate(rows, headers=headers, disable_numparse=True, colalign=[names[a] for a in align])
+    text = text_table(rows, headers, align)
     return text.splitlines()
 
 

@@ -31,6 +31,8 @@ static const trum_real trum_quadrature_share = TRUM_C(0.2);     /* factor on the
 static const trum_real trum_root_share = TRUM_C(0.4);           /* location of an event with a square root, */
 static const trum_real trum_kink_share = 100;         /* and with a kink */
 static const trum_real trum_newton_share = TRUM_C(0.05);        /* Newton's last change, squared */
+static const trum_real trum_repetition_share = TRUM_C(0.3);   /* of periods that are counted and not integrated, of a lap's error */
+static const trum_real trum_least_counted = 100; /* drive periods, at least, over which the errors of a long lap's steps add up */
 static const trum_real trum_first_lap_tolerance = TRUM_C(1e-2); /* in place of the tolerance, far from the orbit */
 
 /* Limits of the number's type: what is added to a divisor that may be 0, what a number is rounded by, slopes that count as

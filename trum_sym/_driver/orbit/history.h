@@ -18,7 +18,7 @@ static void trum_record_step(trum_record* r, const trum_lanes* lanes, const real
     const trum_real time = r->spacing * (trum_real)(r->written + 1);
     const int last = r->written + 1 == r->count;
     trum_real z = (time - r->since) / h, at = 1, power = 1, speed = 0, distance = 0;
-    const int beyond = r->written == r->count || (z > 1 && !(last && time <= (r->since + h) * (1 + TRUM_EITHER(1e-12, 1e-6))));
+    const int beyond = r->written == r->count || (z > 1 && !(last && time <= (r->since + h) * (1 + TRUM_EITHER(1e-9, 1e-5))));
     if (!beyond) {
       z = z < 0 ? 0 : z > 1 ? 1 : z;
       at = curvature > 0 ? 1 - trum_sqrt(1 - z) : curvature < 0 ? trum_sqrt(z) : z;

@@ -50,6 +50,7 @@ typedef struct {
   trum_bracket bracket;
   trum_newton_record newton;
   trum_scales scales;
+  trum_repetition repetition;
   trum_real start_speed;    /* of the lap */
   trum_real level;          /* the error that its steps may have, per drive period, over the speed's scale */
   int stage, region;     /* of the lap */
@@ -61,6 +62,7 @@ typedef struct {
 static int trum_enter_next_region(trum_lanes* lanes, int i, trum_search* search) {
   static const trum_real gates_A[] = TRUM_GATES_A, gates_B[] = TRUM_GATES_B;
   const trum_real* start;
+  if (search->repetition.is_long && search->region >= 0 && trum_next_piece(lanes, i, &search->repetition, search->in)) return 1;
   do {
     if (++search->region == TRUM_REGIONS) return 0;
   } while (search->cycle.pulses[search->region] < TRUM_C(0.5));
@@ -84,7 +86,17 @@ static int trum_enter_next_region(trum_lanes* lanes, int i, trum_search* search)
   set_lane(&lanes->step.h, i, lane_value(&lanes->step.free_h, i));
   set_lane(&lanes->step.curvature, i, 0), set_lane(&lanes->step.target_event, i, -1);
   set_lane(&lanes->step.retries, i, 0);
+  if (search->repetition.is_long)
+    trum_begin_long_region(lanes, i, &search->repetition, search->in, search->cycle.pulses[search->region],
+                           trum_repetition_share * search->level * (search->stage == STAGE_HELD ? 1 : search->scales.speed));
   return 1;
+}
+
+/* The drive periods over which the errors of a lap's steps add up: all of them, or, where most are counted, those in which
+ * friction could bring the rotor to `reach`, which is a time. */
+static trum_real trum_counted_periods(const trum_search* search, trum_real reach, trum_real period) {
+  if (!search->repetition.is_long || search->stage == STAGE_HELD) return search->in->m;
+  return reach > trum_least_counted * period ? reach / period : trum_least_counted;
 }
 
 /* The tolerances of a lap's steps, from the level of its search. */
@@ -96,19 +108,20 @@ static void trum_set_tolerances(trum_lanes* lanes, int i, const trum_search* sea
   const int of_contact = held && search->held_laps == 2;
   const int close = with_slopes(lanes) && (held ? search->held_laps > 0 : search->stage == STAGE_FINE);
   trum_tolerances* t = &lanes->tolerances;
-  trum_real reach = held ? cycle_time : search->scales.speed / in->push, allowed;
+  trum_real reach = held ? cycle_time : search->scales.speed / in->push, allowed, periods;
   int k;
   if (reach > cycle_time) reach = cycle_time;
-  allowed = search->level * reach / in->m;
+  periods = trum_counted_periods(search, reach, period);
+  allowed = search->level * reach / periods;
   set_lane(&t->inverse_step, i, 1 / allowed);
-  set_lane(&t->inverse_growth, i, in->m / (in->tolerance * search->scales.growth));
+  set_lane(&t->inverse_growth, i, periods / (in->tolerance * search->scales.growth));
   for (k = 0; with_slopes(lanes) && k < PARAMETERS; ++k) {
-    set_lane(&t->inverse_friction[k], i, of_contact ? 0 : in->m / (in->tolerance * search->scales.friction[k]));
-    set_lane(&t->inverse_angle[k], i, of_friction ? 0 : in->m / (in->tolerance * search->scales.angle[k]));
+    set_lane(&t->inverse_friction[k], i, of_contact ? 0 : periods / (in->tolerance * search->scales.friction[k]));
+    set_lane(&t->inverse_angle[k], i, of_friction ? 0 : periods / (in->tolerance * search->scales.angle[k]));
   }
   set_lane(&t->root, i, trum_root_share * trum_cbrt(allowed * allowed * period));
   set_lane(&t->kink, i, trum_kink_share * allowed);
-  set_lane(&t->newton, i, held ? 0 : allowed * in->push * trum_sqrt(trum_newton_share * in->m / search->level));
+  set_lane(&t->newton, i, held ? 0 : allowed * in->push * trum_sqrt(trum_newton_share * periods / search->level));
   set_lane(&t->slope_start, i, close ? trum_slope_start_tolerance * period : TRUM_HUGE);
   set_lane(&t->slope_end, i, close ? trum_slope_end_tolerance * period : TRUM_HUGE);
   if (close) set_lane(&t->newton, i, trum_slope_newton_factor * lane_value(&t->newton, i));
@@ -122,7 +135,7 @@ static void trum_clear_lap_errors(trum_lap* lap, int i, trum_real x) {
   set_lane(&lap->remainder_square, i, 0), set_lane(&lap->inside, i, 0);
   set_lane(&lap->low_error, i, 0), set_lane(&lap->low_remainder, i, 0);
   set_lane(&lap->high_error, i, 0), set_lane(&lap->high_remainder, i, 0);
-  set_lane(&lap->lowest, i, x), set_lane(&lap->highest, i, x);
+  set_lane(&lap->lowest, i, x), set_lane(&lap->highest, i, x), set_lane(&lap->kept, i, 1);
   set_lane(&lap->friction_error, i, 0), set_lane(&lap->friction_remainder, i, 0);
   set_lane(&lap->angle_error, i, 0), set_lane(&lap->angle_remainder, i, 0);
 }
@@ -183,7 +196,7 @@ static void trum_start_lap(trum_lanes* lanes, int i, trum_search* search) {
   set_lane_mask(&lanes->status.rough, i,
                 search->stage == STAGE_ROUGH && search->level > trum_fine_level(in->tolerance) * TRUM_C(1.0001));
   set_lane_mask(&lanes->status.contact_only, i, held && search->held_laps == 2);
-  search->region = -1;
+  search->region = -1, search->repetition.watched = 0;
   trum_enter_next_region(lanes, i, search);
 }
 

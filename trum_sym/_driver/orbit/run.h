@@ -119,6 +119,7 @@ static int trum_history(const trum_orbit_in* in, const trum_orbit_out* orbit, tr
   trum_share_lanes(&lanes, busy);
   searches[0].stage = STAGE_FINE, searches[0].level = orbit->level, searches[0].start_speed = orbit->start;
   searches[0].scales.speed = trum_fabs(orbit->low) > trum_fabs(orbit->high) ? trum_fabs(orbit->low) : trum_fabs(orbit->high);
+  searches[0].repetition.is_long &= count == 1; /* times in between are not counted over */
   trum_start_lap(&lanes, 0, &searches[0]);
   record.speed = speed, record.distance = distance, record.count = count, record.written = 0;
   record.spacing = lane_value(&lanes.equation.cycle_time, 0) / (trum_real)count, record.since = record.travelled = 0;
@@ -131,8 +132,13 @@ static int trum_history(const trum_orbit_in* in, const trum_orbit_out* orbit, tr
     accepted = trum_advance_step(&lanes);
     if (mask_in_lane(lanes.status.failed, 0) || lane_value(&lanes.step.steps_left, 0) < 0) break;
     if (mask_in_lane(accepted, 0) && lane_value(&lanes.step.time_left, 0) <= 0 &&
-        !trum_enter_next_region(&lanes, 0, &searches[0]))
+        !trum_enter_next_region(&lanes, 0, &searches[0])) {
+      if (searches[0].repetition.is_long && record.written < count) { /* the end may have been counted and not stepped to */
+        speed[0] = lane_value(&lanes.equation.v0, 0) + lane_value(&lanes.start.x, 0), distance[0] = record.travelled;
+        record.written = 1;
+      }
       break;
+    }
   }
   for (; record.written < count; ++record.written) speed[record.written] = distance[record.written] = TRUM_NAN;
   return allowed;

@@ -82,6 +82,7 @@ static int trum_load_task(trum_lanes* lanes, int i, trum_search* search, const t
     }
   }
   search->in = in, search->out = out;
+  search->repetition.is_long = trum_is_long(in), search->repetition.watched = 0;
   search->laps = search->refinements = search->bracket.bisect_next = 0;
   search->newton.last_step = TRUM_HUGE, search->newton.start = search->newton.decay = search->newton.exact_gain = 0;
   search->newton.uncertainty = search->newton.trusted = 0, search->newton.slope_error = 1;

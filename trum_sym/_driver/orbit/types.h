@@ -32,6 +32,7 @@ typedef struct {
   /* First-order errors of the lap by the steps' defects, and bounds of what these leave out (defect.h): of x at its end
    * so far; integrals over time of those, of the error's square and of its product with S; at the extremes; of the
    * integrals of f and theta.  Integrals of S^2 and of the interpolants' error inside the steps. */
+  real kept; /* share of an error, since a watched period began (repeat.h) */
   real error, remainder, error_sum, remainder_sum, error_square, error_S, remainder_square, SS, inside;
   real low_error, low_remainder, high_error, high_remainder;
   real lowest, highest; /* bounds of x at all extremes, those that are not the lap's by a hair too */
