@@ -14,6 +14,7 @@ constants; what this leaves is measured (docs/rotor.md).
 from __future__ import annotations
 
 from fractions import Fraction
+from itertools import pairwise
 
 import mpmath as mp
 import sympy as sp
@@ -44,7 +45,7 @@ def _cell(nodes: list[int]) -> list[sp.Expr]:
 
 
 def implicit_weights() -> tuple[sp.Expr, sp.Expr, sp.Expr]:
-    """Weights, over a step, of the values at its end, at its start and at the node before: Adams and Moulton, order 3."""
+    """Weights over a step of the values at its end, its start and the node before: Adams and Moulton, order 3."""
     before, old, new = _cell([-1, 0, 1])
     return new, old, before
 
@@ -94,7 +95,7 @@ def _fourths(power: sp.Rational, place: mp.mpf) -> mp.mpf:
     count = 8 if power in (0, 1, 2) else _FAR
     values = [mp.mpf(0)] * 4 + [(place + k) ** mp.mpf(sp.Float(power, 30)) for k in range(count)]
     for _ in range(4):
-        values = [b - a for a, b in zip(values[:-1], values[1:], strict=True)]
+        values = [b - a for a, b in pairwise(values)]
     return mp.fsum(abs(value) for value in values)
 
 
@@ -111,13 +112,34 @@ def single(event: str) -> Fraction:
     with mp.workdps(25):
         for k in range(1, _PLACES + 1):
             place = mp.mpf(k) / _PLACES
-            if power == 0:  # beside the jump the trapezium has half of the first value
-                left = abs(mp.mpf(1) / 2 - place)
-            else:
-                left = abs(_left(power, place))
-            if left > mp.mpf(constant[event].numerator) / constant[event].denominator * _fourths(power, place) + mp.mpf("1e-20"):
+            left = abs(_left(power, place))
+            counted = _fourths(power, place) * constant[event].numerator / constant[event].denominator
+            if left > counted + mp.mpf("1e-20"):
                 raise ProofError(f"{event} at {float(place):.3f} of a cell leaves more than {constant[event]}")
     return constant[event]
+
+
+def end() -> Fraction:
+    """The constant that bounds what an event in a region's first cell leaves, in both second differences beside it.
+
+    There the second difference before the first node is taken to be the next one.  A region's last cell is its mirror.
+
+    Raises
+    ------
+    ProofError
+        If the constant is not enough, for one of the events at one of the places looked at.
+    """
+    constant, (inner, edge) = Fraction(3, 4), (mp.mpf(float(w)) for w in second_weights())
+    with mp.workdps(25):
+        for event, power in EVENTS.items():
+            for k in range(1, _PLACES + 1):
+                place, exponent = mp.mpf(k) / _PLACES, mp.mpf(sp.Float(power, 30))
+                first, second, third = ((place + j) ** exponent for j in range(3))
+                beside = second - 2 * first, third - 2 * second + first
+                left = _left(sp.Rational(power), place) + inner * first - (edge - inner) * beside[0]
+                if abs(left) > mp.mpf(3) / 4 * (abs(beside[0]) + abs(beside[1])) + mp.mpf("1e-12"):
+                    raise ProofError(f"{event} at {float(place):.3f} of the first cell leaves more than {constant}")
+    return constant
 
 
 def smooth() -> sp.Expr:
@@ -128,12 +150,14 @@ def smooth() -> sp.Expr:
 
 
 def bounds() -> dict[str, sp.Rational]:
-    """The driver's constants: where friction is smooth or has kinks, next to square roots, and of the held rotor."""
+    """The driver's constants: where friction is smooth or has kinks, next to square roots, at a region's ends; of the held
+    rotor, whose friction nearly jumps there and back where the wave nearly stands, twice as safe.
+    """
     needed = {event: single(event) for event in EVENTS}
     plain = max(needed["kink"], needed["curvature"])
     if smooth() > sp.Rational(plain.numerator, plain.denominator):
         raise ProofError("a polynomial of degree 4 leaves more than a kink")
-    found = {"PLAIN": plain, "EVENT": needed["root"], "HELD": needed["jump"]}
+    found = {"PLAIN": plain, "EVENT": needed["root"], "END": end(), "HELD": 2 * needed["jump"]}
     return {name: SAFETY * sp.Rational(value.numerator, value.denominator) for name, value in found.items()}
 
 

@@ -8,7 +8,8 @@
 #define TRUM_GRID_EDGE_WEIGHT (0.12500000000000000000)
 /* of the difference of a cell's slopes */
 #define TRUM_GRID_SLOPE_WEIGHT (0.083333333333333333333)
-/* of the fourth differences' magnitudes, in the bound of what the rule leaves */
+/* of fourth differences' magnitudes, at a region's ends of second ones', in the bound of what is left */
 #define TRUM_GRID_PLAIN_BOUND (0.041666666666666666667)
 #define TRUM_GRID_EVENT_BOUND (0.090909090909090909091)
-#define TRUM_GRID_HELD_BOUND (0.12500000000000000000)
+#define TRUM_GRID_END_BOUND (1.5000000000000000000)
+#define TRUM_GRID_HELD_BOUND (0.25000000000000000000)

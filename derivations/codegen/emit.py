@@ -284,7 +284,9 @@ def _fixed_grid() -> str:
     lines += [f"#define TRUM_GRID_{name}_WEIGHT ({sp.N(v, 20)})" for name, v in (("SECOND", inner), ("EDGE", edge))]
     lines += ["/* of the difference of a cell's slopes */"]
     lines += [f"#define TRUM_GRID_SLOPE_WEIGHT ({sp.N(fixed_grid.slope_weight(), 20)})"]
-    lines.append("/* of the fourth differences' magnitudes, in the bound of what the rule leaves */")
+    lines.append(
+        "/* of fourth differences' magnitudes, at a region's ends of second ones', in the bound of what is left */"
+    )
     lines += [f"#define TRUM_GRID_{name}_BOUND ({sp.N(value, 20)})" for name, value in fixed_grid.bounds().items()]
     return "\n".join([*lines, ""])
 
