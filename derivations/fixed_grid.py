@@ -150,8 +150,8 @@ def smooth() -> sp.Expr:
 
 
 def bounds() -> dict[str, sp.Rational]:
-    """The driver's constants: where friction is smooth or has kinks, next to square roots, at a region's ends; of the held
-    rotor, whose friction nearly jumps there and back where the wave nearly stands, twice as safe.
+    """The driver's constants: where friction is smooth or has kinks, next to square roots, at a region's ends; and of
+    the held rotor, whose friction nearly jumps there and back where the wave nearly stands, twice as safe.
     """
     needed = {event: single(event) for event in EVENTS}
     plain = max(needed["kink"], needed["curvature"])

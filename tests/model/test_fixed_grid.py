@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
 import pytest
 from lazily import lazily
@@ -113,6 +115,12 @@ def test_a_grid_is_chosen_by_itself_at_coarse_tolerances_alone(trum60, tolerance
     asked = ts.evaluate(trum60, ts.Drive(load_torque=0.1), tolerance=tolerance, method=method)
     assert point.mean_speed == asked.mean_speed
     assert point.to_dict()["method"] == method
+
+
+def test_the_console_says_how_an_orbit_was_found(capsys):
+    for method, found in (("auto", "grid"), ("adaptive", "adaptive"), ("grid", "grid")):
+        assert main(["evaluate", "--load-torque", "0.1", "--tolerance", "1e-2", "--method", method, "--json"]) == 0
+        assert json.loads(capsys.readouterr().out)["method"] == found
 
 
 def test_a_method_that_is_none_is_refused(trum60, capsys):
