@@ -14,9 +14,9 @@ import numpy as np
 import trum_sym as ts
 from benchmarks import peers
 from benchmarks.rows import Row, least
-from trum_sym.model.levels import Levels
+from trum_sym.model.levels import Levels, Method
 from trum_sym.model.operating_point import Case, prepare
-from trum_sym.model.rotor import Orbit, solve_orbit
+from trum_sym.model.rotor import Orbit, grid_is_tried, solve_orbit
 
 __all__ = ["rows"]
 
@@ -59,25 +59,31 @@ def _figures(orbit: Orbit, radius: float) -> list[peers.Figures]:
     return [peers.Figures(*(radius * float(x) for x in row)) for row in zip(*map(np.atleast_1d, columns), strict=True)]
 
 
-def _ours(case: Case) -> Callable[[], Orbit]:
+def _ours(case: Case, method: Method) -> Callable[[], Orbit]:
     """The orbit without the lap of a rotor that is held, which peers do not integrate."""
-    return lambda: solve_orbit({**case.arguments, "held": 0.0}, case.symbols)
+    return lambda: solve_orbit({**case.arguments, "held": 0.0}, case.symbols, method=method)
 
 
 def _rows_of_ours(
-    motor: ts.Motor, forces: np.ndarray, known: Sequence[peers.Figures], error: float, count: int, repeats: int
+    motor: ts.Motor,
+    forces: np.ndarray,
+    known: Sequence[peers.Figures],
+    error: float,
+    count: int,
+    repeats: int,
+    method: Method,
 ) -> list[tuple[str, Found]]:
     """One point after the other, and a batch."""
     radius, drive = float(motor.contact_radius.value), ts.Drive()
-    singles = [_ours(prepare(motor, replace(drive, prepressure=float(f)), Levels(), error)) for f in forces]
+    singles = [_ours(prepare(motor, replace(drive, prepressure=float(f)), Levels(), error), method) for f in forces]
     worst = max(_figures(run(), radius)[0].error(of) for run, of in zip(singles, known, strict=True))
     alone, apart = least(lambda: [run() for run in singles], repeats)
     many = np.linspace(forces[0], forces[-1], count)
-    batch = _ours(prepare(motor, replace(drive, prepressure=many), Levels(), error))
+    batch = _ours(prepare(motor, replace(drive, prepressure=many), Levels(), error), method)
     together, spread = least(batch, repeats)
     return [
-        ("ours, a point alone", (error, worst, alone / len(singles), apart)),
-        (f"ours, a batch of {count}", (error, worst, together / count, spread)),
+        (f"ours, {method}, a point alone", (error, worst, alone / len(singles), apart)),
+        (f"ours, {method}, a batch of {count}", (error, worst, together / count, spread)),
     ]
 
 
@@ -111,7 +117,8 @@ def rows(repeats: int, count: int) -> list[Row]:
     for k, error in enumerate(ERRORS):
         section = f"an orbit to {error:g} of the largest speed"
         times = [entry[k][2] for entry in found.values() if np.isfinite(entry[k][2])]
-        ours = _rows_of_ours(motor, forces, known, error, count, repeats)
+        methods: list[Method] = ["grid", "adaptive"] if grid_is_tried("auto", error) else ["adaptive"]
+        ours = [row for m in methods for row in _rows_of_ours(motor, forces, known, error, count, repeats, m)]
         for name, (setting, worst, seconds, spread) in [*ours, *((n, entry[k]) for n, entry in found.items())]:
             if np.isnan(seconds):
                 note = "" if np.isnan(worst) else f"not met in {_LONG:g} s: {worst:.1e}"

@@ -8,7 +8,7 @@ from __future__ import annotations
 import argparse
 import sys
 
-from derivations import error_bound
+from derivations import error_bound, fixed_grid
 from derivations.codegen.emit import GENERATED, render, stale, write
 from derivations.codegen.kernels import kernels
 from derivations.dimensions import DimensionError
@@ -20,6 +20,7 @@ def _generate(check: bool) -> int:
         files = render()
         prove(kernels(), files)
         error_bound.prove()
+        fixed_grid.prove()
     except (ArithmeticError, DimensionError) as error:
         print(f"derivations: a proof fails: {error}", file=sys.stderr)
         return 1

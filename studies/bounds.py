@@ -1,11 +1,13 @@
 """Stated errors beside true ones: random points against an independent orbit, or the closed form of a plain wave.
 
-python -m studies.bounds BOX COUNT [--seed N] [--file FILE.jsonl]
+python -m studies.bounds BOX COUNT [--seed N] [--file FILE.jsonl] [--method grid] [--finest T]
 
 BOX is one of ``stock`` (the stock motor, 100 to 220 N, +-5 kHz, 1 to 30 periods, loads to 0.99999 of the limit),
 ``limit`` (the same with loads from 0.9 to 0.999999), ``wide`` (inertia 1e-9 to 1e-2 kg m^2, 1 to 200 periods, loads to
 0.9999) and ``wave`` (plain travelling waves, both contacts, loads to 0.999999, against the closed form).  Tolerances
-from 1e-2 to 1e-9 are drawn with the points.  With a file, points that stand in it are not computed again.
+from 1e-2 to 1e-9, or to ``--finest``, are drawn with the points.  ``--method`` is that of :func:`trum_sym.evaluate`,
+"adaptive" if not given; of the points that a grid leaves to adaptive steps none is compared.  With a file, points that
+stand in it are not computed again.
 """
 
 from __future__ import annotations
@@ -24,6 +26,7 @@ import numpy as np
 
 import trum_sym as ts
 from studies import witness
+from trum_sym.model.levels import METHODS, Method
 
 STARTS = ("steady", "rest", "periodic")
 FIGURES = ("mean", "low", "high", "deviation", "held")
@@ -40,6 +43,7 @@ class Found:
     points: int = 0
     converged: int = 0
     compared: int = 0
+    on_grid: int = 0
     beyond: int = 0
     flat: int = 0
     ratios: dict[str, list[float]] = field(default_factory=lambda: {name: [] for name in FIGURES})
@@ -49,6 +53,7 @@ class Found:
         """Take in a point's row."""
         self.points += 1
         self.converged += row["converged"]
+        self.on_grid += row["on_grid"]
         if not row["converged"] or row["doubt"] is None:
             return
         self.compared += 1
@@ -64,7 +69,8 @@ class Found:
     def text(self) -> str:
         """What is to be read."""
         lines = [
-            f"{self.points} points, {self.converged} converged, {self.compared} compared, {self.beyond} figures beyond"
+            f"{self.points} points, {self.converged} converged, {self.on_grid} on a grid, {self.compared} compared, "
+            f"{self.beyond} figures beyond"
         ]
         for name, ratios in self.ratios.items():
             if ratios:
@@ -76,7 +82,9 @@ class Found:
         return "\n".join(lines)
 
 
-def draw(box: str, count: int, seed: int, most_periods: int | None = None) -> dict[str, np.ndarray]:
+def draw(
+    box: str, count: int, seed: int, most_periods: int | None = None, finest: float = 1e-9
+) -> dict[str, np.ndarray]:
     """Random points of a box, as columns."""
     rng = np.random.default_rng([seed, sorted(("stock", "limit", "wide", "wave")).index(box)])
     wide = box == "wide"
@@ -101,11 +109,13 @@ def draw(box: str, count: int, seed: int, most_periods: int | None = None) -> di
         "phase_lead": rng.choice([-1, 1], count),
         "rotor_inertia": 10 ** rng.uniform(-9, -2, count) if wide else np.full(count, 4.5e-6),
         "friction_coefficient": rng.uniform(0.2, 0.3, count) if wide else np.full(count, 0.25),
-        "tolerance": 10 ** rng.uniform(-9, -2, count),
+        "tolerance": 10 ** rng.uniform(np.log10(finest), -2, count),
     }
 
 
-def _evaluated(columns: dict[str, np.ndarray], chosen: np.ndarray) -> tuple[Any, np.ndarray, np.ndarray, float]:
+def _evaluated(
+    columns: dict[str, np.ndarray], chosen: np.ndarray, method: Method
+) -> tuple[Any, np.ndarray, np.ndarray, float]:
     """The product's answer, the witness's constants, loads and contact radius for points of one start and contact."""
     c = {name: values[chosen] for name, values in columns.items()}
     motor = ts.load_motor("trum60").with_values({name: c[name] for name in ("rotor_inertia", "friction_coefficient")})
@@ -123,7 +133,7 @@ def _evaluated(columns: dict[str, np.ndarray], chosen: np.ndarray) -> tuple[Any,
         from trum_sym.model.rotor import solve_orbit
 
         case = prepare(motor, drive, Levels(contact=contact), 1e-3)
-        orbit = solve_orbit({**case.arguments, "tolerance": c["tolerance"]}, case.symbols)
+        orbit = solve_orbit({**case.arguments, "tolerance": c["tolerance"]}, case.symbols, method=method)
     stator = {
         "wavenumber": np.asarray(case.stator.k_c),
         "amplitude": np.asarray(case.stator.W),
@@ -172,13 +182,18 @@ def _witnessed(
     return np.array([found.mean, found.low, found.high, found.deviation]), _WITNESS * (found.doubt + accuracy * top)
 
 
-def rows(box: str, columns: dict[str, np.ndarray], wanted: np.ndarray, accuracy: float) -> Iterator[dict[str, Any]]:
+def rows(
+    box: str, columns: dict[str, np.ndarray], wanted: np.ndarray, accuracy: float, method: Method = "adaptive"
+) -> Iterator[dict[str, Any]]:
     """A row for every point that is wanted."""
     for key in sorted({(int(columns["start"][i]), int(columns["hertz"][i])) for i in wanted}):
         chosen = np.array([i for i in wanted if (columns["start"][i], columns["hertz"][i]) == key])
-        orbit, constants, loads, radius = _evaluated(columns, chosen)
+        orbit, constants, loads, radius = _evaluated(columns, chosen, method)
         raw = orbit.raw
         for k, i in enumerate(chosen):
+            if method != "adaptive" and not orbit.on_grid[k]:
+                yield {"index": int(i), "converged": bool(orbit.converged[k]), "on_grid": False, "doubt": None}
+                continue
             p = constants[k]
             ours = np.array(
                 [raw["mean"][k], raw["low"][k], raw["high"][k], np.sqrt(raw["variance"][k]), raw["held"][k]]
@@ -204,6 +219,7 @@ def rows(box: str, columns: dict[str, np.ndarray], wanted: np.ndarray, accuracy:
             row = {
                 "index": int(i),
                 "converged": bool(orbit.converged[k]),
+                "on_grid": bool(orbit.on_grid[k]),
                 "flags": int(raw["flags"][k]),
                 "doubt": None,
                 "flat": False,
@@ -219,10 +235,18 @@ def rows(box: str, columns: dict[str, np.ndarray], wanted: np.ndarray, accuracy:
             yield row
 
 
-def study(count: int, seed: int, box: str, accuracy: float = 1e-12, periods: int | None = None) -> Found:
+def study(
+    count: int,
+    seed: int,
+    box: str,
+    accuracy: float = 1e-12,
+    periods: int | None = None,
+    method: Method = "adaptive",
+    finest: float = 1e-9,
+) -> Found:
     """Counts over random points."""
-    columns, found = draw(box, count, seed, periods), Found()
-    for row in rows(box, columns, np.arange(count), accuracy):
+    columns, found = draw(box, count, seed, periods, finest), Found()
+    for row in rows(box, columns, np.arange(count), accuracy, method):
         found.add(row)
     return found
 
@@ -235,9 +259,12 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=20211110)
     parser.add_argument("--file", type=Path)
     parser.add_argument("--accuracy", type=float, default=1e-12)
+    parser.add_argument("--method", choices=METHODS, default="adaptive")
+    parser.add_argument("--finest", type=float, default=1e-9)
     options = parser.parse_args()
     print(f"seed {options.seed}")
-    columns, found, done = draw(options.box, options.count, options.seed), Found(), set()
+    columns = draw(options.box, options.count, options.seed, finest=options.finest)
+    found, done = Found(), set()
     if options.file and options.file.exists():
         for line in options.file.read_text().splitlines():
             row = json.loads(line)
@@ -246,7 +273,7 @@ def main() -> None:
     begin = time.perf_counter()
     left = np.array([i for i in range(options.count) if i not in done], dtype=int)
     for block in np.array_split(left, max(1, -(-left.size // _BLOCK))):
-        fresh = list(rows(options.box, columns, block, options.accuracy)) if block.size else []
+        fresh = list(rows(options.box, columns, block, options.accuracy, options.method)) if block.size else []
         for row in fresh:
             found.add(row)
         if options.file:

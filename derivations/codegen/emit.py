@@ -14,7 +14,7 @@ import casadi as ca
 import mpmath as mp
 import sympy as sp
 
-from derivations import collocation
+from derivations import collocation, fixed_grid
 from derivations.codegen import driver
 from derivations.codegen.kernels import Kernel, kernels
 from derivations.codegen.library import headers
@@ -273,6 +273,24 @@ def _collocation() -> str:
     )
 
 
+def _fixed_grid() -> str:
+    """The rule of orbits on a grid, and what it leaves."""
+    new, old, before = fixed_grid.implicit_weights()
+    inner, edge = fixed_grid.second_weights()
+    lines = [f"/* {_NOTE} */", "/* Over a step, weights of friction at its end, at its start and at the node before */"]
+    weights = {"NEW_WEIGHT": new, "OLD_WEIGHT": old, "BEFORE_WEIGHT": before}
+    lines += [f"#define TRUM_GRID_{name} ({sp.N(value, 20)})" for name, value in weights.items()]
+    lines.append("/* of a second difference in the integral, less than the trapezoidal rule; beside a region's ends */")
+    lines += [f"#define TRUM_GRID_{name}_WEIGHT ({sp.N(v, 20)})" for name, v in (("SECOND", inner), ("EDGE", edge))]
+    lines += ["/* of the difference of a cell's slopes */"]
+    lines += [f"#define TRUM_GRID_SLOPE_WEIGHT ({sp.N(fixed_grid.slope_weight(), 20)})"]
+    lines.append(
+        "/* of fourth differences' magnitudes, at a region's ends of second ones', in the bound of what is left */"
+    )
+    lines += [f"#define TRUM_GRID_{name}_BOUND ({sp.N(value, 20)})" for name, value in fixed_grid.bounds().items()]
+    return "\n".join([*lines, ""])
+
+
 def _elementary() -> str:
     """Coefficients of elementary functions over lanes, to 17 digits.
 
@@ -331,6 +349,7 @@ def render() -> dict[str, str]:
     files["trum_quadrature.h"] = _quadrature()
     files["trum_elementary.h"] = _elementary()
     files["trum_collocation.h"] = _collocation()
+    files["trum_fixed_grid.h"] = _fixed_grid()
     versions = {"casadi": ca.CasadiMeta.version(), "sympy": sp.__version__}
     files["manifest.json"] = (
         json.dumps({"generator": versions, "kernels": manifest, "orbit": driver.orbit_fields()}, indent=1) + "\n"

@@ -135,6 +135,7 @@ FILES = {
     ("speed-table", "--out"): "new.csv",
 }
 NO_FIGURE = {
+    ("evaluate", "--method"): "it acts at coarse tolerances alone: tests/model/test_fixed_grid.py",
     ("equations", "--open"): "a page in a browser: below",
     ("sweep", "--chunk"): "how the work is divided: tests/sweeps",
     ("fmu", "--sources-only"): "it takes a compiler: tests/driver/test_export.py",

@@ -74,10 +74,10 @@ def test_an_interruption_leaves_the_other_blocks_alone(trum60, drive, monkeypatc
     assert len(begun) < 20
 
 
-@pytest.mark.parametrize("kernel", ["rotor_orbit", "cycle_sums"])
+@pytest.mark.parametrize("kernel", ["rotor_orbit", "rotor_grid", "cycle_sums"])
 def test_the_drivers_let_other_threads_run(trum60, kernel):
     """Were the interpreter's lock kept, this thread would stand still from the call's begin to its end."""
-    count = {"rotor_orbit": 200, "cycle_sums": 10000}[kernel]
+    count = {"rotor_orbit": 200, "rotor_grid": 800, "cycle_sums": 10000}[kernel]
     drive = ts.Drive(prepressure=np.linspace(120, 220, count), load_torque=0.1)
     levels = Levels()
     values = {**prepare(trum60, drive, levels, 1e-3).arguments, "panels": 4.0}
@@ -105,7 +105,8 @@ def test_the_smallest_stack_of_a_thread_is_enough():
         "from trum_sym.model.operating_point import prepare\n"
         "given = prepare(ts.load_motor(), ts.Drive(prepressure=[170.0] * 70), Levels(), 1e-3).arguments\n"
         "def run():\n"
-        "    for name in _kernels.instruction_sets(): _kernels.use(name), call('rotor_orbit', given)\n"
+        "    for name in _kernels.instruction_sets():\n"
+        "        _kernels.use(name), call('rotor_orbit', given), call('rotor_grid', given)\n"
         "    ts.sensitivities(); print('done')\n"
         "ts.sensitivities(); thread = threading.Thread(target=run); thread.start(); thread.join()"
     )

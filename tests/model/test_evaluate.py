@@ -20,7 +20,7 @@ JSON_KEYS = [
     *("cycle_time", "amplitude", "neutral_axis", "wavenumber", "q_ratio", "q_square_ratio", "q_average"),
     *("q_volatility", "mean_speed", "min_speed", "max_speed", "speed_volatility", "stall_torque"),
     *("contact_fraction", "mean_speed_error", "min_speed_error", "max_speed_error", "speed_volatility_error"),
-    *("stall_torque_error", "converged", "reason"),
+    *("stall_torque_error", "converged", "reason", "method"),
 ]
 INPUTS = [
     *(

@@ -13,6 +13,7 @@
 #include <numpy/ufuncobject.h>
 
 #include "cpu.hpp"
+#include "grid.hpp"
 #include "orbit.hpp"
 #include "trum_brush.h"
 #include "trum_coupled.h"
@@ -159,9 +160,19 @@ void cycle_response_loop(char** args, const npy_intp* dimensions, const npy_intp
 
 const trum::OrbitCode* orbit_code = &trum::orbit_baseline;
 
+// The grid of the same instruction set.
+const trum::GridCode& grid_code() {
+#if defined(TRUM_X86_ORBITS)
+  if (orbit_code == &trum::orbit_avx2) return trum::grid_avx2;
+  if (orbit_code == &trum::orbit_avx512) return trum::grid_avx512;
+#endif
+  return trum::grid_baseline;
+}
+
 // Blocks of points of one contact law, small enough to keep their inputs in cache.
 constexpr int n_orbit_in = COUNT(TRUM_ORBIT_IN), n_orbit_out = COUNT(TRUM_ORBIT_OUT);
-void rotor_orbit_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
+template <class Orbits>
+void orbit_blocks(char** args, const npy_intp* dimensions, const npy_intp* steps, Orbits orbits) {
   const Unlocked unlocked;
   const npy_intp most = block(256, dimensions);
   std::vector<trum_orbit_in> in(most);
@@ -172,10 +183,18 @@ void rotor_orbit_loop(char** args, const npy_intp* dimensions, const npy_intp* s
       read(&in[count], args, steps, i + count);
       if (in[count].hertz != in[0].hertz) break;
     }
-    orbit_code->orbits(in.data(), out.data(), nullptr, nullptr, static_cast<long>(count));
+    orbits(in.data(), out.data(), static_cast<long>(count));
     for (npy_intp k = 0; k < count; ++k) write(out[k], args + n_orbit_in, steps + n_orbit_in, i + k);
     i += count;
   }
+}
+void rotor_orbit_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
+  orbit_blocks(args, dimensions, steps, [](const trum_orbit_in* in, trum_orbit_out* out, long count) {
+    orbit_code->orbits(in, out, nullptr, nullptr, count);
+  });
+}
+void rotor_grid_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
+  orbit_blocks(args, dimensions, steps, grid_code().orbits);
 }
 
 constexpr int n_sums_in = COUNT(TRUM_CYCLE_SUMS_IN);
@@ -328,6 +347,7 @@ PyUFuncGenericFunction loop_coupled_lap[1] = {coupled_lap_loop};
 PyUFuncGenericFunction loop_cycle_sums[1] = {cycle_sums_loop};
 PyUFuncGenericFunction loop_cycle_response[1] = {cycle_response_loop};
 PyUFuncGenericFunction loop_rotor_orbit[1] = {rotor_orbit_loop};
+PyUFuncGenericFunction loop_rotor_grid[1] = {rotor_grid_loop};
 PyUFuncGenericFunction loop_rotor_slopes[1] = {rotor_slopes_loop};
 PyUFuncGenericFunction loop_rotor_history[1] = {rotor_history_loop};
 
@@ -376,6 +396,8 @@ PyMODINIT_FUNC PyInit__kernels() {
       !add(module, signatures, "cycle_response", loop_cycle_response, n_response_in, COUNT(TRUM_CYCLE_RESPONSE_OUT),
            TRUM_CYCLE_RESPONSE_IN(NAME_OF), TRUM_CYCLE_RESPONSE_OUT(NAME_OF)) ||
       !add(module, signatures, "rotor_orbit", loop_rotor_orbit, n_orbit_in, n_orbit_out, TRUM_ORBIT_IN(NAME_OF),
+           TRUM_ORBIT_OUT(NAME_OF)) ||
+      !add(module, signatures, "rotor_grid", loop_rotor_grid, n_orbit_in, n_orbit_out, TRUM_ORBIT_IN(NAME_OF),
            TRUM_ORBIT_OUT(NAME_OF)) ||
       !add(module, signatures, "rotor_slopes", loop_rotor_slopes, n_slopes_in, n_slopes_out,
            TRUM_ORBIT_IN(NAME_OF) TRUM_SLOPES_IN(NAME_OF), TRUM_ORBIT_OUT(NAME_OF) "slopes", slopes.c_str()) ||

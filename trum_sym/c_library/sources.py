@@ -18,6 +18,7 @@ _OTHERS = {
     "trum_coupled.h",
     "trum_lanes.h",
     "trum_elementary.h",
+    "trum_fixed_grid.h",
     "trum_browser.c",
     "trum_unit.h",
     "trum_fmi2.c",

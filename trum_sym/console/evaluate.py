@@ -15,11 +15,13 @@ from trum_sym.console.options import (
     chosen_spreads,
     examples,
     holding_options,
+    method_option,
     plot_options,
     point_options,
     tolerance_option,
 )
 from trum_sym.console.say import say
+from trum_sym.model.levels import Method
 
 __all__ = ["evaluate"]
 
@@ -35,6 +37,7 @@ __all__ = ["evaluate"]
 )
 @point_options
 @tolerance_option
+@method_option
 @holding_options
 @plot_options("Draw the rotor's speed over two cycles")
 @click.option(
@@ -45,6 +48,7 @@ def evaluate(
     motor: str,
     overrides: tuple[str, ...],
     tolerance: float | None,
+    method: Method,
     within: float | None,
     spreads: tuple[str, ...],
     plot: Path | None,
@@ -68,7 +72,8 @@ def evaluate(
         check_packages(out)
     machine, drive = chosen_motor(motor, overrides), chosen_drive(options)
     period = options["sampling_period"]
-    point = evaluate_point(machine, drive, sampling_period=period, tolerance=tolerance, **chosen_levels(options))
+    levels = chosen_levels(options)
+    point = evaluate_point(machine, drive, sampling_period=period, tolerance=tolerance, method=method, **levels)
     from trum_sym.model.tables import as_table, compared
 
     held = None

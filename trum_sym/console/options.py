@@ -16,7 +16,7 @@ import click
 
 from trum_sym.console.words import typed
 from trum_sym.inputs.drive import BOX_NAMES, Drive
-from trum_sym.model.levels import LEVEL_NAMES, LevelChoice, Levels
+from trum_sym.model.levels import LEVEL_NAMES, METHODS, LevelChoice, Levels
 from trum_sym.quantities import MORE, QUANTITIES, in_help
 
 if TYPE_CHECKING:
@@ -41,6 +41,7 @@ __all__ = [
     "force_option",
     "held_options",
     "holding_options",
+    "method_option",
     "number_option",
     "option_name",
     "pairs",
@@ -310,6 +311,13 @@ def tolerance_option(command: Callable[..., Any]) -> Callable[..., Any]:
         "[default: 1e-6, or what four digits of the mean speed need]"
     )
     option: Callable[..., Any] = number_option("--tolerance", "1", None, text, "T")(command)
+    return option
+
+
+def method_option(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Give a command the option ``--method``."""
+    text = "How orbits are found: in adaptive steps, on a grid of equal ones, or by what is faster at the tolerance."
+    option: Callable[..., Any] = choice_option("--method", METHODS, text)(command)
     return option
 
 

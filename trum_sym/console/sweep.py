@@ -15,11 +15,13 @@ from trum_sym.console.options import (
     chosen_levels,
     chosen_motor,
     examples,
+    method_option,
     number_option,
     plot_options,
     point_options,
 )
 from trum_sym.console.say import say
+from trum_sym.model.levels import Method
 
 if TYPE_CHECKING:
     from trum_sym.sweeps.plan import Plan
@@ -63,6 +65,7 @@ class Range(click.ParamType):  # type: ignore[type-arg, unused-ignore]
 @number_option(
     "--tolerance", "1", 1e-6, "Largest bound of the errors of speeds over the largest speed, 1e-9 to 1e-2.", "T"
 )
+@method_option
 @plot_options("Draw lines over one axis, maps over two")
 @click.option("--dry-run", is_flag=True, help="Say points, chunks, size and time, from a sample that is measured.")
 def sweep(
@@ -73,6 +76,7 @@ def sweep(
     scheduler: str | None,
     chunk: float | None,
     tolerance: float,
+    method: Method,
     plot: Path | None,
     force: bool,
     dry_run: bool,
@@ -105,7 +109,8 @@ def sweep(
     words: dict[str, Any] = {name: options[name] for name in ("start", "load")}
     if words["load"] == "weight" and "load_radius" in ranges:
         words["load_radius"] = 1.0  # the range's values take its place
-    plan = make_plan(chosen_motor(motor, fixed), Drive(**words), levels, None, tolerance, names, chunk, ranges)
+    machine = chosen_motor(motor, fixed)
+    plan = make_plan(machine, Drive(**words), levels, None, tolerance, names, chunk, ranges, method)
     if plot is not None:
         from trum_sym.plots import answers
 

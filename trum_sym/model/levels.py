@@ -20,10 +20,12 @@ __all__ = [
     "COUPLINGS",
     "FOUNDATIONS",
     "LEVEL_NAMES",
+    "METHODS",
     "RESONANCES",
     "TANGENTIALS",
     "LevelChoice",
     "Levels",
+    "Method",
 ]
 
 Contact = Literal["winkler", "hertz"]
@@ -40,6 +42,10 @@ AMPLITUDES: tuple[Amplitude, ...] = get_args(Amplitude)
 COMPLIANCES: tuple[Compliance, ...] = get_args(Compliance)
 TANGENTIALS: tuple[Tangential, ...] = get_args(Tangential)
 COUPLINGS: tuple[Coupling, ...] = get_args(Coupling)
+Method = Literal["auto", "adaptive", "grid"]
+METHODS: tuple[Method, ...] = get_args(Method)
+"""How orbits are integrated, which is no level of the model: in steps that end at events, on a grid of equal steps
+where its bounds meet the tolerance, or so from the tolerance on at which that is faster."""
 
 
 class LevelChoice(TypedDict, total=False):

@@ -12,6 +12,7 @@ import numpy as np
 from trum_sym.errors import MissingExtraError, ParameterError, ValidityWarning
 from trum_sym.inputs.carried import Labels, labels_of
 from trum_sym.inputs.checks import Array, ArrayLike, broadcast_shape
+from trum_sym.inputs.choices import choice
 from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import DRIVE_DOMAINS, Drive
 from trum_sym.inputs.motor import Motor
@@ -22,7 +23,7 @@ from trum_sym.model.brush import brush_values, check_drive
 from trum_sym.model.cycle import check_steady_state, cycle_sums, lack_of_damping, modal_values, scaled
 from trum_sym.model.inputs import Inputs, remarks_of, units_of
 from trum_sym.model.kernels import call
-from trum_sym.model.levels import LevelChoice, Levels
+from trum_sym.model.levels import METHODS, LevelChoice, Levels, Method
 from trum_sym.model.rotor import Orbit, encoder_deviation, history, orbit_values, reasons, solve_orbit
 from trum_sym.model.stator import Stator, solve_stator
 from trum_sym.model.string import SLACK, least_tension
@@ -69,10 +70,13 @@ OF_ORBIT = frozenset(
         "runaway",
         "slack",
         "reason",
+        "method",
+        "on_grid",
     )
 )
 """The figures that take the rotor's orbit; ``runaway`` is where no speed balances the load, ``slack`` where the string
-that bears a weight would have to push, ``reason`` why an orbit is not converged or cannot be, in words."""
+that bears a weight would have to push, ``reason`` why an orbit is not converged or cannot be, in words, ``method`` how
+it was found, ``on_grid`` whether on a grid."""
 
 _TOLERANCE, _FINEST = 1e-6, 1e-9  # where none is given: at first, and the finest that a single point goes to
 _DIGITS = 5e-5  # of the mean speed: four digits of it are right
@@ -122,6 +126,8 @@ class OperatingPoint(Result, Value):
         Whether all these bounds meet the tolerance.
     reason : str
         Why not, in words, or that a weight's string goes slack, where the figures do not hold; empty if all is well.
+    method : str
+        How the orbit was found: ``"adaptive"`` steps, or a ``"grid"`` of equal ones (docs/rotor.md).
     inputs : Inputs
         Motor, drive, levels, encoder and tolerance that the figures hold for.
 
@@ -165,6 +171,7 @@ class OperatingPoint(Result, Value):
     stall_torque_error: ArrayLike
     converged: bool | np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
     reason: str | np.ndarray[tuple[int, ...], np.dtype[np.str_]]
+    method: str | np.ndarray[tuple[int, ...], np.dtype[np.str_]]
     inputs: Inputs = field(repr=False)
 
     def __repr__(self) -> str:
@@ -224,7 +231,7 @@ class OperatingPoint(Result, Value):
         coords = dict(zip(dims, labels.indices, strict=True)) if labels else {}
         units = self.units
         variables: dict[str, Any] = {}
-        for name in (*RESULTS, "reason"):
+        for name in (*RESULTS, *_WORDS):
             known = QUANTITIES.get(name) or ERRORS.get(name)
             attrs = {"units": units[name]} if name in units else {}
             variables[name] = (dims, getattr(self, name), {**attrs, "long_name": known.label if known else name})
@@ -272,10 +279,9 @@ def _plain(value: object) -> object:
     return value.tolist() if isinstance(value, np.ndarray) else value
 
 
+_WORDS = ("reason", "method")
 RESULTS = tuple(
-    field.name
-    for field in fields(OperatingPoint)
-    if field.name not in ("motor", "start", "contact", "reason", "inputs")
+    field.name for field in fields(OperatingPoint) if field.name not in ("motor", "start", "contact", *_WORDS, "inputs")
 )
 """The figures of an operating point that depend on its numbers, in order."""
 
@@ -286,6 +292,7 @@ def evaluate(
     *,
     sampling_period: ArrayLike | None = None,
     tolerance: float | None = None,
+    method: Method = "auto",
     progress: bool = False,
     **levels: Unpack[LevelChoice],
 ) -> OperatingPoint:
@@ -303,6 +310,9 @@ def evaluate(
         What the bounds of the errors of mean, extremes and deviation may be, relative to the largest speed, and those
         of contact and stall torque, relative to 1 and to the largest friction; from 1e-9 to 1e-2.  If not given it is
         1e-6, and a single point goes on until its mean speed has four digits or 1e-9 is reached.
+    method : {"auto", "adaptive", "grid"}, optional
+        How orbits are found: in adaptive steps; on a grid of equal steps, but for points where its bounds miss the
+        tolerance; or so from a tolerance of 1e-3 on, where that is faster.  ``method`` of the result says which it was.
     progress : bool
         Whether to show a bar on the standard error while many points are computed.
     contact, resonance, foundation, amplitude, compliance, tangential, coupling : str, optional
@@ -333,7 +343,7 @@ def evaluate(
     >>> f"{point.cycle_time * 1e3:.4f} ms, {point.units['mean_speed']}"
     '0.4760 ms, rad/s'
     """
-    return settle(motor, drive, Levels(**levels), tolerance, sampling_period, progress)[1]
+    return settle(motor, drive, Levels(**levels), tolerance, sampling_period, progress, method)[1]
 
 
 def settle(
@@ -343,15 +353,17 @@ def settle(
     tolerance: float | None,
     sampling_period: ArrayLike | None = None,
     progress: bool = False,
+    method: Method = "auto",
 ) -> tuple[Case, OperatingPoint]:
     """The case and the point of :func:`evaluate`, at the tolerance that it comes to if none is given."""
-    case = prepare(motor, drive, levels, _TOLERANCE if tolerance is None else tolerance, sampling_period)
+    rough = _TOLERANCE if tolerance is None else tolerance
+    case = prepare(motor, drive, levels, rough, sampling_period, method=method)
     point = point_of(case, progress)
     if tolerance is None and not case.shape:
         wanted, error = _DIGITS * abs(float(point.mean_speed)), float(point.mean_speed_error)
         if error > wanted:
             finer = max(_FINEST, 0.3 * _TOLERANCE * wanted / error)
-            case = prepare(motor, drive, levels, finer, sampling_period, warn=False)
+            case = prepare(motor, drive, levels, finer, sampling_period, warn=False, method=method)
             point = point_of(case)
     return case, point
 
@@ -370,6 +382,7 @@ class Case:
     arguments: dict[str, ArrayLike]
     sampling_period: ArrayLike | None
     tolerance: float
+    method: Method = "adaptive"
 
 
 def prepare(
@@ -380,6 +393,7 @@ def prepare(
     sampling_period: ArrayLike | None = None,
     *,
     warn: bool = True,
+    method: Method = "adaptive",
 ) -> Case:
     """Check the input of :func:`evaluate` and solve the stator.
 
@@ -397,6 +411,7 @@ def prepare(
         inputs["sampling_period"] = sampling_period
     shape = broadcast_shape(inputs)
     tolerance = one_number("tolerance", tolerance, "1", TOLERANCES)
+    choice("method", method, METHODS)
     check_steady_state(motor.damping_ratio.value, drive)
     if levels.tangential == "brush":
         check_drive(drive)
@@ -409,7 +424,7 @@ def prepare(
     arguments = orbit_values(scaled(values, stator.W), symbols, levels.contact, tolerance)
     if levels.tangential == "brush":
         arguments |= brush_values(symbols)
-    return Case(motor, drive, levels, shape, stator, values, symbols, arguments, sampling_period, tolerance)
+    return Case(motor, drive, levels, shape, stator, values, symbols, arguments, sampling_period, tolerance, method)
 
 
 def _check_sampled(drive: Drive, sampling_period: ArrayLike | None) -> None:
@@ -426,7 +441,7 @@ def _check_sampled(drive: Drive, sampling_period: ArrayLike | None) -> None:
 
 def point_of(case: Case, progress: bool = False) -> OperatingPoint:
     """All figures of a case from :func:`prepare`."""
-    found = results(case, (*RESULTS, "reason"), progress)
+    found = results(case, (*RESULTS, *_WORDS), progress)
     inputs = Inputs(case.motor, case.drive, case.levels, case.sampling_period, case.tolerance)
     return OperatingPoint(
         motor=case.motor.name, start=case.drive.start, contact=case.levels.contact, **found, inputs=inputs
@@ -440,9 +455,9 @@ def results(case: Case, wanted: Collection[str], progress: bool = False) -> dict
     ----------
     case : Case
         From :func:`prepare`.
-    wanted : names of :data:`RESULTS`, ``"runaway"``, ``"slack"`` or ``"reason"``
-        The last three say where no speed balances the load, where a weight's string goes slack, and why an orbit is
-        not converged or cannot be.
+    wanted : names of :data:`RESULTS`, ``"runaway"``, ``"slack"``, ``"reason"``, ``"method"`` or ``"on_grid"``
+        The last five say where no speed balances the load, where a weight's string goes slack, why an orbit is
+        not converged or cannot be, how it was found, and whether on a grid.
     progress : bool
         As for :func:`evaluate`.
     """
@@ -467,10 +482,11 @@ def results(case: Case, wanted: Collection[str], progress: bool = False) -> dict
 
 
 def _of_orbit(case: Case, cycle_time: ArrayLike, wanted: Collection[str], progress: bool) -> dict[str, ArrayLike]:
-    orbit = solve_orbit(case.arguments, case.symbols, progress)
-    further = {"speed_volatility", "speed_volatility_error", "slack", "reason"}
+    orbit = solve_orbit(case.arguments, case.symbols, progress, case.method)
+    further = {"speed_volatility", "speed_volatility_error", "slack", "reason", "method"}
     found = {name: getattr(orbit, name) for name in OF_ORBIT - further}
     found["slack"], found["reason"] = np.zeros(orbit.converged.shape, bool), reasons(orbit.raw)
+    found["method"] = np.where(orbit.on_grid, "grid", "adaptive")
     if case.drive.load == "weight" and not {"slack", "reason"}.isdisjoint(wanted):
         found["slack"] = least_tension(case.arguments, case.symbols, orbit) < 0
         found["reason"] = np.where(found["slack"] & (found["reason"] == ""), SLACK, found["reason"])

@@ -11,6 +11,7 @@ from trum_sym.inputs.checks import Array, ArrayLike
 from trum_sym.model.batch import call_in_blocks
 from trum_sym.model.brush import solve_brush
 from trum_sym.model.kernels import ORBIT_FLAGS, call, expect, signature
+from trum_sym.model.levels import Method
 
 __all__ = [
     "RUNAWAY",
@@ -18,6 +19,7 @@ __all__ = [
     "as_orbit",
     "encoder_deviation",
     "encoder_readings",
+    "grid_is_tried",
     "history",
     "lap_from",
     "orbit_values",
@@ -27,6 +29,7 @@ __all__ = [
     "weight_inertia",
 ]
 
+_GRID_WINS = 1e-3  # the tolerance from which on a grid is faster
 _FLAG = {name: 1 << bit for bit, name in enumerate(ORBIT_FLAGS)}
 # What the driver takes and gives, by the names that this module uses
 _INPUTS = (
@@ -83,6 +86,7 @@ _MISSED = "the bounds of the errors miss the tolerance"
 _OF_HISTORY = ("low", "high", "start", "level")
 expect("an orbit's inputs", _INPUTS, signature("rotor_orbit")[0])
 expect("an orbit's outputs", _OUTPUTS, signature("rotor_orbit")[1])
+expect("an orbit's outputs on a grid", _OUTPUTS, signature("rotor_grid")[1])
 expect("an orbit's flags", ("converged", "full_contact", "autonomous", *_REASONS), ORBIT_FLAGS)
 expect("a history's inputs", (*_INPUTS, *_OF_HISTORY, "times"), signature("rotor_history")[0])
 
@@ -93,7 +97,8 @@ class Orbit:
 
     Speeds of the rotor in rad/s; ``stall_torque`` in N m is what holds the rotor still on average;
     ``contact_fraction`` is the mean of theta/pi.  Where no speed balances the load, speeds are NaN.  The errors are
-    bounds (:mod:`derivations.error_bound`), ``deviation_error`` that of the root of ``variance``.
+    bounds (:mod:`derivations.error_bound`), ``deviation_error`` that of the root of ``variance``; ``on_grid`` is where
+    they are those of a grid of equal steps (:mod:`derivations.fixed_grid`).
     """
 
     mean_speed: Array
@@ -110,6 +115,7 @@ class Orbit:
     converged: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
     full_contact: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
     runaway: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
+    on_grid: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
     raw: Mapping[str, Array]
 
 
@@ -152,7 +158,17 @@ def weight_inertia(stator: Mapping[str, ArrayLike]) -> Array:
     return found
 
 
-def solve_orbit(values: Mapping[str, ArrayLike], stator: Mapping[str, ArrayLike], progress: bool = False) -> Orbit:
+def grid_is_tried(method: Method, tolerance: float) -> bool:
+    """Whether a method tries a grid of equal steps at a tolerance."""
+    return method == "grid" or (method == "auto" and tolerance >= _GRID_WINS)
+
+
+def solve_orbit(
+    values: Mapping[str, ArrayLike],
+    stator: Mapping[str, ArrayLike],
+    progress: bool = False,
+    method: Method = "adaptive",
+) -> Orbit:
     """The periodic orbit of every point.
 
     Parameters
@@ -163,9 +179,15 @@ def solve_orbit(values: Mapping[str, ArrayLike], stator: Mapping[str, ArrayLike]
         As there; the contact radius turns rim speeds into rotor speeds.
     progress : bool
         Whether to show a bar on the standard error while many points are computed.
+    method : {"auto", "adaptive", "grid"}
+        How; a brush has no choice.
     """
+    label = "orbits" if progress else None
     if "grip" not in values:
-        return as_orbit(call_in_blocks("rotor_orbit", values, "orbits" if progress else None), stator)
+        if method == "adaptive":
+            return as_orbit(call_in_blocks("rotor_orbit", values, label), stator)
+        tried = [grid_is_tried(method, tolerance) for tolerance in np.ravel(np.asarray(values["tolerance"]))]
+        return _orbit_on_grid(values, stator, label, np.reshape(tried, np.shape(values["tolerance"])))
     raw = solve_brush(values)
     runaway = raw.pop("runaway") > 0
     converged = ~runaway & (raw["error"] <= np.asarray(values["tolerance"]))
@@ -173,8 +195,37 @@ def solve_orbit(values: Mapping[str, ArrayLike], stator: Mapping[str, ArrayLike]
     return as_orbit(raw, stator)
 
 
-def as_orbit(raw: Mapping[str, Array], stator: Mapping[str, ArrayLike]) -> Orbit:
-    """The rotor's figures from those of its rim, as the driver gives them."""
+def _orbit_on_grid(
+    values: Mapping[str, ArrayLike],
+    stator: Mapping[str, ArrayLike],
+    label: str | None,
+    tried: np.ndarray[tuple[int, ...], np.dtype[np.bool_]],
+) -> Orbit:
+    """The orbits on a grid where it is tried, the others and those that it leaves by adaptive steps."""
+    columns = dict(zip(_INPUTS, np.broadcast_arrays(*(values[name] for name in _INPUTS)), strict=True))
+    shape = columns["tolerance"].shape
+    flat = {name: column.ravel() for name, column in columns.items()}
+    raw = {name: np.full(flat["tolerance"].size, np.nan) for name in _OUTPUTS}
+    on_grid = np.broadcast_to(tried, shape).flatten()  # a copy
+    if on_grid.any():
+        found = call_in_blocks("rotor_grid", {name: column[on_grid] for name, column in flat.items()}, label)
+        met = (found["flags"].astype(int) & _FLAG["converged"]) > 0
+        on_grid[on_grid] = met
+        for name, of_grid in found.items():
+            raw[name][on_grid] = of_grid[met]
+    if not on_grid.all():
+        rest = call_in_blocks("rotor_orbit", {name: column[~on_grid] for name, column in flat.items()}, label)
+        for name, adaptive in rest.items():
+            raw[name][~on_grid] = adaptive
+    return as_orbit({name: value.reshape(shape) for name, value in raw.items()}, stator, on_grid.reshape(shape))
+
+
+def as_orbit(
+    raw: Mapping[str, Array],
+    stator: Mapping[str, ArrayLike],
+    on_grid: np.ndarray[tuple[int, ...], np.dtype[np.bool_]] | None = None,
+) -> Orbit:
+    """The rotor's figures from those of its rim, as the driver gives them; none is on a grid if that is not given."""
     radius = np.asarray(stator["r_c"])
     flags = raw["flags"].astype(int)
     stall, stall_error = (
@@ -195,6 +246,7 @@ def as_orbit(raw: Mapping[str, Array], stator: Mapping[str, ArrayLike]) -> Orbit
         converged=(flags & _FLAG["converged"]) > 0,
         full_contact=(flags & _FLAG["full_contact"]) > 0,
         runaway=(flags & _FLAG["runaway"]) > 0,
+        on_grid=np.zeros(flags.shape, np.bool_) if on_grid is None else on_grid,
         raw=raw,
     )
 

@@ -20,12 +20,13 @@ from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import SPECS, Motor
 from trum_sym.inputs.points import check_point, one_number, period_of
 from trum_sym.model.cycle import lack_of_damping
-from trum_sym.model.levels import Levels
+from trum_sym.model.levels import METHODS, Levels, Method
 from trum_sym.model.operating_point import OF_ORBIT, TOLERANCES
+from trum_sym.model.rotor import grid_is_tried
 from trum_sym.model.stator import warn_outside_fit
 from trum_sym.quantities import ERRORS, QUANTITIES
 from trum_sym.sweeps.grid import PARAMETERS, Grid, chunk_shape, read_ranges
-from trum_sym.sweeps.task import STATUS, Settings, Task, identity, sort_out
+from trum_sym.sweeps.task import FLAGS, STATUS, Settings, Task, identity, sort_out
 from trum_sym.text import one_line, plain
 
 __all__ = ["Plan", "make_plan"]
@@ -63,7 +64,7 @@ class Plan:
     @property
     def size_bytes(self) -> int:
         """Of the result, uncompressed."""
-        return self.grid.size * (1 + sum(1 if name == "converged" else 8 for name in self.settings.outputs))
+        return self.grid.size * (1 + sum(1 if name in FLAGS else 8 for name in self.settings.outputs))
 
     def with_chunk(self, chunk: tuple[int, ...]) -> Plan:
         """The same in other chunks."""
@@ -92,8 +93,8 @@ class Plan:
                 "flag_values": values,
                 "flag_meanings": " ".join((*STATUS, "not_computed")),
             }
-        if name == "converged":
-            return {"long_name": "whether the bounds of the errors meet the tolerance"}
+        if name in FLAGS:
+            return {"long_name": FLAGS[name]}
         if any(name in axis.values for axis in self.grid.axes):
             return {"units": PARAMETERS[name][1], "long_name": name.replace("_", " ")}
         quantity = QUANTITIES[name] if name in QUANTITIES else ERRORS[name]
@@ -118,6 +119,7 @@ class Plan:
             "compliance": levels.compliance,
             "tangential": levels.tangential,
             "tolerance": settings.tolerance,
+            "method": settings.method,
             "outputs": " ".join(settings.outputs),
         }
         for name, parameter in motor.parameters():
@@ -138,6 +140,7 @@ def make_plan(
     outputs: Sequence[str] | None,
     chunk: float | None,
     ranges: Mapping[str, object],
+    method: Method = "auto",
 ) -> Plan:
     """Check everything that a sweep is given, and divide it.
 
@@ -159,7 +162,9 @@ def make_plan(
     for name, value in given.items() if period is None else [*given.items(), ("sampling_period", period)]:
         if np.ndim(value) and name not in swept:
             raise ParameterError(name, f"an array of shape {np.shape(value)}", f"one number, or {name}=... as a range")
-    settings = Settings(machine, numbers, drive.words(), levels, period, tolerance, _outputs(outputs, swept))
+    choice("method", method, METHODS)
+    figures = _outputs(outputs, swept, on_grid=grid_is_tried(method, tolerance))
+    settings = Settings(machine, numbers, drive.words(), levels, period, tolerance, figures, method)
     for axis in grid.axes:
         if axis.name in (*settings.outputs, "status"):
             raise ParameterError(f"dimension {axis.name}", axis.name, "a name that is not that of a figure")
@@ -170,8 +175,9 @@ def make_plan(
     return plan
 
 
-def _outputs(given: Sequence[str] | None, swept: set[str]) -> tuple[str, ...]:
-    known = [name for name in (*QUANTITIES, *ERRORS, "converged") if name not in swept]
+def _outputs(given: Sequence[str] | None, swept: set[str], *, on_grid: bool) -> tuple[str, ...]:
+    flags = [name for name in FLAGS if on_grid or name != "on_grid"]
+    known = [name for name in (*QUANTITIES, *ERRORS, *flags) if name not in swept]
     if given is None:
         return tuple(known)
     given = words("outputs", given, f"a list of figures: {', '.join(known)}")

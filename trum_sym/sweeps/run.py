@@ -22,7 +22,7 @@ from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
 from trum_sym.inputs.motor_file import load_motor
 from trum_sym.inputs.points import period_of
-from trum_sym.model.levels import LEVEL_NAMES, Levels
+from trum_sym.model.levels import LEVEL_NAMES, Levels, Method
 from trum_sym.output.progress import Progress
 from trum_sym.sweeps.engine import Cluster, Here, Pool, compute_all
 from trum_sym.sweeps.plan import Plan, make_plan
@@ -88,14 +88,16 @@ def sweep(
     progress: bool = False,
     sampling_period: ArrayLike | None = None,
     tolerance: float = 1e-6,
+    method: Method = "auto",
     **ranges: object,
 ) -> xr.Dataset:
     """Operating points on a grid of parameters.
 
     Parameters
     ----------
-    motor, drive, tolerance
-        As for :func:`trum_sym.evaluate`, single numbers.
+    motor, drive, tolerance, method
+        As for :func:`trum_sym.evaluate`, single numbers.  Where a grid of equal steps may be used, ``on_grid`` is among
+        the outputs.
     outputs : names of figures, optional
         All of them if not given; what none of them needs is not computed.
     out : path, optional
@@ -150,7 +152,15 @@ def sweep(
     target = None if out is None else path_of("out", out)
     check_out("out", target)
     plan = make_plan(
-        load_motor() if motor is None else motor, drive, levels, sampling_period, tolerance, outputs, chunk, ranges
+        load_motor() if motor is None else motor,
+        drive,
+        levels,
+        sampling_period,
+        tolerance,
+        outputs,
+        chunk,
+        ranges,
+        method,
     )
     return run("out", plan, target, scheduler, chunk is not None, sys.stderr if progress else None)[0]
 

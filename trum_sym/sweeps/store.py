@@ -22,6 +22,7 @@ from zarr.storage import LocalStore
 
 from trum_sym.errors import ParameterError
 from trum_sym.sweeps.plan import Plan
+from trum_sym.sweeps.task import FLAGS
 
 __all__ = ["Store", "open_store"]
 
@@ -118,7 +119,7 @@ def open_store(name: str, root: Path | None, plan: Plan, chunk_given: bool) -> I
 
 def _kind(name: str) -> tuple[type[np.generic], Any]:
     """Type of a figure, and what stands where it is missing."""
-    return {"status": (np.uint8, _ABSENT), "converged": (np.bool_, False)}.get(name, (np.float64, np.nan))
+    return {"status": (np.uint8, _ABSENT), **dict.fromkeys(FLAGS, (np.bool_, False))}.get(name, (np.float64, np.nan))
 
 
 def _in_memory(plan: Plan) -> Store:

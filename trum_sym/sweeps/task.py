@@ -22,13 +22,20 @@ from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import SPECS, Motor
 from trum_sym.inputs.plausible import unquestioned
 from trum_sym.model.batch import StoppedError, one_thread
-from trum_sym.model.levels import Levels
+from trum_sym.model.levels import Levels, Method
 from trum_sym.model.operating_point import OF_ORBIT, Case, prepare, results
 
-__all__ = ["STATUS", "STORE", "Found", "Settings", "Task", "compute", "identity", "sort_out"]
+__all__ = ["FLAGS", "STATUS", "STORE", "Found", "Settings", "Task", "compute", "identity", "sort_out"]
 
 STATUS = ("done", "no_steady_speed", "not_converged", "refused", "slack_string")
 """What ``status`` 0 to 4 mean: refused is a combination that :func:`trum_sym.evaluate` refuses."""
+FLAGS = MappingProxyType(
+    {
+        "converged": "whether the bounds of the errors meet the tolerance",
+        "on_grid": "whether the orbit was found on a grid of equal steps",
+    }
+)
+"""The outputs that are true or false, and what they say."""
 STORE = "1"
 """The layout of a sweep's store: which arrays and attributes it has, and what they mean."""
 _DONE, _RUNAWAY, _UNCONVERGED, _REFUSED, _SLACK = range(5)
@@ -68,6 +75,7 @@ class Settings:
     sampling_period: ArrayLike | None
     tolerance: float
     outputs: tuple[str, ...]
+    method: Method = "auto"
 
     def case(self, values: Mapping[str, Array]) -> Case:
         """Check points and solve their stators; the values broadcast.
@@ -83,7 +91,7 @@ class Settings:
             motor = self.motor.with_values(of_motor) if of_motor else self.motor
         drive = Drive(**of_drive, **self.words)  # type: ignore[arg-type]
         period = values.get("sampling_period", self.sampling_period)
-        return prepare(motor, drive, self.levels, self.tolerance, period, warn=False)
+        return prepare(motor, drive, self.levels, self.tolerance, period, warn=False, method=self.method)
 
 
 @dataclass(frozen=True)
@@ -155,7 +163,7 @@ def _evaluate(settings: Settings, case: Case, shape: tuple[int, ...]) -> dict[st
 
 def _blank(outputs: tuple[str, ...], shape: tuple[int, ...]) -> dict[str, npt.NDArray[Any]]:
     figures: dict[str, npt.NDArray[Any]] = {
-        name: np.zeros(shape, np.bool_) if name == "converged" else np.full(shape, np.nan) for name in outputs
+        name: np.zeros(shape, np.bool_) if name in FLAGS else np.full(shape, np.nan) for name in outputs
     }
     return {**figures, "status": np.full(shape, _REFUSED, np.uint8)}
 

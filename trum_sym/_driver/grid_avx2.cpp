@@ -1,0 +1,3 @@
+#define LANES 4
+#define GRID grid_avx2
+#include "grid.inc"

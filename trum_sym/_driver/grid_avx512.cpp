@@ -1,0 +1,3 @@
+#define LANES 8
+#define GRID grid_avx512
+#include "grid.inc"

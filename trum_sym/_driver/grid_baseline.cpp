@@ -1,0 +1,3 @@
+#define LANES 2
+#define GRID grid_baseline
+#include "grid.inc"
