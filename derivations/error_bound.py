@@ -21,6 +21,7 @@ __all__ = [
     "comparison",
     "contact_edge",
     "deviation",
+    "excess",
     "kronrod",
     "monotone_weight",
     "pressure",
@@ -77,7 +78,7 @@ def saturation() -> sp.Expr:
     return push * (1 - sp.Abs(f))
 
 
-def surface() -> sp.Expr:
+def excess() -> sp.Expr:
     """A rotor is ahead of the surface's largest speed R_v by no more than at a step's start, or than R_v gets away.
 
     Past R_v friction is saturated against the motion, so the excess X = |v| - R_v changes at
@@ -86,7 +87,9 @@ def surface() -> sp.Expr:
     one u is at most R_v + X + |u|: where R_v passes zero this is small however steep friction is there.
     """
     push, drag = sp.Symbol("push", positive=True), sp.Symbol("drag", real=True)
-    away, size, gap = sp.symbols("away size gap", nonnegative=True)  # max |R_v'|, |drag|, by how much R_v' is above -away
+    away, size, gap = sp.symbols(
+        "away size gap", nonnegative=True
+    )  # max |R_v'|, |drag|, by how much R_v' is above -away
     forward, backward = -push - drag, -(push - drag)  # d|v|/dt at f = -1 for v > R_v, at f = 1 for v < -R_v
     for slowed, name in ((forward, "v > R_v"), (backward, "v < -R_v")):
         for sign in (1, -1):
@@ -295,7 +298,7 @@ class Theorem:
 THEOREMS = (
     Theorem("comparison", "friction does not rise with the rotor's speed", comparison),
     Theorem("saturation", "friction is at most mu times the pressure", saturation),
-    Theorem("surface", "friction is saturated past the surface's speed", surface),
+    Theorem("excess", "friction is saturated past the surface's speed", excess),
     Theorem("monotone weight", "comparison", monotone_weight),
     Theorem("kronrod", "nothing", kronrod),
     Theorem("start speed", "comparison", start_speed),

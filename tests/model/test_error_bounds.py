@@ -100,7 +100,7 @@ def standing_start(force, friction, share, **settings):
 
 
 def test_a_light_rotor_that_stops_with_the_surface_knows_its_slowest_speed(trum60):
-    """Where the surface stops friction is infinitely steep: what the rotor is off by is bounded by the surface's speed."""
+    """Where the surface stops friction is infinitely steep: the surface's speed bounds what the rotor is off by."""
     friction = 0.2538525993645326
     motor = trum60.with_values({"rotor_inertia": 5.078087519521343e-09, "friction_coefficient": friction})
     drive = standing_start(
