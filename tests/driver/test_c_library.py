@@ -104,6 +104,7 @@ def python(arguments, tolerance):
         point = ts.evaluate(
             ts.load_motor().with_values(motor), ts.Drive(**drive), tolerance=tolerance, **levels
         ).figures
+    point.pop("method")  # in C steps are always adaptive
     return {k: None if isinstance(v, float) and not np.isfinite(v) else v for k, v in point.items()}
 
 

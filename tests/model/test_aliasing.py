@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 import pytest
 
@@ -80,7 +82,14 @@ def of_points(trum60, monkeypatch):
     return of
 
 
-@pytest.mark.parametrize(("name", "compute"), [("rotor_orbit", ts.evaluate), ("rotor_slopes", ts.sensitivities)])
+@pytest.mark.parametrize(
+    ("name", "compute"),
+    [
+        ("rotor_orbit", partial(ts.evaluate, method="adaptive")),
+        ("rotor_grid", partial(ts.evaluate, method="grid")),
+        ("rotor_slopes", ts.sensitivities),
+    ],
+)
 def test_an_orbit_may_take_the_place_of_what_it_is_found_from(of_points, name, compute):
     ufunc, values = getattr(_kernels, name), of_points(name, compute)
     with np.errstate(all="ignore"):

@@ -7,8 +7,7 @@ from dataclasses import asdict, replace
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
-from scipy.optimize import brentq
+from lazily import lazily
 
 import trum_sym as ts
 from trum_sym.console import main
@@ -16,6 +15,8 @@ from trum_sym.inputs.motor import COUPLED
 from trum_sym.model.coupling import coupled_values, plain_waves
 from trum_sym.model.levels import Levels
 from trum_sym.model.port import drawn, free_admittance, port_of
+
+integrate, optimize = lazily("scipy.integrate"), lazily("scipy.optimize")
 
 MOTOR = ts.load_motor()
 PLAIN = ts.Drive(on_periods=20, frequency_difference=500.0, load_torque=0.3)
@@ -56,7 +57,9 @@ def test_series_and_parallel_resonance_and_coupling_factor_are_the_circuits(valu
         branch = omega * port.inductance - 1 / (omega * port.motional_capacitance)
         return omega * port.capacitance - 1 / branch
 
-    assert port.open_resonance == pytest.approx(brentq(lossless, port.resonance + 100, port.resonance + 3000), rel=1e-9)
+    assert port.open_resonance == pytest.approx(
+        optimize.brentq(lossless, port.resonance + 100, port.resonance + 3000), rel=1e-9
+    )
     share = port.motional_capacitance / (port.motional_capacitance + port.capacitance)
     assert port.coupling_factor == pytest.approx(np.sqrt(share), rel=1e-12)
 
@@ -94,7 +97,7 @@ def test_a_motion_in_time_draws_the_conductance_and_susceptance(values):
     # steady motion from the mode's complex stiffness, then one period in time
     w = port.force_factor * size / (stiffness - mass * omega**2 + 1j * damping * omega)
     start = [w.real, (1j * omega * w).real, 0.0, 0.0]
-    moved = solve_ivp(rate, (0.0, TURN / omega), start, rtol=1e-10, atol=1e-14, method="DOP853").y[:, -1]
+    moved = integrate.solve_ivp(rate, (0.0, TURN / omega), start, rtol=1e-10, atol=1e-14, method="DOP853").y[:, -1]
     assert moved[:2] == pytest.approx(start[:2], rel=1e-6)
     conductance, susceptance = free_admittance(values, np.array([omega / TURN]))
     mean = moved[2:] * omega / TURN / (size**2 / 2)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Unpack
 import numpy as np
 
 from trum_sym.errors import MissingExtraError, ParameterError
-from trum_sym.inputs.checks import Array, ArrayLike
+from trum_sym.inputs.checks import Array, ArrayLike, number
 from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
@@ -167,14 +167,12 @@ def _axis(frequencies: ArrayLike | None, points: float, port: Port) -> Array:
     if frequencies is None:
         return frequencies_of(max(port.resonance - _BEYOND, 1.0), port.open_resonance + _BEYOND, points)
     one_number("points", points, "1", _POINTS)
-    axis = np.atleast_1d(np.asarray(frequencies))
-    if axis.ndim != 1 or not axis.size:
+    axis = np.atleast_1d(np.array(number("frequencies", frequencies, _HERTZ, "Hz")))
+    if axis.ndim != 1:
         raise ParameterError("frequencies", f"an array of shape {axis.shape}", "a row of numbers")
-    if axis.dtype.kind not in "fiu" or not np.isfinite(axis).all() or axis.min() <= 0 or axis.max() >= _HERTZ.high:
-        raise ParameterError("frequencies", plain(str(frequencies)), _HERTZ.describe("Hz"))
     if np.any(np.diff(axis) <= 0):
         raise ParameterError("frequencies", plain(str(frequencies)), "numbers that rise")
-    return axis.astype(float)
+    return axis
 
 
 def _free(values: dict[str, ArrayLike], axis: Array) -> dict[str, Array]:
