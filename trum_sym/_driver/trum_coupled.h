@@ -24,7 +24,7 @@ enum { trum_coupled_sums = 4 };
 
 static const trum_real trum_coupled_aside = 1e-6;    /* of a size, to a state beside */
 static const trum_real trum_coupled_shortest = 1e-6; /* step, of a drive period */
-static const long trum_coupled_most = 200000;        /* steps in a drive period */
+static const long trum_coupled_most = 2000000;       /* steps in a drive period, those that are tried */
 
 typedef struct {
   real y[trum_coupled_size];
@@ -267,14 +267,14 @@ static int trum_coupled_period(trum_coupled_point* p, trum_coupled_step* s, trum
     out->evaluations += trum_coupled_last;
     change = TRUM_C(0.9) * trum_pow(error + TRUM_C(1e-6), TRUM_C(-0.2));
     if (!(error <= 1) && s->h > shortest) {
-      *h = s->h * (change > TRUM_C(0.2) ? change : TRUM_C(0.2));
+      *h = trum_fmax(s->h * (change > TRUM_C(0.2) ? change : TRUM_C(0.2)), shortest);
       continue;
     }
     if (!(error < TRUM_HUGE)) return 0;
     trum_coupled_pass(p, s, wave, out);
     trum_coupled_count(p, s, sums);
     if (last) break;
-    *h = s->h * trum_fmin(change, 5);
+    *h = trum_fmax(s->h * trum_fmin(change, 5), shortest);
     wave = trum_coupled_wave_end(s), wave.at = 0;
     s->tau += s->h;
     for (g = 0; g < p->groups; ++g) {
