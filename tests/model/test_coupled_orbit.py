@@ -222,6 +222,15 @@ def test_a_sweep_goes_on_from_the_orbit_before(motor):
     assert abs(second.mean_speed - other.mean_speed) < second.mean_speed_error + other.mean_speed_error
 
 
+def test_an_orbit_that_rounding_alone_keeps_from_closing_is_closed(motor):
+    """A rotor that does not turn meets no tolerance of its speed, and steps become as fine as they may."""
+    drive = ts.Drive(prepressure=180.0, frequency_difference=-273.6710819647439)
+    orbit = one_phase(motor, drive, Levels(compliance="flange"), rotor_mass=0.02, tolerance=1e-4)
+    assert orbit.closed
+    assert orbit.stable
+    assert orbit.missed < 1e-8
+
+
 @pytest.mark.filterwarnings("ignore::trum_sym.ValidityWarning")
 def test_one_phase_without_prepressure_has_the_free_amplitude(motor):
     drive = ts.Drive(prepressure=1e-3, frequency_difference=0.0)

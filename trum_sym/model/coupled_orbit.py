@@ -52,6 +52,7 @@ _APART = 1e-3  # of a state's size, between states that are not the same
 _ROUGH = (3e-4, 1e-6)  # of a state's size, that a time step may be off while laps settle: at first, and if they do not
 _COARSE = 3e-5  # for Newton at first
 _FIRST = 1e-6  # at the first level of an orbit
+_TIGHT = 1e-8  # of a state's size, by which a lap may miss its start however fine its steps: rounding
 _LOOSE = 0.02  # of a state's size, by which a lap may miss its start where time steps are coarse
 _ENOUGH = 300.0  # of what a time step may be off, by which Newton would move an orbit that is left as it is
 _CLOSED = 3000.0  # of what a time step may be off, by which a lap may miss its start: its own error is about a hundred
@@ -319,7 +320,7 @@ class _System:
 
     def closed(self, lap: _Lap, allowed: float) -> bool:
         """Whether laps end where they began, as nearly as time steps tell."""
-        return lap.missed < min(_CLOSED * allowed, _LOOSE)
+        return lap.missed < min(max(_CLOSED * allowed, _TIGHT), _LOOSE)
 
     def attracts(self, lap: _Lap, allowed: float) -> bool:
         """Whether laps close, as nearly as time steps tell, where Newton leaves them, and disturbances die out."""
