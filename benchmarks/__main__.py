@@ -6,12 +6,13 @@ import argparse
 import json
 import platform
 from dataclasses import asdict
+from importlib import import_module
 
 import trum_sym as ts  # noqa: F401
 from benchmarks.rows import Row, cpu_name, table
 from trum_sym import _kernels
 
-SECTIONS = ("step", "peers", "point", "map", "sweep", "start", "optimise")
+SECTIONS = ("step", "peers", "point", "map", "sweep", "start", "optimise", "coupled")
 
 
 def main() -> None:
@@ -26,35 +27,21 @@ def main() -> None:
     parser.add_argument("--problems", type=int, default=20, help="that the optimisers solve (default 20)")
     chosen = parser.parse_args()
     repeats = 2 if chosen.quick else max(1, chosen.repeats)
+    quick, once = chosen.quick, 1 if chosen.quick else 0
+    modules = {
+        "step": ("step", (repeats,)),
+        "peers": ("orbits", (repeats, 64 if quick else 512)),
+        "point": ("points", (repeats, 32 if quick else 512, 4 if quick else chosen.cycles)),
+        "map": ("maps", (once or min(repeats, 5), 400 if quick else chosen.points)),
+        "sweep": ("sweep", (once or min(repeats, 3), 2000 if quick else chosen.points)),
+        "start": ("cold_start", (repeats,)),
+        "optimise": ("optimise", (2 if quick else chosen.problems,)),
+        "coupled": ("coupled", (repeats,)),
+    }
     rows: list[Row] = []
-    if "step" in chosen.only:
-        from benchmarks import step
-
-        rows += step.rows(repeats)
-    if "peers" in chosen.only:
-        from benchmarks import orbits
-
-        rows += orbits.rows(repeats, 64 if chosen.quick else 512)
-    if "point" in chosen.only:
-        from benchmarks import points
-
-        rows += points.rows(repeats, 32 if chosen.quick else 512, 4 if chosen.quick else chosen.cycles)
-    if "map" in chosen.only:
-        from benchmarks import maps
-
-        rows += maps.rows(1 if chosen.quick else min(repeats, 5), 400 if chosen.quick else chosen.points)
-    if "sweep" in chosen.only:
-        from benchmarks import sweep
-
-        rows += sweep.rows(1 if chosen.quick else min(repeats, 3), 2000 if chosen.quick else chosen.points)
-    if "start" in chosen.only:
-        from benchmarks import cold_start
-
-        rows += cold_start.rows(repeats)
-    if "optimise" in chosen.only:
-        from benchmarks import optimise
-
-        rows += optimise.rows(2 if chosen.quick else chosen.problems)
+    for section, (module, how) in modules.items():
+        if section in chosen.only:
+            rows += import_module(f"benchmarks.{module}").rows(*how)
     machine = {
         "cpu": cpu_name(),
         "instruction_sets": list(_kernels.instruction_sets()),

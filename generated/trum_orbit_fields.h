@@ -81,7 +81,8 @@
   X(held, "m") \
   X(mass, "kg") \
   X(reaction, "1") \
-  X(steps, "1")
+  X(size, "m") \
+  X(tolerance, "1")
 
 /* what it comes to */
 #define TRUM_COUPLED_LAP_OUT(X) \
@@ -94,11 +95,13 @@
   X(v, "m/s") \
   X(mean, "m/s") \
   X(square, "m^2/s^2") \
+  X(variance, "m^2/s^2") \
   X(low, "m/s") \
   X(high, "m/s") \
   X(input, "kg*m^2/s^3") \
   X(touching, "1") \
-  X(highest, "m")
+  X(highest, "m") \
+  X(evaluations, "1")
 
 /* what the determinant's sums over a cycle need */
 #define TRUM_CYCLE_SUMS_IN(X) \
@@ -276,7 +279,8 @@ typedef struct {
   trum_real held; /* m: height of a wave that friction holds still, 0 if none */
   trum_real mass; /* kg: of the rotor that goes up and down; 0: it follows the wave */
   trum_real reaction; /* 1: share of the contact's forces that acts on the phases, 1 or 0 */
-  trum_real steps; /* 1: time steps in a drive period */
+  trum_real size; /* m: height of a wave, by which and by the speeds that go with it errors are measured */
+  trum_real tolerance; /* 1: of a time step, relative to those sizes */
 } trum_coupled_lap_in;
 
 /* what it comes to */
@@ -290,11 +294,13 @@ typedef struct {
   trum_real v; /* m/s: speed of the rotor's rim, omega r_c */
   trum_real mean; /* m/s: mean speed of the rim */
   trum_real square; /* m^2/s^2: mean of its square */
-  trum_real low; /* m/s: the lowest at the steps' ends */
-  trum_real high; /* m/s: the highest */
+  trum_real variance; /* m^2/s^2: mean of the square of its difference from the mean */
+  trum_real low; /* m/s: its lowest */
+  trum_real high; /* m/s: its highest */
   trum_real input; /* kg*m^2/s^3: mean power of the modal forces */
   trum_real touching; /* 1: mean of theta/pi */
-  trum_real highest; /* m: the highest wave at the steps' ends */
+  trum_real highest; /* m: the highest wave */
+  trum_real evaluations; /* 1: of the rates */
 } trum_coupled_lap_out;
 
 /* what the determinant's sums over a cycle need */

@@ -54,41 +54,6 @@ typedef struct {
   trum_real delay, span;
 } trum_turns;
 
-/* geometry and contact of a coupled point */
-typedef struct {
-  trum_real D, F_c, k_N, k_c, mu, n_j;
-} trum_coupled_place;
-
-/* both phases, the rotor's height, its rim's speed */
-typedef struct {
-  trum_real w_A, w_B, v_A, v_B, height, v;
-} trum_coupled_state;
-
-/* wave, surface speed and contact at an instant */
-typedef struct {
-  trum_real W_c, sin_crest, cos_crest, R_v, phi, cos_phi, sin_phi, theta, sin_theta, cos_theta, engagement, share;
-} trum_coupled_surface;
-
-/* what the contact does to rotor and phases */
-typedef struct {
-  trum_real F_z, F_x, Q_A, Q_B;
-} trum_coupled_acting;
-
-/* a contact that carries the prepressure */
-typedef struct {
-  trum_real engagement_per_height, W_c, engagement, fullness, fullness_root, theta, sin_theta, share;
-} trum_carried;
-
-/* a phase's own frequency and damping */
-typedef struct {
-  trum_real omega_n0, xi;
-} trum_mode;
-
-/* displacement and velocity after a time, of each */
-typedef struct {
-  trum_real w_w, w_v, v_w, v_v;
-} trum_flow;
-
 /* Load balance of the Winkler layer and its slope (eq. 31) */
 static inline void trum_plain_winkler_balance(const trum_balance* balance, trum_balance_values* values, trum_real theta)
     {
@@ -160,55 +125,6 @@ static inline void trum_plain_brush_turns(const trum_bristle* bristle, trum_turn
   const trum_real* arg[trum_brush_turns_n_arg] = {&bristle->grip, &bristle->ratio};
   trum_real* res[trum_brush_turns_n_res] = {&turns->delay, &turns->span};
   (void)trum_brush_turns(arg, res, 0, 0, 0);
-}
-
-/* The layer's force at full wave over the prepressure, per height of the wave */
-static inline void trum_plain_engagement(const trum_coupled_place* place, trum_carried* carried) {
-  const trum_real* arg[trum_engagement_n_arg] = {&place->F_c, &place->k_N, &place->k_c, &place->n_j};
-  trum_real* res[trum_engagement_n_res] = {&carried->engagement_per_height};
-  (void)trum_engagement(arg, res, 0, 0, 0);
-}
-
-/* How far the layer is engaged (eq. 31) */
-static inline void trum_plain_filling(trum_carried* carried) {
-  const trum_real* arg[trum_filling_n_arg] = {&carried->W_c, &carried->engagement_per_height};
-  trum_real* res[trum_filling_n_res] = {&carried->engagement, &carried->fullness};
-  (void)trum_filling(arg, res, 0, 0, 0);
-}
-
-/* Contact of the Winkler layer (eqs. 30, 31) */
-static inline void trum_plain_contact_winkler(trum_carried* carried) {
-  const trum_real* arg[trum_contact_winkler_n_arg] = {&carried->fullness, &carried->fullness_root};
-  trum_real* res[trum_contact_winkler_n_res] = {&carried->theta, &carried->sin_theta, &carried->share};
-  (void)trum_contact_winkler(arg, res, 0, 0, 0);
-}
-
-/* Free motion of a phase: displacement and velocity after a time, of each */
-static inline void trum_plain_mode_flow(const trum_mode* mode, trum_flow* flow, trum_real tau) {
-  const trum_real* arg[trum_mode_flow_n_arg] = {&mode->omega_n0, &tau, &mode->xi};
-  trum_real* res[trum_mode_flow_n_res] = {&flow->w_w, &flow->w_v, &flow->v_w, &flow->v_v};
-  (void)trum_mode_flow(arg, res, 0, 0, 0);
-}
-
-/* Wave, surface speed and contact of two phases at any instant */
-static inline void trum_plain_coupled_instant(const trum_coupled_place* place, const trum_coupled_state* state,
-    trum_coupled_surface* surface) {
-  const trum_real* arg[trum_coupled_instant_n_arg] = {&place->D, &place->F_c, &state->height, &place->k_N, &place->k_c,
-      &place->n_j, &state->v_A, &state->v_B, &state->w_A, &state->w_B};
-  trum_real* res[trum_coupled_instant_n_res] = {&surface->W_c, &surface->sin_crest, &surface->cos_crest, &surface->R_v,
-      &surface->phi, &surface->cos_phi, &surface->sin_phi, &surface->theta, &surface->sin_theta, &surface->cos_theta,
-      &surface->engagement, &surface->share};
-  (void)trum_coupled_instant(arg, res, 0, 0, 0);
-}
-
-/* What the contact does to rotor and both phases at any instant */
-static inline void trum_plain_coupled_forces(const trum_coupled_place* place, const trum_coupled_state* state, const
-    trum_coupled_surface* surface, trum_coupled_acting* acting) {
-  const trum_real* arg[trum_coupled_forces_n_arg] = {&place->D, &place->F_c, &surface->R_v, &surface->cos_crest,
-      &surface->cos_phi, &surface->cos_theta, &surface->engagement, &place->k_c, &place->mu, &surface->phi,
-      &surface->share, &surface->sin_crest, &surface->sin_phi, &surface->sin_theta, &surface->theta, &state->v};
-  trum_real* res[trum_coupled_forces_n_res] = {&acting->F_z, &acting->F_x, &acting->Q_A, &acting->Q_B};
-  (void)trum_coupled_forces(arg, res, 0, 0, 0);
 }
 
 #endif

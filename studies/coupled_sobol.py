@@ -28,7 +28,7 @@ __all__ = ["main", "own_resonance", "spans"]
 
 _TURN = 2 * math.pi
 _CONTACT = Levels(coupling="contact")
-_STEPS = 60  # a drive period, of one phase
+_TOLERANCE = 1e-3  # of one phase's orbit
 _ROUNDS = 6  # of a wave's height at its own resonance
 
 
@@ -70,7 +70,7 @@ def _amplitudes(forces: tuple[float, ...], draws: Mapping[str, Array]) -> dict[s
             plain = ts.Drive(prepressure=force, on_periods=20, frequency_difference=0.0)
             off = _free(coupled_values(machine, plain, _CONTACT)) + at["offset"]
             drive = ts.Drive(prepressure=force, frequency_difference=off)
-            orbit = one_phase(machine, drive, Levels(), at["rotor_mass"], steps=_STEPS)
+            orbit = one_phase(machine, drive, Levels(), at["rotor_mass"], tolerance=_TOLERANCE)
             found[f"{force:g} N"][k] = 1e6 * orbit.highest_wave
     return found
 

@@ -6,6 +6,7 @@ Nothing is fitted; docs/coupling.md has what they print.
     python -m studies.coupled_tables resonance
     python -m studies.coupled_tables table-3
     python -m studies.coupled_tables branches
+    python -m studies.coupled_tables starts 40
     python -m studies.coupled_tables spread 32
 """
 
@@ -19,7 +20,16 @@ from scipy.stats import qmc
 from tabulate import tabulate
 
 import trum_sym as ts
-from trum_sym.model.coupled_orbit import CoupledOrbit, coupled_orbits, followed, lap_values, one_phase
+from trum_sym.model.coupled_orbit import (
+    CoupledOrbit,
+    coupled_orbits,
+    followed,
+    lap_values,
+    one_phase,
+    orbit_from,
+    random_start,
+    same_orbit,
+)
 from trum_sym.model.coupling import coupled_values, plain_waves
 from trum_sym.model.levels import Levels
 from trum_sym.paper.published import TABLE_2
@@ -30,7 +40,7 @@ _TURN = 2 * math.pi
 _CONTACT = Levels(coupling="contact")
 _SOFT = 22.0  # times softer than the layer: the contact stiffness of the public simulation USM_SIM
 _MASSES = (0.0, 0.02, 0.1)  # kg: none; a rotor of the motor's size in aluminium; with a plate
-_STEPS = 100  # a drive period, of one phase
+_TOLERANCE = 1e-4  # of one phase
 
 
 def _contacts(motor: ts.Motor) -> dict[str, tuple[ts.Motor, Levels]]:
@@ -53,14 +63,20 @@ def _at_free_resonance(motor: ts.Motor, levels: Levels, force: float, offset: fl
 def amplitudes(motor: ts.Motor, levels: Levels, mass: float) -> list[CoupledOrbit]:
     """Phase A alone at the free resonance, at Table 2's prepressures."""
     return [
-        one_phase(motor, _at_free_resonance(motor, levels, float(force)), levels, mass, steps=_STEPS)
+        one_phase(motor, _at_free_resonance(motor, levels, float(force)), levels, mass, tolerance=_TOLERANCE)
         for force in TABLE_2
     ]
 
 
 def _shown(orbit: CoupledOrbit) -> str:
-    size = f"{1e6 * orbit.highest_wave:.1f}"
-    return size if orbit.closed and orbit.stable else f"({size})"
+    return _marked(f"{1e6 * orbit.highest_wave:.1f}", orbit)
+
+
+def _marked(text: str, orbit: CoupledOrbit) -> str:
+    """In brackets where no orbit attracts; with the number of its cycles if it has several."""
+    if not (orbit.closed and orbit.stable):
+        return f"({text})"
+    return text if orbit.cycles == 1 else f"{text} /{orbit.cycles}"
 
 
 def table_2() -> None:
@@ -83,7 +99,9 @@ def resonance() -> None:
             waves = [plain_waves({**values, "omega_q": free + _TURN * offset}) for offset in offsets]
             plain = offsets[int(np.argmax([wave.amplitude[-1] for wave in waves]))]
             sizes = [
-                one_phase(motor, _at_free_resonance(motor, levels, force, offset), levels, 0.02, steps=60).highest_wave
+                one_phase(
+                    motor, _at_free_resonance(motor, levels, force, offset), levels, 0.02, tolerance=_TOLERANCE
+                ).highest_wave
                 for offset in offsets[::2]
             ]
             single = offsets[::2][int(np.argmax(sizes))]
@@ -122,9 +140,9 @@ def table_3() -> None:
                             *(label, inertia, f"contact, {mass:g} kg", orbit.start, orbit.mean_speed, orbit.deviation),
                             *(
                                 1e6 * orbit.highest_wave,
-                                "yes" if orbit.closed else "no",
+                                orbit.cycles if orbit.closed else "none",
                                 most,
-                                f"{orbit.mean_speed_change:.0e}",
+                                f"{orbit.mean_speed_error:.0e}" if orbit.closed else "",
                             ),
                         )
                     )
@@ -136,28 +154,57 @@ def table_3() -> None:
         "mean, rad/s",
         "deviation",
         "wave, um",
-        "closed",
+        "cycles",
         "multiplier",
-        "change",
+        "error",
     )
     print(tabulate(rows, head, floatfmt=("", "g", "", "", ".2f", ".3f", ".2f", "", "", "")))
 
 
 def branches() -> None:
-    """Mean speed at Table 3's point while the frequency rises and falls; in brackets where no lap closes stably."""
+    """Mean speed at Table 3's point while the frequency rises and falls.
+
+    In brackets where no orbit attracts, with /2 or /3 where it repeats after two or three cycles.
+    """
     motor, offsets = ts.load_motor(), np.arange(2500.0, 3501.0, 100.0)
     rows = []
     for label, levels in (("layer", Levels()), ("flange", Levels(compliance="flange"))):
         for mass in _MASSES:
             points = [
-                lap_values(motor, ts.Drive(frequency_difference=float(f)), levels, rotor_mass=mass, steps=_STEPS)
+                lap_values(
+                    motor, ts.Drive(frequency_difference=float(f)), levels, rotor_mass=mass, tolerance=_TOLERANCE
+                )
                 for f in offsets
             ]
-            for way, orbits in (("up", followed(points, 12)), ("down", followed(points[::-1], 12)[::-1])):
-                shown = [f"{o.mean_speed:.2f}" if o.closed and o.stable else f"({o.mean_speed:.2f})" for o in orbits]
-                rows.append((label, f"{mass:g}", way, *shown))
+            for way, orbits in (("up", followed(points)), ("down", followed(points[::-1])[::-1])):
+                rows.append((label, f"{mass:g}", way, *(_marked(f"{o.mean_speed:.2f}", o) for o in orbits)))
     head = ("contact", "rotor, kg", "", *(f"{f:g}" for f in offsets))
     print(tabulate(rows, head, disable_numparse=True))
+
+
+def starts(count: int) -> None:
+    """Orbits at Table 3's point from starts at random, with how many lead to each."""
+    motor, at = ts.load_motor(), np.random.default_rng(0)
+    rows = []
+    for label, levels in (("layer", Levels()), ("flange", Levels(compliance="flange"))):
+        for mass in _MASSES:
+            values = lap_values(motor, ts.Drive(), levels, rotor_mass=mass, tolerance=_TOLERANCE)
+            begun = [random_start(values, at) for _ in range(count)]
+            orbits = [orbit_from(values, start, "random") for start in begun]
+            none = sum(not (orbit.closed and orbit.stable) for orbit in orbits)
+            different: list[list[CoupledOrbit]] = []
+            for orbit in (orbit for orbit in orbits if orbit.closed and orbit.stable):
+                alike = next((group for group in different if same_orbit(values, group[0], orbit)), None)
+                if alike is None:
+                    different.append([orbit])
+                else:
+                    alike.append(orbit)
+            shown = [
+                f"{_marked(f'{group[0].mean_speed:.2f}', group[0])} ({len(group)})"
+                for group in sorted(different, key=len, reverse=True)
+            ]
+            rows.append((label, f"{mass:g}", ", ".join(shown), none or ""))
+    print(tabulate(rows, ("contact", "rotor, kg", "mean, rad/s (starts)", "none"), disable_numparse=True))
 
 
 def spread(count: int) -> None:
@@ -173,7 +220,9 @@ def spread(count: int) -> None:
         machine = motor.with_values({name: float(value) for name, value in at.items()})
         for column, force in enumerate(TABLE_2):
             drive = _at_free_resonance(machine, Levels(), float(force), float(draw[4]))
-            found[row, column] = 1e6 * one_phase(machine, drive, Levels(), math.exp(draw[1]), steps=60).highest_wave
+            found[row, column] = (
+                1e6 * one_phase(machine, drive, Levels(), math.exp(draw[1]), tolerance=_TOLERANCE).highest_wave
+            )
     quantiles = [(f"{share:.0%}", *np.quantile(found, share, axis=0)) for share in (0.05, 0.5, 0.95)]
     measured = ("measured", *(1e6 * size for size in TABLE_2.values()))
     print(tabulate([measured, *quantiles], ("", *(f"{force:g} N" for force in TABLE_2)), floatfmt=".1f"))
@@ -188,12 +237,14 @@ def spread(count: int) -> None:
 def main(arguments: list[str]) -> int:
     """Print one of the tables."""
     tables = {"table-2": table_2, "resonance": resonance, "table-3": table_3, "branches": branches}
-    if arguments and arguments[0] == "spread":
-        spread(int(arguments[1]) if len(arguments) > 1 else 32)
+    counted = {"spread": (spread, 32), "starts": (starts, 40)}
+    if arguments and arguments[0] in counted:
+        run, usual = counted[arguments[0]]
+        run(int(arguments[1]) if len(arguments) > 1 else usual)
     elif len(arguments) == 1 and arguments[0] in tables:
         tables[arguments[0]]()
     else:
-        print(f"one of {', '.join(tables)}, spread", file=sys.stderr)
+        print(f"one of {', '.join([*tables, *counted])}", file=sys.stderr)
         return 2
     return 0
 

@@ -4,8 +4,11 @@ Both phases are integrated as they are, with the drive's own oscillation, and so
 and round with its load: no turning frame, no averaging, none of the package's formulas.  The layer is cut into elements
 between the places where it touches and where slip turns round; each has 16 Gauss points at which pressure and friction
 act on the surface.  A steady state is what repeats itself every drive period, by Newton on the map of one period.
+Pulses are followed through a drive cycle from the state in which the package's orbit begins.
 
     python -m studies.coupling 100
+    python -m studies.coupling pulses 100
+    python -m studies.coupling errors 100
 """
 
 from __future__ import annotations
@@ -20,15 +23,31 @@ from scipy.integrate import solve_ivp
 
 import trum_sym as ts
 from trum_sym.inputs.checks import Array
+from trum_sym.model.coupled_orbit import CoupledOrbit, lap_values, orbit_from, start_of
 from trum_sym.model.coupling import coupled_values, plain_waves
 from trum_sym.model.levels import Levels
 
-__all__ = ["Steady", "after", "differences", "draw", "energy_residual", "guessed", "repeated", "steady"]
+__all__ = [
+    "Steady",
+    "after",
+    "cycle",
+    "differences",
+    "draw",
+    "draw_pulses",
+    "energy_residual",
+    "guessed",
+    "left_over",
+    "over_error",
+    "pulse_differences",
+    "repeated",
+    "steady",
+]
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 _PERIOD = 7  # of the state's numbers repeat: w_A, v_A, w_B, v_B, the rotor's height and its rate, the rim's speed
-_SIZES = np.array([1e-6, 0.3, 1e-6, 0.3, 1e-6, 0.3, 0.3, 1e-3, 1e-3, 1e-3, 1e-3])
-"""Of the state; the last four are the work put in, lost in the stator, by slip, and taken by the load, in J."""
+_SIZES = np.array([1e-6, 0.3, 1e-6, 0.3, 1e-6, 0.3, 0.3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-5])
+"""Of the state; then work in J, put in, lost in the stator, by slip, taken by the load, and the rim's way in m."""
+_NUMBERS = _SIZES.size
 
 
 def _places(a: Array, b: Array, c: Array) -> Array:
@@ -59,10 +78,35 @@ def _contact(y: Array, p: Mapping[str, float]) -> Array:
     return np.array([part.sum(axis=(0, 1)) for part in parts])
 
 
+def _carried(y: Array, p: Mapping[str, float]) -> Array:
+    """Heights at which the layer carries the prepressure, (n,): Newton from where it would be flat, which overshoots
+    downward, and from there on only rises.
+    """
+    w_A, w_B = y[0], y[2]
+    stiff = p["n_j"] / p["k_c"] * p["k_N"]
+    z = np.full(y.shape[1], -p["F_c"] / (2 * np.pi * stiff)) - np.hypot(w_A, w_B)
+    for _ in range(60):
+        places = np.sort(_places(w_B, w_A, z), axis=0)
+        stops = np.stack([np.zeros_like(z), *places, np.full_like(z, 2 * np.pi)])
+        half, middle = np.diff(stops, axis=0) / 2, (stops[1:] + stops[:-1]) / 2
+        s = middle[:, np.newaxis] + half[:, np.newaxis] * _NODES[:, np.newaxis]
+        depth = w_A * np.sin(s) + w_B * np.cos(s) - z
+        weight = stiff * half[:, np.newaxis] * _WEIGHTS[:, np.newaxis]
+        force = (weight * np.maximum(0.0, depth)).sum(axis=(0, 1))
+        change = (force - p["F_c"]) / (weight * (depth > 0)).sum(axis=(0, 1))
+        z = z + change
+        if (np.abs(change) < 1e-14 * 1e-6).all():
+            break
+    return np.asarray(z)
+
+
 def _rates(t: float, y: Array, p: Mapping[str, float]) -> Array:
+    if not p["mass"] > 0:
+        y = np.concatenate([y[:4], _carried(y, p)[np.newaxis], np.zeros((1, y.shape[1])), y[6:]])
     forces = _contact(y, p)
-    on_A = p["g_A"] * p["F_q"] * math.cos(p["omega_q"] * t)
-    on_B = -p["g_B"] * p["F_q"] * math.sin(p["omega_q"] * t)  # a quarter period ahead
+    turn = p["omega_q"] * t + p["phase"]
+    on_A = p["g_A"] * p["F_q"] * math.cos(turn)
+    on_B = -p["g_B"] * p["F_q"] * math.sin(turn)  # a quarter period ahead
     damping, own, mass = 2 * p["xi"] * p["omega_n0"], p["omega_n0"] ** 2, p["M_q"]
     return np.array(
         [
@@ -71,12 +115,13 @@ def _rates(t: float, y: Array, p: Mapping[str, float]) -> Array:
             y[3],
             (on_B + forces[1]) / mass - damping * y[3] - own * y[2],
             y[5],
-            (forces[2] - p["F_c"]) / p["mass"],
+            (forces[2] - p["F_c"]) / p["mass"] if p["mass"] > 0 else np.zeros_like(y[5]),
             p["r_c"] * (p["r_c"] * forces[3] - p["T_load"]) / p["J_total"],
             on_A * y[1] + on_B * y[3],
             damping * mass * (y[1] ** 2 + y[3] ** 2),
             forces[4],
             p["T_load"] / p["r_c"] * y[6],
+            y[6],
         ]
     )
 
@@ -88,8 +133,9 @@ def after(
     mass: float = 0.02,
     tolerance: float = 1e-10,
     gates: tuple[float, float] = (1.0, 1.0),
+    phase: float = 0.0,
 ) -> Array:
-    """States (11, n) after some drive periods, from states (7, n) at the drive's phase 0.
+    """States (12, n) after some drive periods, from states (7, n) at a phase of the drive.
 
     Parameters
     ----------
@@ -99,24 +145,26 @@ def after(
         Displacement and velocity of A and B, height of the rotor and its rate, speed of the rim.
     periods : float
     mass : float, kg
-        Of the rotor that goes up and down.
+        Of the rotor that goes up and down; without one the layer carries the prepressure at every instant.
     tolerance : float
         Relative, of the integration by DOP853.
     gates : (float, float)
         1 for a phase, A and B, that is driven, 0 for one that is off.
+    phase : float, rad
+        Of A's force at the start.
     """
-    p = {**values, "mass": mass, "g_A": gates[0], "g_B": gates[1]}
+    p = {**values, "mass": mass, "g_A": gates[0], "g_B": gates[1], "phase": phase}
     count = start.shape[1]
-    full = np.concatenate([start, np.zeros((4, count))])
+    full = np.concatenate([start, np.zeros((_NUMBERS - _PERIOD, count))])
     found = solve_ivp(
-        lambda t, y: _rates(t, y.reshape(11, count), p).ravel(),
+        lambda t, y: _rates(t, y.reshape(_NUMBERS, count), p).ravel(),
         (0.0, periods * 2 * math.pi / p["omega_q"]),
         full.ravel(),
         method="DOP853",
         rtol=tolerance,
         atol=np.repeat(1e-3 * tolerance * _SIZES, count),
     )
-    return np.asarray(found.y[:, -1].reshape(11, count))
+    return np.asarray(found.y[:, -1].reshape(_NUMBERS, count))
 
 
 @dataclass(frozen=True)
@@ -157,9 +205,11 @@ def steady(values: Mapping[str, float], guess: Array, mass: float = 0.02, tolera
     return Steady(size, lead, float(state[6]), float(force), float(np.abs((closed - state) / _SIZES[:_PERIOD]).max()))
 
 
-def energy_residual(values: Mapping[str, float], start: Array, periods: int, mass: float = 0.02) -> float:
-    """Work put in less what is lost, slipped, taken by the load and stored, over the work put in, from a state (7,)."""
-    end = after(values, start[:, np.newaxis], periods, mass, 1e-12)[:, 0]
+def left_over(values: Mapping[str, float], start: Array, end: Array, mass: float = 0.02) -> float:
+    """Work put in less what is lost, slipped, taken by the load and stored, over the work put in.
+
+    From a state (7,) to one (12,) with the work on the way.
+    """
 
     def stored(y: Array) -> float:
         modes = values["M_q"] / 2 * (y[1] ** 2 + y[3] ** 2 + values["omega_n0"] ** 2 * (y[0] ** 2 + y[2] ** 2))
@@ -170,6 +220,25 @@ def energy_residual(values: Mapping[str, float], start: Array, periods: int, mas
         return float(modes + layer + mass / 2 * y[5] ** 2 + values["F_c"] * y[4] + turning)
 
     return float((end[7] - end[8] - end[9] - end[10] - (stored(end) - stored(start))) / end[7])
+
+
+def energy_residual(values: Mapping[str, float], start: Array, periods: int, mass: float = 0.02) -> float:
+    """What is left over of the work that goes in over some drive periods, from a state (7,)."""
+    return left_over(values, start, after(values, start[:, np.newaxis], periods, mass, 1e-12)[:, 0], mass)
+
+
+def cycle(values: Mapping[str, float], start: Array, tolerance: float = 1e-10) -> Array:
+    """The state (12,) after a drive cycle of pulses: A is off first, then B is for as long, then neither."""
+    periods = int(values["m"])
+    mass, state, sums = values["mass"], start, np.zeros(_NUMBERS - _PERIOD)
+    for period in range(periods):
+        gates = tuple(float(not values[f"off_{name}"] <= period < values[f"on_{name}"]) for name in "AB")
+        end = after(values, state[:, np.newaxis], 1, mass, tolerance, gates, values["force_phase"])[:, 0]
+        state, sums = end[:_PERIOD], sums + end[_PERIOD:]
+    if not mass > 0:
+        state = state.copy()
+        state[4] = _carried(state[:, np.newaxis], values)[0]
+    return np.concatenate([state, sums])
 
 
 def draw(seed: int) -> dict[str, float]:
@@ -226,8 +295,109 @@ def differences(seed: int) -> list[tuple[float, float, float, float]]:
     return found
 
 
+def draw_pulses(seed: int) -> dict[str, float]:
+    """As :func:`draw`, pulsed: a rotor's mass or none, the bench's plate or none, cycles of 2 to 7 periods."""
+    at = np.random.default_rng(seed)
+    motor = ts.load_motor().with_values(
+        {"contact_stiffness": float(10 ** at.uniform(8.8, 10.5)), "friction_coefficient": float(at.uniform(0.2, 0.3))}
+    )
+    force = float(at.uniform(100, 220))
+    most = float(motor.friction_coefficient.value) * force * float(motor.contact_radius.value)
+    periods = int(at.integers(2, 8))
+    drive = ts.Drive(
+        periods=periods,
+        on_periods=int(at.integers((periods + 1) // 2, periods)),
+        prepressure=force,
+        frequency_difference=float(at.uniform(-300, 3000)),
+        load_torque=float(at.uniform(-0.1, 0.3)) * most,
+        load_inertia=float(at.choice([0.0, 2.7e-4])),
+    )
+    mass = float(at.choice([0.0, 10 ** at.uniform(-2, -1)]))
+    values = lap_values(motor, drive, Levels(), rotor_mass=mass)
+    share = float(at.uniform(0.4, 1.2))
+    return {**values, "F_q": values["F_q"] * share, "size": values["size"] * share}
+
+
+def pulse_differences(seed: int) -> tuple[CoupledOrbit, Array] | None:
+    """The orbit at a random pulsed point, and how far the witness's cycle is off where that begins; None without one.
+
+    By the largest of displacements and of velocities, of speed and mean speed by the rotor's largest speed, of input
+    power; friction's mean torque by the largest; the energy left over of the input.
+    """
+    values = draw_pulses(seed)
+    orbit = orbit_from({**values, "wanted": 1e-8}, start_of("steady", values), "steady")
+    if not (orbit.closed and orbit.cycles == 1):
+        return None
+    end = cycle(values, orbit.state, 1e-11)
+    wave, off = orbit.highest_wave, np.abs(end[:_PERIOD] - orbit.state)
+    speed, top = wave * values["omega_q"], max(abs(orbit.min_speed), abs(orbit.max_speed))
+    time = values["m"] * 2 * math.pi / values["omega_q"]
+    torque = values["J_total"] * off[6] / values["r_c"] / time  # what it has beyond the load's
+    gaps = [
+        max(off[0], off[2], off[4]) / wave,
+        max(off[1], off[3], off[5]) / speed,
+        off[6] / values["r_c"] / top,
+        abs(end[11] / time / values["r_c"] - orbit.mean_speed) / top,
+        torque / (values["mu"] * values["F_c"] * values["r_c"]),
+        abs(end[7] / time / orbit.input_power - 1),
+        abs(left_over(values, orbit.state, end, values["mass"])),
+    ]
+    return orbit, np.array(gaps)
+
+
+def over_error(seed: int) -> Array | None:
+    """At a random pulsed point, by how much of their stated errors the orbit's figures are off from far finer steps."""
+    values = draw_pulses(seed)
+    orbit = orbit_from(values, start_of("steady", values), "steady")
+    if not (orbit.tolerance_met and orbit.stable):
+        return None
+    finer = orbit_from({**values, "wanted": 1e-9}, orbit.state, "finer", settling=0)
+    if not (finer.mean_speed_error < orbit.mean_speed_error / 10 and finer.cycles == orbit.cycles):
+        return None
+    pairs = ((getattr(orbit, name), getattr(finer, name), getattr(orbit, f"{name}_error")) for name in _FIGURES)
+    return np.array([abs(one - other) / error for one, other, error in pairs])
+
+
+_FIGURES = ("mean_speed", "min_speed", "max_speed", "deviation", "contact_fraction", "highest_wave", "input_power")
+_GAPS = ("displacements", "velocities", "speed", "mean speed", "torque", "input power", "energy")
+_ALLOWED = np.array([1e-6] * 6 + [1e-8])
+
+
+def _pulses(count: int) -> int:
+    worst, orbits, stable = np.zeros(len(_GAPS)), 0, 0
+    for seed in range(count):
+        found = pulse_differences(seed)
+        if found is None:
+            print(f"seed {seed}: no orbit of one cycle")
+            continue
+        orbit, gaps = found
+        orbits, stable, worst = orbits + 1, stable + orbit.stable, np.maximum(worst, gaps)
+        if not (gaps < _ALLOWED).all():
+            print(f"seed {seed}: " + ", ".join(f"{name} {gap:.1e}" for name, gap in zip(_GAPS, gaps, strict=True)))
+    print(f"{count} pulsed points, {orbits} orbits of one cycle, {stable} of them stable; largest differences:")
+    for name, value in zip(_GAPS, worst, strict=True):
+        print(f"{name:<14} {value:.1e}")
+    return int(not (worst < _ALLOWED).all())
+
+
+def _errors(count: int) -> int:
+    rows = np.array([row for row in map(over_error, range(count)) if row is not None])
+    print(f"{count} pulsed points, {len(rows)} orbits; differences from finer steps over the stated errors:")
+    for name, shares in zip(_FIGURES, rows.T, strict=True):
+        print(
+            f"{name:<17} median {np.median(shares):.3f}, largest {shares.max():.2f}, above 1: {int((shares > 1).sum())}"
+        )
+    return int((rows > 1).mean() > 0.01)
+
+
 def main(arguments: list[str]) -> int:
-    """Compare random points, print the worst; 1 if one is off by more than 1e-6."""
+    """Compare random points, print the worst; 1 if one is off by more than 1e-6, or energy by more than 1e-8.
+
+    ``errors``: 1 if more than one in a hundred errors is larger than stated.
+    """
+    if arguments and arguments[0] in ("pulses", "errors"):
+        of = int(arguments[1]) if len(arguments) > 1 else 100
+        return _pulses(of) if arguments[0] == "pulses" else _errors(of)
     count = int(arguments[0]) if arguments else 100
     worst, states = np.zeros(4), 0
     for seed in range(count):

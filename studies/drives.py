@@ -47,7 +47,10 @@ TARGETS = tuple(float(x) for x in np.geomspace(1, 1000, 7))
 _SHOWN = (TARGETS[0], TARGETS[2], TARGETS[4], TARGETS[6])
 _LOAD = 0.05  # N m: a twenty-fourth of what friction can carry
 _ENCODER = 2e-3  # s
-_STEPS, _SAMPLES = 80, 8  # of a drive period: time steps, and parts for the encoder
+_TOLERANCE, _SAMPLES = (
+    1e-8,
+    8,
+)  # of an orbit, so that a mean of 1 arcsec/s is found; parts of a drive period for the encoder
 _PERIODS = 20  # of Table 3's cycle
 _NEAR = 1e-3  # of a target, by which a mean may miss it
 _DRIFT = 1.01  # of the friction
@@ -130,7 +133,7 @@ def _figures(orbit: CoupledOrbit, time: Array, angle: Array) -> dict[str, float]
         "width": (orbit.max_speed - orbit.min_speed) / ARCSEC,
         "encoder": spread / ARCSEC,
         "encoder_width": (high - low) / ARCSEC,
-        "change": orbit.mean_speed_change / ARCSEC,
+        "change": orbit.mean_speed_error / ARCSEC,
     }
 
 
@@ -210,7 +213,7 @@ def _followed(motor: ts.Motor, condition: Condition, rival: Rival, targets: Sequ
 
     def values_at(setting: float, machine: ts.Motor = motor) -> dict[str, float]:
         schedule, frequency = rival.at(setting)
-        return lap_values(machine, condition.drive(frequency), condition.levels, schedule, steps=_STEPS)
+        return lap_values(machine, condition.drive(frequency), condition.levels, schedule, tolerance=_TOLERANCE)
 
     answers = _branch(rival, values_at, targets)
     lacking = [target for target in targets if answers[target][0]]
@@ -223,7 +226,8 @@ def _followed(motor: ts.Motor, condition: Condition, rival: Rival, targets: Sequ
             records.append({"target": target, "reached": False, "why": why})
             continue
         values = values_at(setting)
-        walked = history_of(values, orbit.state, rival.at(setting)[0].gates(condition.drive(0.0)), _SAMPLES)
+        gates = np.tile(rival.at(setting)[0].gates(condition.drive(0.0)), (orbit.cycles, 1))
+        walked = history_of(values, orbit.state, gates, _SAMPLES)
         more = _orbit(values_at(setting, _more_friction(motor)), orbit.state, _settling(values))
         figures = _figures(orbit, walked.time, walked.angle)
         drift = (more.mean_speed - orbit.mean_speed) / ARCSEC
@@ -244,7 +248,7 @@ def _bursts(motor: ts.Motor, condition: Condition, on: int, targets: Sequence[fl
     drive, schedule = condition.drive(_PLACE), Schedule(kind="burst", periods=_OFTEN, on_periods=on)
 
     def of(machine: ts.Motor) -> ts.DriveOrbit:
-        words = {"compliance": condition.contact, "steps": _STEPS, "samples_per_period": _SAMPLES}
+        words = {"compliance": condition.contact, "tolerance": _TOLERANCE, "samples_per_period": _SAMPLES}
         return drive_orbit(machine, drive, schedule, **words)  # type: ignore[arg-type]
 
     found = of(motor)
@@ -267,7 +271,7 @@ def _bursts(motor: ts.Motor, condition: Condition, on: int, targets: Sequence[fl
             orbit,
             mean_speed=mean,
             deviation=math.sqrt(square - mean**2),
-            mean_speed_change=share * orbit.mean_speed_change,
+            mean_speed_error=share * orbit.mean_speed_error,
         )
         figures = _figures(longer, np.append(time[:-1], periods * period), angle)
         drift = (more / step - 1) * target

@@ -149,7 +149,7 @@ GOOD = {
             "motor": MOTOR,
             "drive": ts.Drive(),
             "schedule": ts.Schedule(kind="burst", periods=200, on_periods=1),
-            "steps": 24,
+            "tolerance": 1e-2,
         },
     ),
     "Schedule": (ts.Schedule, {"kind": "burst", "periods": 3, "on_periods": 2}),

@@ -138,6 +138,20 @@ _PLAIN_STRUCTS = (
     _struct("trum_bristle", "bristle", "grip ratio theta u_0 t_0", "the layer as a brush; where a bristle sticks from"),
     _struct("trum_passage", "passage", "stress limit stuck slid", "its stress and friction's limit, their integrals"),
     _struct("trum_turns", "turns", "delay span", "where a sliding bristle could begin to stick"),
+)
+_PLAIN_CALLS = (
+    Call("trum_winkler_balance", ("trum_balance", "trum_balance_values"), "theta"),
+    Call("trum_regions", ("trum_cycle_constants", "trum_free_motion"), array=True),
+    Call("trum_region_phasors", ("trum_cycle_constants", "trum_free_motion"), array=True),
+    Call("trum_regions_slopes", ("trum_cycle_constants", "trum_free_motion", "trum_free_motion_slopes"), array=True),
+    Call("trum_response", ("trum_cycle_constants", "trum_free_motion", "trum_gates", "trum_phases"), "tau"),
+    Call("trum_brush_passage", ("trum_bristle", "trum_passage"), "u"),
+    Call("trum_brush_turns", ("trum_bristle", "trum_turns")),
+)
+# Structs of lanes, of the coupled system
+_COUPLED_STRUCTS = (
+    _struct("trum_mode", "mode", "omega_n0 xi", "a phase's own frequency and damping"),
+    _struct("trum_flow", "flow", "w_w w_v v_w v_v", "displacement and velocity after a time, of each"),
     _struct("trum_coupled_place", "place", "D F_c k_N k_c mu n_j", "geometry and contact of a coupled point"),
     _struct(
         "trum_coupled_state", "state", "w_A w_B v_A v_B height v", "both phases, the rotor's height, its rim's speed"
@@ -155,21 +169,12 @@ _PLAIN_STRUCTS = (
         "engagement_per_height W_c engagement fullness fullness_root theta sin_theta share",
         "a contact that carries the prepressure",
     ),
-    _struct("trum_mode", "mode", "omega_n0 xi", "a phase's own frequency and damping"),
-    _struct("trum_flow", "flow", "w_w w_v v_w v_v", "displacement and velocity after a time, of each"),
 )
-_PLAIN_CALLS = (
-    Call("trum_winkler_balance", ("trum_balance", "trum_balance_values"), "theta"),
-    Call("trum_regions", ("trum_cycle_constants", "trum_free_motion"), array=True),
-    Call("trum_region_phasors", ("trum_cycle_constants", "trum_free_motion"), array=True),
-    Call("trum_regions_slopes", ("trum_cycle_constants", "trum_free_motion", "trum_free_motion_slopes"), array=True),
-    Call("trum_response", ("trum_cycle_constants", "trum_free_motion", "trum_gates", "trum_phases"), "tau"),
-    Call("trum_brush_passage", ("trum_bristle", "trum_passage"), "u"),
-    Call("trum_brush_turns", ("trum_bristle", "trum_turns")),
+_COUPLED_CALLS = (
+    Call("trum_mode_flow", ("trum_mode", "trum_flow"), "tau"),
     Call("trum_engagement", ("trum_coupled_place", "trum_carried")),
     Call("trum_filling", ("trum_carried",)),
     Call("trum_contact_winkler", ("trum_carried",)),
-    Call("trum_mode_flow", ("trum_mode", "trum_flow"), "tau"),
     Call("trum_coupled_instant", ("trum_coupled_place", "trum_coupled_state", "trum_coupled_surface")),
     Call(
         "trum_coupled_forces",
@@ -331,17 +336,20 @@ _COUPLED_IN = (
     Field("held", "m", "height of a wave that friction holds still, 0 if none"),
     Field("mass", "kg", "of the rotor that goes up and down; 0: it follows the wave"),
     Field("reaction", "1", "share of the contact's forces that acts on the phases, 1 or 0"),
-    Field("steps", "1", "time steps in a drive period"),
+    Field("size", "m", "height of a wave, by which and by the speeds that go with it errors are measured"),
+    Field("tolerance", "1", "of a time step, relative to those sizes"),
 )
 _COUPLED_OUT = (
     *_COUPLED_STATE,
     Field("mean", "m/s", "mean speed of the rim"),
     Field("square", "m^2/s^2", "mean of its square"),
-    Field("low", "m/s", "the lowest at the steps' ends"),
-    Field("high", "m/s", "the highest"),
+    Field("variance", "m^2/s^2", "mean of the square of its difference from the mean"),
+    Field("low", "m/s", "its lowest"),
+    Field("high", "m/s", "its highest"),
     Field("input", "kg*m^2/s^3", "mean power of the modal forces"),
     Field("touching", "1", "mean of theta/pi"),
-    Field("highest", "m", "the highest wave at the steps' ends"),
+    Field("highest", "m", "the highest wave"),
+    Field("evaluations", "1", "of the rates"),
 )
 _LISTS = {
     "TRUM_CYCLE_IN": ("a drive cycle", _CYCLE),
@@ -409,7 +417,7 @@ def _fields() -> list[str]:
 
 
 def headers(kernels: Iterable[Kernel], note: str) -> dict[str, str]:
-    """The three headers by file name; ``note`` opens each.
+    """The headers by file name; ``note`` opens each.
 
     Raises
     ------
@@ -422,6 +430,10 @@ def headers(kernels: Iterable[Kernel], note: str) -> dict[str, str]:
     texts = {
         "trum_lane_calls.h": _calls(
             "TRUM_LANE_CALLS_H", lanes, _LANE_STRUCTS, _LANE_CALLS, known, "trum_lanes_", "real", "TRUM_KERNEL({})"
+        ),
+        "trum_coupled_calls.h": _calls(
+            *("TRUM_COUPLED_CALLS_H", lanes, _COUPLED_STRUCTS, _COUPLED_CALLS, known),
+            *("trum_lanes_", "real", "TRUM_KERNEL({})"),
         ),
         "trum_plain_calls.h": _calls(
             "TRUM_PLAIN_CALLS_H", plain, _PLAIN_STRUCTS, _PLAIN_CALLS, known, "trum_plain_", "trum_real", "{}"

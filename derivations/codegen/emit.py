@@ -14,7 +14,7 @@ import casadi as ca
 import mpmath as mp
 import sympy as sp
 
-from derivations import collocation, fixed_grid
+from derivations import collocation, fixed_grid, runge_kutta
 from derivations.codegen import driver
 from derivations.codegen.kernels import Kernel, kernels
 from derivations.codegen.library import headers
@@ -214,10 +214,20 @@ LANE_KERNELS = (
 )
 
 
-def _lanes() -> str:
+COUPLED_LANE_KERNELS = (
+    "trum_engagement",
+    "trum_filling",
+    "trum_contact_winkler",
+    "trum_coupled_instant",
+    "trum_coupled_forces",
+    "trum_mode_flow",
+)
+
+
+def _lanes(names: Iterable[str]) -> str:
     """Includes the C files as C++ over a lane class."""
     lines = [f"/* {_NOTE} */", "/* Include with trum_real defined as a class of lanes, and TRUM_LESS for it. */"]
-    return "\n".join([*lines, *(f'#include "{name}.c"' for name in LANE_KERNELS), ""])
+    return "\n".join([*lines, *(f'#include "{name}.c"' for name in names), ""])
 
 
 def _quadrature() -> str:
@@ -237,37 +247,56 @@ def _quadrature() -> str:
     )
 
 
+def _row(values: Iterable[sp.Expr]) -> str:
+    return "{" + ", ".join(f"TRUM_C({sp.N(value, 20)})" for value in values) + "}"
+
+
+def _table(matrix: sp.Matrix) -> str:
+    return "{" + ", ".join(_row(matrix.row(i)) for i in range(matrix.rows)) + "}"
+
+
 def _collocation() -> str:
     """The rule of the rotor's time steps, to 20 digits."""
-
-    def row(values: Iterable[sp.Expr]) -> str:
-        return "{" + ", ".join(f"TRUM_C({sp.N(value, 20)})" for value in values) + "}"
-
-    def table(matrix: sp.Matrix) -> str:
-        return "{" + ", ".join(row(matrix.row(i)) for i in range(matrix.rows)) + "}"
-
     return "\n".join(
         [
             f"/* {_NOTE} */",
             "/* Collocation at Lobatto's nodes on [0, 1]; weights of the values at the nodes in: */",
             f"#define TRUM_COLLOCATION_NODES {collocation.COUNT}",
-            f"#define TRUM_COLLOCATION_POINTS {row(collocation.nodes())}",
+            f"#define TRUM_COLLOCATION_POINTS {_row(collocation.nodes())}",
             "/* the integral up to each node */",
-            f"#define TRUM_COLLOCATION_INTEGRALS {table(collocation.integrals())}",
+            f"#define TRUM_COLLOCATION_INTEGRALS {_table(collocation.integrals())}",
             "/* the coefficient of each power */",
-            f"#define TRUM_COLLOCATION_POWERS {table(collocation.powers())}",
+            f"#define TRUM_COLLOCATION_POWERS {_table(collocation.powers())}",
             "/* the coefficient of each shifted Legendre polynomial */",
-            f"#define TRUM_COLLOCATION_LEGENDRE {table(collocation.legendre())}",
+            f"#define TRUM_COLLOCATION_LEGENDRE {_table(collocation.legendre())}",
             "/* the value at the first node, without its own */",
-            f"#define TRUM_COLLOCATION_OUTWARD {row(collocation.outward())}",
+            f"#define TRUM_COLLOCATION_OUTWARD {_row(collocation.outward())}",
             "/* Kronrod's nodes between them, where a step's defect is seen, and its weights in the integral */",
-            f"#define TRUM_CHECK_POINTS {row(collocation.check_nodes())}",
-            f"#define TRUM_CHECK_WEIGHTS {row(collocation.check_weights())}",
+            f"#define TRUM_CHECK_POINTS {_row(collocation.check_nodes())}",
+            f"#define TRUM_CHECK_WEIGHTS {_row(collocation.check_weights())}",
             "/* the weights of Lobatto's nodes in the quadrature over all seven */",
-            f"#define TRUM_CHECK_FULL_WEIGHTS {row(collocation.check_full_weights())}",
+            f"#define TRUM_CHECK_FULL_WEIGHTS {_row(collocation.check_full_weights())}",
             "/* at the check nodes: the value of the polynomial through the nodes' values, its integral from 0 */",
-            f"#define TRUM_CHECK_VALUES {table(collocation.check_values())}",
-            f"#define TRUM_CHECK_INTEGRALS {table(collocation.check_integrals())}",
+            f"#define TRUM_CHECK_VALUES {_table(collocation.check_values())}",
+            f"#define TRUM_CHECK_INTEGRALS {_table(collocation.check_integrals())}",
+            "",
+        ]
+    )
+
+
+def _runge_kutta() -> str:
+    """The rule of the coupled system's time steps, to 20 digits."""
+    stages = runge_kutta.stages()
+    return "\n".join(
+        [
+            f"/* {_NOTE} */",
+            "/* Dormand and Prince's rule of order 5: where its stages are, the last at the end of a step */",
+            f"#define TRUM_RUNGE_KUTTA_STAGES {stages.rows}",
+            f"#define TRUM_RUNGE_KUTTA_NODES {_row(runge_kutta.nodes())}",
+            "/* weights of the rates before in each stage */",
+            f"#define TRUM_RUNGE_KUTTA_WITHIN {_table(stages)}",
+            "/* weights in how far a rule of order 4 is from the last */",
+            f"#define TRUM_RUNGE_KUTTA_ERROR {_row(runge_kutta.error_weights())}",
             "",
         ]
     )
@@ -345,11 +374,13 @@ def render() -> dict[str, str]:
     files["trum_kernels.h"] = _header()
     files.update(headers(kernels(), _NOTE))
     files.update(driver.headers(kernels(), _NOTE))
-    files["trum_lanes.h"] = _lanes()
+    files["trum_lanes.h"] = _lanes(LANE_KERNELS)
+    files["trum_coupled_lanes.h"] = _lanes(COUPLED_LANE_KERNELS)
     files["trum_quadrature.h"] = _quadrature()
     files["trum_elementary.h"] = _elementary()
     files["trum_collocation.h"] = _collocation()
     files["trum_fixed_grid.h"] = _fixed_grid()
+    files["trum_runge_kutta.h"] = _runge_kutta()
     versions = {"casadi": ca.CasadiMeta.version(), "sympy": sp.__version__}
     files["manifest.json"] = (
         json.dumps({"generator": versions, "kernels": manifest, "orbit": driver.orbit_fields()}, indent=1) + "\n"

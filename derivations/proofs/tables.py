@@ -14,7 +14,7 @@ from derivations.proofs.maths import DIGITS, Number
 
 __all__ = ["HEADERS", "TABLES", "Table", "read", "wrong"]
 
-HEADERS = ("trum_collocation.h", "trum_quadrature.h", "trum_elementary.h", "trum_kernels.h")
+HEADERS = ("trum_collocation.h", "trum_quadrature.h", "trum_elementary.h", "trum_runge_kutta.h", "trum_kernels.h")
 Tables = Mapping[str, list[Number]]
 _DEFINE = re.compile(r"^#define (TRUM_\w+) +([-{\d].*)$", re.MULTILINE)
 _DIGITS = mp.mpf("2e-19")  # the headers have 20 digits, the last one rounded
@@ -247,6 +247,67 @@ def _mean_of_exp(x: mp.mpf) -> mp.mpf:
     return mp.expm1(x) / x if x else mp.mpf(1)
 
 
+_Tree: TypeAlias = tuple["_Tree", ...]
+
+
+def _rooted(count: int) -> list[_Tree]:
+    """All rooted trees of so many nodes, each by its branches, these in order."""
+    if count == 1:
+        return [()]
+
+    def forests(left: int, most: _Tree | None) -> list[_Tree]:
+        if left == 0:
+            return [()]
+        found: list[_Tree] = []
+        for size in range(1, left + 1):
+            for first in _rooted(size):
+                if most is None or (size, first) <= (_nodes_of(most), most):
+                    found += [(first, *rest) for rest in forests(left - size, first)]
+        return found
+
+    return forests(count - 1, None)
+
+
+def _nodes_of(tree: _Tree) -> int:
+    return 1 + sum(map(_nodes_of, tree))
+
+
+def _conditions(t: Tables, order: int) -> list[tuple[list[Number], Number]]:
+    """Butcher's: weights of an order times the first are one over the second, for each rooted tree."""
+    within = _square(t["TRUM_RUNGE_KUTTA_WITHIN"])
+
+    def inner(tree: _Tree) -> tuple[list[Number], Number]:
+        products, density = [mp.mpf(1)] * len(within), mp.mpf(_nodes_of(tree))
+        for branch in tree:
+            values, own = inner(branch)
+            sums = [mp.fsum(a * b for a, b in zip(row, values, strict=True)) for row in within]
+            products, density = [a * b for a, b in zip(products, sums, strict=True)], density * own
+        return products, density
+
+    return [inner(tree) for count in range(1, order + 1) for tree in _rooted(count)]
+
+
+def _stages(t: Tables) -> list[Number]:
+    """Explicit, and the last row is of order 5."""
+    within = _square(t["TRUM_RUNGE_KUTTA_WITHIN"])
+    explicit = [_same(weight, 0) for i, row in enumerate(within) for weight in row[i:]]
+    sums = [(mp.fsum(a * b for a, b in zip(within[-1], values, strict=True)), g) for values, g in _conditions(t, 5)]
+    return explicit + [_same(found, 1 / density, 20) for found, density in sums]
+
+
+def _stage_places(t: Tables) -> list[Number]:
+    """Each node is the sum of its row."""
+    rows = _square(t["TRUM_RUNGE_KUTTA_WITHIN"])
+    return [_same(node, mp.fsum(row), 20) for node, row in zip(t["TRUM_RUNGE_KUTTA_NODES"], rows, strict=True)]
+
+
+def _stage_error(t: Tables) -> list[Number]:
+    """Nothing to order 4, something to order 5: the conditions of the last order are the last nine."""
+    off = t["TRUM_RUNGE_KUTTA_ERROR"]
+    sums = [mp.fsum(a * b for a, b in zip(off, values, strict=True)) for values, _ in _conditions(t, 5)]
+    return [*(_same(found, 0, 20) for found in sums[:8]), mp.mpf(0 if any(abs(x) > 1e-4 for x in sums[8:]) else 2)]
+
+
 _SHARED = "each phase has n pulses, A is off in the first region, never are both"
 _CHECKED = "with Lobatto's nodes they integrate powers up to 9 exactly"
 TABLES = (
@@ -269,6 +330,18 @@ TABLES = (
     Table("TRUM_CHECK_FULL_WEIGHTS", _CHECKED, _check_rule),
     Table("TRUM_CHECK_VALUES", "powers below n reproduced at the check nodes", _check_values),
     Table("TRUM_CHECK_INTEGRALS", "powers below n integrated exactly up to each check node", _check_integrals),
+    Table(
+        "TRUM_RUNGE_KUTTA_STAGES",
+        "how many stages there are",
+        lambda t: _count(t, "TRUM_RUNGE_KUTTA_STAGES", "TRUM_RUNGE_KUTTA_NODES"),
+    ),
+    Table("TRUM_RUNGE_KUTTA_NODES", "sums of the rows", _stage_places),
+    Table(
+        "TRUM_RUNGE_KUTTA_WITHIN",
+        "explicit; the last row meets the conditions of all rooted trees of 5 nodes and fewer",
+        _stages,
+    ),
+    Table("TRUM_RUNGE_KUTTA_ERROR", "the same of 4 nodes and fewer with 0, and not those of 5", _stage_error),
     Table(
         "TRUM_GAUSS_POINTS", "how many nodes there are", lambda t: _count(t, "TRUM_GAUSS_POINTS", "TRUM_GAUSS_NODES")
     ),

@@ -25,6 +25,7 @@ nomenclature = lazily("derivations.nomenclature")
 proofs = lazily("derivations.proofs")
 page = lazily("derivations.proofs.page")
 mutants = lazily("derivations.proofs.mutants")
+tables = lazily("derivations.proofs.tables")
 ledger = lazily("derivations.ledger")
 
 ROOT = Path(__file__).parents[2]
@@ -135,6 +136,22 @@ def test_a_kernel_or_table_without_a_proof_is_refused_by_name(files):
     table = files["trum_quadrature.h"] + "#define TRUM_NEW_TABLE {1.0, 2.0}\n"
     with pytest.raises(ArithmeticError, match="TRUM_NEW_TABLE has no proof"):
         proofs.prove(kernels().values(), {**files, "trum_quadrature.h": table})
+
+
+@pytest.mark.parametrize(
+    ("right", "slip", "name"),
+    [
+        ("0.97777777777777777778", "0.97777777777777787778", "TRUM_RUNGE_KUTTA_WITHIN"),  # 44/45 in stage 4
+        ("TRUM_C(0.80000000000000000000)", "TRUM_C(0.75)", "TRUM_RUNGE_KUTTA_NODES"),
+        ("-0.025000000000000000000", "0.025", "TRUM_RUNGE_KUTTA_ERROR"),
+    ],
+)
+def test_a_slip_in_the_rule_of_time_steps_is_refused(files, right, slip, name):
+    text = files["trum_runge_kutta.h"]
+    table = next(table for table in tables.TABLES if table.name == name)
+    assert tables.wrong(table, tables.read(text)) == ""
+    assert right in text
+    assert "is off" in tables.wrong(table, tables.read(text.replace(right, slip)))
 
 
 def test_the_table_of_proofs_in_the_docs_is_made_anew():

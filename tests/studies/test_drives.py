@@ -27,19 +27,21 @@ def test_bursts_far_apart_are_what_the_engine_makes_of_the_same_pause(motor):
     condition = drives.Condition("flange", 0.0, 0.05)
     (record,) = drives.solved(motor, condition, "bursts of 1", (20.0,))
     schedule = ts.Schedule(kind="burst", periods=record["setting"], on_periods=1)
-    found = drive_orbit(motor, condition.drive(3000.0), schedule, compliance="flange", steps=80, sampling_period="2 ms")
+    found = drive_orbit(
+        motor, condition.drive(3000.0), schedule, compliance="flange", tolerance=1e-8, sampling_period="2 ms"
+    )
     assert record["mean"] == pytest.approx(20, rel=1e-3)
-    assert record["mean"] == pytest.approx(found.orbit.mean_speed / ARCSEC, rel=1e-9)
-    assert record["deviation"] == pytest.approx(found.orbit.deviation / ARCSEC, rel=1e-9)
-    assert record["encoder"] == pytest.approx(found.encoder_deviation / ARCSEC, rel=1e-9)
-    assert record["encoder_width"] * ARCSEC == pytest.approx(found.encoder_high - found.encoder_low, rel=1e-9)
+    assert record["mean"] == pytest.approx(found.orbit.mean_speed / ARCSEC, rel=1e-5)
+    assert record["deviation"] == pytest.approx(found.orbit.deviation / ARCSEC, rel=1e-5)
+    assert record["encoder"] == pytest.approx(found.encoder_deviation / ARCSEC, rel=1e-5)
+    assert record["encoder_width"] * ARCSEC == pytest.approx(found.encoder_high - found.encoder_low, rel=1e-5)
 
 
 def test_a_phase_difference_and_a_voltage_give_the_mean_speed_that_was_asked_for(motor):
     condition = drives.Condition("flange", PLATE, 0.0)
     (phase,) = drives.solved(motor, condition, "phase difference", (100.0,))
     schedule = ts.Schedule(kind="continuous", phase_difference=phase["setting"])
-    found = drive_orbit(motor, condition.drive(3000.0), schedule, start="steady", compliance="flange", steps=80)
+    found = drive_orbit(motor, condition.drive(3000.0), schedule, start="steady", compliance="flange", tolerance=1e-8)
     assert found.orbit.mean_speed / ARCSEC == pytest.approx(100, rel=0.02)
     assert phase["deviation"] < 1
     (voltage,) = drives.solved(motor, condition, "voltage", (100.0,))

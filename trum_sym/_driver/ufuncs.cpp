@@ -12,11 +12,11 @@
 #include <numpy/arrayobject.h>
 #include <numpy/ufuncobject.h>
 
+#include "coupled.hpp"
 #include "cpu.hpp"
 #include "grid.hpp"
 #include "orbit.hpp"
 #include "trum_brush.h"
-#include "trum_coupled.h"
 #include "trum_cycle.h"
 
 namespace {
@@ -127,18 +127,6 @@ void brush_speed_loop(char** args, const npy_intp* dimensions, const npy_intp* s
   }
 }
 
-constexpr int n_coupled_in = COUNT(TRUM_COUPLED_LAP_IN), n_coupled_out = COUNT(TRUM_COUPLED_LAP_OUT);
-void coupled_lap_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
-  const Unlocked unlocked;
-  for (npy_intp i = 0; i < dimensions[0]; ++i) {
-    trum_coupled_lap_in in;
-    trum_coupled_lap_out out;
-    read(&in, args, steps, i);
-    trum_coupled_lap(&in, &out);
-    write(out, args + n_coupled_in, steps + n_coupled_in, i);
-  }
-}
-
 constexpr int n_response_in = COUNT(TRUM_CYCLE_RESPONSE_IN);
 void cycle_response_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
   for (npy_intp i = 0; i < dimensions[0]; ++i) {
@@ -167,6 +155,44 @@ const trum::GridCode& grid_code() {
   if (orbit_code == &trum::orbit_avx512) return trum::grid_avx512;
 #endif
   return trum::grid_baseline;
+}
+
+trum::CoupledLap coupled_code() {
+#if defined(TRUM_X86_ORBITS)
+  if (orbit_code == &trum::orbit_avx2) return trum::coupled_avx2;
+  if (orbit_code == &trum::orbit_avx512) return trum::coupled_avx512;
+#endif
+  return trum::coupled_baseline;
+}
+
+constexpr int n_coupled_in = COUNT(TRUM_COUPLED_LAP_IN), n_coupled_out = COUNT(TRUM_COUPLED_LAP_OUT);
+void coupled_lap_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
+  const Unlocked unlocked;
+  for (npy_intp i = 0; i < dimensions[0]; ++i) {
+    trum_coupled_lap_in in;
+    trum_coupled_lap_out out;
+    read(&in, args, steps, i);
+    coupled_code()(&in, &out, nullptr);
+    write(out, args + n_coupled_in, steps + n_coupled_in, i);
+  }
+}
+
+// The same with the slopes of the end state and of the mean speed, a matrix of these by the state at the start.
+void coupled_slopes_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
+  const Unlocked unlocked;
+  const npy_intp* core = steps + n_coupled_in + n_coupled_out + 1;  // strides of rows and columns
+  for (npy_intp i = 0; i < dimensions[0]; ++i) {
+    trum_coupled_lap_in in;
+    trum_coupled_lap_out out;
+    double slopes[trum::coupled_rows][trum::coupled_columns];
+    read(&in, args, steps, i);
+    coupled_code()(&in, &out, slopes[0]);
+    write(out, args + n_coupled_in, steps + n_coupled_in, i);
+    char* to = args[n_coupled_in + n_coupled_out] + i * steps[n_coupled_in + n_coupled_out];
+    for (int of = 0; of < trum::coupled_rows; ++of)
+      for (int by = 0; by < trum::coupled_columns; ++by)
+        *reinterpret_cast<double*>(to + of * core[0] + by * core[1]) = slopes[of][by];
+  }
 }
 
 // Blocks of points of one contact law, small enough to keep their inputs in cache.
@@ -344,6 +370,7 @@ PyUFuncGenericFunction loop_half_angle[1] = {half_angle_loop};
 PyUFuncGenericFunction loop_brush_friction[1] = {brush_friction_loop};
 PyUFuncGenericFunction loop_brush_speed[1] = {brush_speed_loop};
 PyUFuncGenericFunction loop_coupled_lap[1] = {coupled_lap_loop};
+PyUFuncGenericFunction loop_coupled_slopes[1] = {coupled_slopes_loop};
 PyUFuncGenericFunction loop_cycle_sums[1] = {cycle_sums_loop};
 PyUFuncGenericFunction loop_cycle_response[1] = {cycle_response_loop};
 PyUFuncGenericFunction loop_rotor_orbit[1] = {rotor_orbit_loop};
@@ -352,11 +379,15 @@ PyUFuncGenericFunction loop_rotor_slopes[1] = {rotor_slopes_loop};
 PyUFuncGenericFunction loop_rotor_history[1] = {rotor_history_loop};
 
 bool add_contacts(PyObject* module, PyObject* signatures) {
+  const std::string slopes = scalars(n_coupled_in) + "->" + scalars(n_coupled_out) + ",(" +
+                             std::to_string(trum::coupled_rows) + "," + std::to_string(trum::coupled_columns) + ")";
   return add(module, signatures, "brush_friction", loop_brush_friction, n_brush_in, 2, TRUM_BRUSH_IN(NAME_OF), "f f_error") &&
          add(module, signatures, "brush_speed", loop_brush_speed, n_brush_speed_in, 2, TRUM_BRUSH_SPEED_IN(NAME_OF),
              "ratio ratio_error") &&
          add(module, signatures, "coupled_lap", loop_coupled_lap, n_coupled_in, n_coupled_out,
-             TRUM_COUPLED_LAP_IN(NAME_OF), TRUM_COUPLED_LAP_OUT(NAME_OF));
+             TRUM_COUPLED_LAP_IN(NAME_OF), TRUM_COUPLED_LAP_OUT(NAME_OF)) &&
+         add(module, signatures, "coupled_slopes", loop_coupled_slopes, n_coupled_in, n_coupled_out + 1,
+             TRUM_COUPLED_LAP_IN(NAME_OF), TRUM_COUPLED_LAP_OUT(NAME_OF) "slopes", slopes.c_str());
 }
 
 #ifndef TRUM_MADE_OF  // the digest of the sources, which CMake knows

@@ -1,16 +1,16 @@
 """Pulse drive with the rotor's reaction on both phases: what a drive cycle of the whole system comes back to.
 
 The state is both phases, the rotor's height with its rate where the rotor has a mass, and the rim's speed.  A lap is a
-drive cycle of it (``trum_coupled.h``); an orbit is a lap that ends where it began, found by Newton on the lap with
-differences of laps beside it.  Nothing says that there is only one, or that a lap comes back after one cycle at all:
-every result names the start that led to it, whether it closes, and the multipliers of a small disturbance over a lap.
+drive cycle of it (``trum_coupled.h``); an orbit is a lap, or two or three, that end where they began, found by Newton
+on laps with their slopes.  Nothing says that there is only one, or that laps come back at all: every result names the
+start that led to it, whether it closes and after how many cycles, and the multipliers of a small disturbance.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -35,6 +35,8 @@ __all__ = [
     "laps",
     "one_phase",
     "orbit_from",
+    "random_start",
+    "same_orbit",
     "start_of",
 ]
 
@@ -42,12 +44,34 @@ STATE = ("w_A", "v_A", "w_B", "v_B", "height", "climb", "v")
 STARTS = ("rest", "steady")
 """Where laps begin: nothing moves, or both phases as without a rotor."""
 
-_SETTLING = 30  # laps before Newton
-_NEWTON = 12  # steps of it, at most
-_CLOSED = 1e-9  # of a state's size, by which a lap may miss its start
-_DIFFERENCE = 1e-5  # of a state's size, to either side
-_STEPS = Domain(low=20, low_open=False, high=10_000, integer=True)
+_SETTLING = 2000  # drive periods before Newton, at most
+_NEWTON = 8  # steps of it, at most
+_NEAR = 0.1  # of a state's size, by which a lap may miss its start where Newton is tried while laps settle
+_MOVED = 0.4  # of a state's size, by which Newton may move it then
+_SPREAD = 1.5  # of a state's size, of random starts about the steady swing
+_CYCLES = 3  # drive cycles of an orbit, at most
+_APART = 1e-3  # of a state's size, between states that are not the same
+_ROUGH = (3e-4, 1e-6)  # of a state's size, that a time step may be off while laps settle: at first, and if they do not
+_COARSE = 3e-5  # for Newton at first
+_FIRST = 1e-6  # at the first level of an orbit
+_TIGHT = 1e-8  # of a state's size, by which a lap may miss its start however fine its steps: rounding
+_LOOSE = 0.02  # of a state's size, by which a lap may miss its start where time steps are coarse
+_ENOUGH = 300.0  # of what a time step may be off, by which Newton would move an orbit that is left as it is
+_CLOSED = 3000.0  # of what a time step may be off, by which a lap may miss its start: its own error is about a hundred
+_FINER = 32.0  # times at the next levels
+_FINE = 1e-7  # where laps close if they ever do
+_FINEST = 1e-13
+_ORDERS = (0.7, 1.0)  # of an error in what a step may be off: the least and the most that is believed
+_SAFETY = np.array([20.0, 20.0, 20.0, 20.0, 50.0, 30.0, 20.0])
+"""Of the errors of ``_NAMED``; time steps are not chosen by the contact's width.  studies/coupling.py tries it."""
+_SHARE = 0.1  # of the largest error of a speed, that each has at least
+_STEP = 1e-2  # that a lap's time step may be off where no orbit is asked for, over the figures' tolerance
+_TOLERANCE = Domain(low=1e-9, low_open=False, high=1e-2)
 _MASS = Domain(low=0.0, low_open=False, high=10.0)
+_NAMED = ("mean_speed", "min_speed", "max_speed", "deviation", "contact_fraction", "highest_wave", "input_power")
+_SUMMED = ("mean", "low", "high", "variance", "touching", "highest", "input")
+
+Complex = np.ndarray[tuple[int, ...], np.dtype[np.complex128]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,38 +85,56 @@ class CoupledOrbit(Value):
     state : (7,) array
         Displacement and velocity of A and of B, the rotor's height and its rate, speed of the rim, at the cycle's
         start; where no lap closes, that of the last one before Newton's.
+    cycles : int
+        Drive cycles after which it repeats itself; figures are of all of them.
     mean_speed, min_speed, max_speed, deviation : float, rad/s
-        Of the rotor over the cycle; the extremes at the ends of time steps.
-    mean_speed_change : float, rad/s
-        Of the mean from half as many time steps: an estimate of its error, no bound.
+        Of the rotor.
     contact_fraction : float
         Mean of theta/pi.
     highest_wave : float, m
     input_power : float, W
         Mean of what the modal forces put in.
+    mean_speed_error, min_speed_error, max_speed_error, deviation_error : float, rad/s
+    contact_fraction_error : float
+    highest_wave_error : float, m
+    input_power_error : float, W
+        Estimates, from orbits of shorter and shorter time steps, times a factor of safety; no bounds.  NaN where no
+        lap closes.
     missed : float
-        By how much the lap misses its start, over the state's size; an orbit if it is small.
+        By how much the last lap misses the first one's start, over the state's size; an orbit if it is small.
     multipliers : (k,) complex array
-        Of small disturbances over a lap; the orbit attracts if all are smaller than 1.
+        Of small disturbances over all cycles; the orbit attracts if all are smaller than 1.  NaN if the last lap
+        cannot be stepped.
+    order : float
+        With which power of what a time step may be off the figures' changes fell.
+    closed : bool
+        Whether the last lap ends where the first began, as nearly as time steps tell.
+    tolerance_met : bool
+        Whether the errors of mean and extremes are no larger than asked for.
     """
 
     start: str
     state: Array
+    cycles: int
     mean_speed: float
     min_speed: float
     max_speed: float
     deviation: float
-    mean_speed_change: float
     contact_fraction: float
     highest_wave: float
     input_power: float
+    mean_speed_error: float
+    min_speed_error: float
+    max_speed_error: float
+    deviation_error: float
+    contact_fraction_error: float
+    highest_wave_error: float
+    input_power_error: float
     missed: float
-    multipliers: np.ndarray[tuple[int, ...], np.dtype[np.complex128]]
-
-    @property
-    def closed(self) -> bool:
-        """Whether a lap ends where it began."""
-        return bool(self.missed < _CLOSED)
+    multipliers: Complex
+    order: float
+    closed: bool
+    tolerance_met: bool
 
     @property
     def stable(self) -> bool:
@@ -107,7 +149,7 @@ def lap_values(
     schedule: Schedule | None = None,
     *,
     rotor_mass: float = 0.0,
-    steps: float = 400,
+    tolerance: float = 1e-6,
     coverage: float = 1.0,
     reaction: bool = True,
 ) -> dict[str, float]:
@@ -124,8 +166,9 @@ def lap_values(
         The drive's superimposed pulses if not given.
     rotor_mass : float, kg
         That goes up and down under the prepressure; without one the rotor follows the wave.
-    steps : int
-        Time steps in a drive period.
+    tolerance : float
+        Of an orbit's mean, lowest and highest speed, over the largest speed, or over a thousandth of the surface's
+        where the rotor hardly turns; 1e-9 to 1e-2.
     coverage : float
         As for :func:`trum_sym.model.coupling.coupled_values`.
     reaction : bool
@@ -148,22 +191,26 @@ def lap_values(
         "held": held_wave(values) if reaction else 0.0,
         "mass": one_number("rotor_mass", rotor_mass, "kg", _MASS),
         "reaction": float(reaction),
-        "steps": one_number("steps", steps, "1", _STEPS),
+        "size": float(values["F_q"]) / float(values["M_q"]) / abs(complex(own**2 - turn**2, 2 * xi * own * turn)),
+        "wanted": one_number("tolerance", tolerance, "1", _TOLERANCE),
+        "tolerance": _STEP * one_number("tolerance", tolerance, "1", _TOLERANCE),
         "force_phase": float(np.asarray(drive.switching_phase)) + lead,
     }
 
 
 def laps(values: Mapping[str, float], states: Array) -> tuple[Array, dict[str, Array]]:
-    """States (7, n) after a lap from states (7, n), and what each lap comes to."""
+    """States (7, n) after a lap from states (7, n), and what each lap comes to.
+
+    A time step may be off by ``values["tolerance"]`` of a state's size; what cannot be stepped is NaN.
+    """
     found = call("coupled_lap", {**values, **dict(zip(STATE, states, strict=True))})
     return np.array([found[name] for name in STATE]), {name: np.asarray(value) for name, value in found.items()}
 
 
 def _sizes(values: Mapping[str, float]) -> Array:
-    """A size of each number of the state: of the wave that the modal force makes at resonance."""
-    own = values["omega_n0"]
-    height = values["F_q"] / (2 * values["xi"] * values["M_q"] * own**2)
-    speed = height * own
+    """A size of each number of the state: of the wave that the modal force makes without a rotor."""
+    height = values["size"]
+    speed = height * values["omega_n0"]
     return np.array([height, speed, height, speed, height, speed, values["D"] * values["k_c"] * speed])
 
 
@@ -184,7 +231,165 @@ def start_of(name: str, values: Mapping[str, float]) -> Array:
     return state
 
 
-def orbit_from(values: Mapping[str, float], start: Array, name: str, settling: int = _SETTLING) -> CoupledOrbit:
+def random_start(values: Mapping[str, float], at: np.random.Generator) -> Array:
+    """A state (7,) at random about ``steady``, normal with 1.5 of a state's size."""
+    return np.asarray(start_of("steady", values) + _SPREAD * _sizes(values) * at.normal(size=len(STATE)))
+
+
+@dataclass(frozen=True)
+class _Lap:
+    """Laps one after another.
+
+    Attributes
+    ----------
+    state, end : (7,) array
+        Where they begin and end, in SI.
+    figures : (7,) array
+        As ``_NAMED``, speeds in m/s.
+    slopes : (k + 1, k) array
+        Of the end's k free numbers, in their sizes, and of the mean speed, in m/s, by those of the start.
+    gap : (k,) array
+        By which the free numbers miss the start, in their sizes.
+    """
+
+    state: Array
+    end: Array
+    figures: Array
+    slopes: Array
+    gap: Array
+
+    @property
+    def missed(self) -> float:
+        known = np.isfinite(self.gap).all() and np.isfinite(self.slopes).all()
+        return float(np.abs(self.gap).max()) if known else np.inf
+
+    @property
+    def multipliers(self) -> Complex:
+        square = self.slopes[:-1]
+        if not np.isfinite(square).all():
+            return np.full(len(square), np.nan + 0j)
+        return np.asarray(np.linalg.eigvals(square), np.complex128)
+
+
+class _System:
+    """Laps of one point, in sizes of its state."""
+
+    def __init__(self, values: Mapping[str, float]) -> None:
+        self.values = dict(values)
+        self.sizes = _sizes(values)
+        massive = values["mass"] > 0
+        self.free = np.array([k for k in range(len(STATE)) if massive or STATE[k] not in ("height", "climb")])
+
+    def after(self, state: Array, allowed: float) -> Array:
+        """The state after a lap."""
+        start = dict(zip(STATE, state, strict=True))
+        found = call("coupled_lap", {**self.values, "tolerance": allowed, **start})
+        return np.array([found[name] for name in STATE])
+
+    def around(self, state: Array, cycles: int, allowed: float) -> _Lap:
+        """So many laps with their slopes."""
+        of_state, of_mean = np.eye(self.free.size), np.zeros(self.free.size)
+        rows, at = [], state
+        for _ in range(cycles):
+            start = dict(zip(STATE, at, strict=True))
+            found = call("coupled_slopes", {**self.values, "tolerance": allowed, **start})
+            slopes = np.asarray(found["slopes"])[:, self.free] * self.sizes[self.free]
+            of_mean = of_mean + slopes[-1] @ of_state / cycles
+            of_state = slopes[self.free] / self.sizes[self.free, np.newaxis] @ of_state
+            rows.append([float(np.asarray(found[name])) for name in _SUMMED])
+            at = np.array([found[name] for name in STATE])
+        gap = ((at - state) / self.sizes)[self.free]
+        held = np.setdiff1d(np.arange(len(STATE)), self.free)
+        state = state.copy()
+        state[held] = at[held]  # what follows from the others
+        return _Lap(state, at, _figures(np.array(rows)), np.vstack([of_state, of_mean]), gap)
+
+    def orbit(self, state: Array, cycles: int, allowed: float) -> _Lap:
+        """The laps that come nearest to their start, by Newton from a state."""
+        best = lap = self.around(state, cycles, allowed)
+        for step in range(_NEWTON):
+            change = self.newton(lap) if lap.missed < np.inf else np.zeros(0)
+            most = float(np.abs(change).max(initial=0.0))
+            if most < _ENOUGH * allowed or (step > 0 and self.closed(best, allowed)):
+                break
+            state = lap.state.copy()
+            state[self.free] += self.sizes[self.free] * change / max(1.0, most)
+            lap = self.around(state, cycles, allowed)
+            best = lap if lap.missed < best.missed else best
+        return best
+
+    def first(self, state: Array, cycles: int) -> _Lap:
+        """Laps next to a state that close at the first level, by Newton with coarser steps and then with its own."""
+        lap = self.orbit(state, cycles, _COARSE)
+        return self.orbit(lap.state, cycles, _FIRST) if self.closed(lap, _COARSE) else lap
+
+    def closed(self, lap: _Lap, allowed: float) -> bool:
+        """Whether laps end where they began, as nearly as time steps tell."""
+        return lap.missed < min(max(_CLOSED * allowed, _TIGHT), _LOOSE)
+
+    def attracts(self, lap: _Lap, allowed: float) -> bool:
+        """Whether laps close, as nearly as time steps tell, where Newton leaves them, and disturbances die out."""
+        if not (self.closed(lap, allowed) and float(np.abs(lap.multipliers).max()) < 1):
+            return False
+        return float(np.abs(self.newton(lap)).max()) < _NEAR
+
+    def newton(self, lap: _Lap) -> Array:
+        """By how much the start has to change for the laps to close, were their slopes to stay."""
+        return np.asarray(np.linalg.lstsq(np.eye(self.free.size) - lap.slopes[:-1], lap.gap, rcond=None)[0], float)
+
+    def missing(self, lap: _Lap) -> Array:
+        """Twice what figures miss because laps do not quite close: the mean by its slopes, the others by sizes."""
+        change, (_, _, _, _, height, speed, rim) = self.newton(lap), self.sizes
+        sizes = np.array([0.0, rim, rim, rim, 1.0, height, self.values["F_q"] * speed])
+        sizes *= np.abs(change).max()
+        sizes[0] = abs(float(lap.slopes[-1] @ change))
+        return 2 * sizes
+
+    def speed(self, figures: Array) -> float:
+        """By which errors of speeds are measured: the rotor's largest, or a thousandth of the surface's."""
+        return max(float(np.abs(figures[1:3]).max()), float(self.sizes[-1]) / 1000)
+
+    def settled(self, state: Array, settling: int, allowed: float) -> tuple[list[Array], _Lap | None]:
+        """The states after each of some laps, and the orbit that attracts them if one is seen before they are over."""
+        tried, states = 2 * _NEAR, [state]
+        for _ in range(settling):
+            states.append(self.after(states[-1], allowed))
+            gap = self.distance(states[-1], states[-2])
+            if gap < tried / 2:
+                tried = gap
+                lap = self.first(states[-1], 1)
+                if self.attracts(lap, _FIRST) and self.distance(lap.state, states[-1]) < _MOVED:
+                    return states, lap
+            if not np.isfinite(gap):
+                break
+        return states, None
+
+    def several(self, states: list[Array]) -> tuple[int, _Lap] | None:
+        """An attracting orbit over two or three cycles, and none of one, from where laps come back most nearly."""
+        for cycles in range(2, _CYCLES + 1):
+            pairs = list(zip(states, states[cycles:]))  # noqa: B905
+            if not pairs:
+                continue
+            nearest = min(pairs, key=lambda pair: self.distance(*pair))[0]
+            lap = self.first(nearest, cycles)
+            if self.attracts(lap, _FIRST) and self.distance(self.after(lap.state, _FIRST), lap.state) > _NEAR:
+                return cycles, lap
+        return None
+
+    def distance(self, one: Array, other: Array) -> float:
+        """Between two states, by the number that differs most."""
+        return float(np.abs(((one - other) / self.sizes)[self.free]).max())
+
+
+def _figures(rows: Array) -> Array:
+    """Of laps after one another, from what each comes to (n, 7)."""
+    mean, low, high, variance, touching, highest, power = rows.T
+    spread = np.mean(variance + (mean - mean.mean()) ** 2)
+    ends = (mean.mean(), low.min(), high.max(), np.sqrt(max(0.0, float(spread))))
+    return np.array([*ends, touching.mean(), highest.max(), power.mean()])
+
+
+def orbit_from(values: Mapping[str, float], start: Array, name: str, settling: int | None = None) -> CoupledOrbit:
     """The orbit that laps from a state lead to.
 
     Parameters
@@ -196,54 +401,99 @@ def orbit_from(values: Mapping[str, float], start: Array, name: str, settling: i
     name : str
         What the result says of it.
     settling : int
-        Laps before Newton.
+        Laps before Newton, at most, those of 2000 drive periods if not given, and as many again with finer time steps
+        if they do not settle: it begins where laps hardly change and an orbit that attracts is near.
     """
-    sizes = _sizes(values)
-    free = np.array([k for k in range(len(STATE)) if values["mass"] > 0 or STATE[k] not in ("height", "climb")])
-    state = np.array(start, float)
-    for _ in range(settling):
-        state = laps(values, state[:, np.newaxis])[0][:, 0]
-    settled, best, missed, slopes = state, state, np.inf, np.eye(free.size)
-    for _ in range(_NEWTON):
-        aside = _DIFFERENCE * np.eye(len(STATE))[:, free] * sizes[:, np.newaxis]
-        states = state[:, np.newaxis] + np.concatenate([np.zeros((len(STATE), 1)), aside, -aside], axis=1)
-        ends = laps(values, states)[0]
-        gap = (ends[:, 0] - state)[free] / sizes[free]
-        if not np.isfinite(gap).all():
-            break
-        found = (ends[free, 1 : 1 + free.size] - ends[free, 1 + free.size :]) / (2 * _DIFFERENCE)
-        if np.abs(gap).max() < missed:
-            best, missed, slopes = state, float(np.abs(gap).max()), found / sizes[free, np.newaxis]
-        if missed < _CLOSED / 100:
-            break
-        change = np.linalg.lstsq(np.eye(free.size) - found / sizes[free, np.newaxis], gap, rcond=None)[0]
-        state = state.copy()
-        state[free] += sizes[free] * change / max(1.0, float(np.abs(change).max()))
-    return _orbit(values, best if missed < _CLOSED else settled, name, missed, np.linalg.eigvals(slopes))
+    system = _System(values)
+    most = math.ceil(_SETTLING / values["m"]) if settling is None else settling
+    states, lap = [np.array(start, float)], None
+    for allowed in _ROUGH:
+        if lap is None:
+            states, lap = system.settled(states[-1], most, allowed)
+    lap = lap or system.first(states[-1], 1)
+    orbit = _refined(system, lap, 1, states[-1], name)
+    if not (orbit.closed and orbit.stable):
+        more = system.several(states)
+        longer = _refined(system, more[1], more[0], states[-1], name) if more else orbit
+        orbit = longer if longer.closed else orbit
+    return orbit
 
 
-def _orbit(values: Mapping[str, float], state: Array, name: str, missed: float, multipliers: Any) -> CoupledOrbit:  # noqa: ANN401
-    """The figures of the lap from a state."""
-    lap = {key: float(value[0]) for key, value in laps(values, state[:, np.newaxis])[1].items()}
-    coarse = laps({**values, "steps": float(int(values["steps"]) // 2)}, state[:, np.newaxis])[1]
-    radius = values["r_c"]
+def _refined(system: _System, lap: _Lap, cycles: int, settled: Array, name: str) -> CoupledOrbit:
+    """An orbit at finer and finer time steps, until its errors are as small as wanted."""
+    wanted, allowed = system.values["wanted"], _FIRST
+    levels, errors, met, finer = _Levels(allowed, lap.figures), np.full(len(_NAMED), np.nan), False, lap
+    closed = False
+    while allowed > _FINEST and not met:
+        allowed = levels.next(allowed, wanted * system.speed(lap.figures))
+        finer = system.orbit(lap.state, cycles, allowed)
+        closed = system.closed(finer, allowed)
+        if closed:
+            lap = finer
+            if levels.add(allowed, lap.figures):
+                errors = levels.errors + system.missing(lap)
+                met = bool(errors[:3].max() <= wanted * system.speed(lap.figures))
+        elif allowed < _FINE:
+            break
+    missed, multipliers = finer.missed, finer.multipliers
+    if not closed:
+        errors = np.full(len(_NAMED), np.nan)
+        lap = system.around(settled, cycles, allowed)
+    scale = np.array([1 / system.values["r_c"]] * 4 + [1.0] * 3)
+    figures, off = (dict(zip(_NAMED, map(float, of * scale), strict=True)) for of in (lap.figures, errors))
     return CoupledOrbit(
         start=name,
-        state=state,
-        mean_speed=lap["mean"] / radius,
-        min_speed=lap["low"] / radius,
-        max_speed=lap["high"] / radius,
-        deviation=float(np.sqrt(max(0.0, lap["square"] - lap["mean"] ** 2))) / radius,
-        mean_speed_change=(lap["mean"] - float(coarse["mean"][0])) / radius,
-        contact_fraction=lap["touching"],
-        highest_wave=lap["highest"],
-        input_power=lap["input"],
+        state=lap.state,
+        cycles=cycles,
         missed=missed,
-        multipliers=np.asarray(multipliers, np.complex128),
+        multipliers=multipliers,
+        order=levels.order,
+        closed=closed,
+        tolerance_met=met,
+        **figures,
+        **{f"{figure}_error": error for figure, error in off.items()},
     )
 
 
-def coupled_orbits(values: Mapping[str, float], starts: Iterable[str] = STARTS) -> tuple[CoupledOrbit, ...]:
+class _Levels:
+    """Figures of an orbit by what a time step may be off, and their errors by Richardson's extrapolation.
+
+    A change from level to level is about the error of the coarser one.  The order is that with which changes of speeds
+    fell from the first to the last, within bounds; an error is the larger of what the last change and the one before it
+    make of it, times a factor of safety; and no speed's is less than a tenth of another's.
+    """
+
+    def __init__(self, allowed: float, figures: Array) -> None:
+        self.allowed, self.figures, self.order, self.count = [allowed], figures, np.nan, 0
+        self.first = self.last = np.zeros(len(figures))
+        self.errors = np.full(len(figures), np.nan)
+
+    def next(self, allowed: float, wanted: float) -> float:
+        """What a step may be off at the level after one, for half the error of speeds that is wanted."""
+        if self.count < 2 or allowed < self.allowed[-1]:
+            return allowed / _FINER
+        aim = wanted / 2 / max(float(self.errors[:3].max()), 1e-300)
+        return allowed * float(np.clip(aim, 1 / _FINER, 1 / 4))
+
+    def add(self, allowed: float, figures: Array) -> bool:
+        """Take a level; whether there are errors, from the third on."""
+        change, gain = np.abs(figures - self.figures), self.allowed[-1] / allowed
+        if self.count == 0:
+            self.first = change
+        else:
+            fell = float(self.first[:4].max()) / max(float(change[:4].max()), 1e-300)
+            span = self.allowed[0] / self.allowed[-1]
+            self.order = float(np.clip(np.log(max(fell, 1e-300)) / np.log(span), *_ORDERS))
+            before = self.last / ((self.allowed[-2] / self.allowed[-1]) ** self.order - 1) / gain**self.order
+            self.errors = _SAFETY * np.maximum(change / (gain**self.order - 1), before)
+            self.errors[:4] = np.maximum(self.errors[:4], _SHARE * self.errors[:4].max())
+        self.allowed, self.figures, self.last, self.count = [*self.allowed, allowed], figures, change, self.count + 1
+        return self.count > 1
+
+
+def coupled_orbits(
+    values: Mapping[str, float], starts: Iterable[str] = STARTS, draws: int = 0
+) -> tuple[CoupledOrbit, ...]:
     """The different orbits that laps from some starts lead to, and what does not close.
 
     Parameters
@@ -252,31 +502,47 @@ def coupled_orbits(values: Mapping[str, float], starts: Iterable[str] = STARTS) 
         From :func:`lap_values`.
     starts : iterable of str
         Of :data:`STARTS`.
+    draws : int
+        Starts at random beside these, about ``steady``; the same ones each time.
 
     Returns
     -------
     tuple of CoupledOrbit
-        One for each start, without those that are the same as one before.
+        One for each start, without those that are the same as one before.  An orbit over two or three cycles is
+        found where laps come to none of one; others, and orbits over more, are missed.
 
     Examples
     --------
     >>> import trum_sym as ts
     >>> from trum_sym.model.levels import Levels
-    >>> values = lap_values(ts.load_motor(), ts.Drive(), Levels(), rotor_mass=0.02, steps=60)
-    >>> [(orbit.start, orbit.closed) for orbit in coupled_orbits(values, ("rest",))]
-    [('rest', True)]
+    >>> values = lap_values(ts.load_motor(), ts.Drive(), Levels(), rotor_mass=0.02, tolerance=1e-3)
+    >>> [(orbit.start, orbit.closed, orbit.cycles) for orbit in coupled_orbits(values, ("steady",))]
+    [('steady', True, 1)]
     """
     found: list[CoupledOrbit] = []
-    sizes = _sizes(values)
-    for name in starts:
-        orbit = orbit_from(values, start_of(name, values), name)
-        alike = [o for o in found if o.closed and orbit.closed and np.abs((o.state - orbit.state) / sizes).max() < 1e-4]
-        if not alike:
+    at = np.random.default_rng(0)
+    begun = [(name, start_of(name, values)) for name in starts]
+    begun += [(f"random {k}", random_start(values, at)) for k in range(draws)]
+    for name, start in begun:
+        orbit = orbit_from(values, start, name)
+        if not any(same_orbit(values, one, orbit) for one in found):
             found.append(orbit)
     return tuple(found)
 
 
-def followed(points: Iterable[Mapping[str, float]], settling: int = _SETTLING) -> list[CoupledOrbit]:
+def same_orbit(values: Mapping[str, float], one: CoupledOrbit, other: CoupledOrbit) -> bool:
+    """Whether two orbits are one, perhaps begun a cycle or two apart."""
+    if not (one.closed and other.closed and one.cycles == other.cycles):
+        return False
+    system, state = _System(values), other.state
+    for _ in range(one.cycles):
+        if system.distance(one.state, state) < _APART:
+            return True
+        state = system.after(state, _FINE)
+    return False
+
+
+def followed(points: Iterable[Mapping[str, float]], settling: int | None = None) -> list[CoupledOrbit]:
     """The orbit at each of some points, from that of the point before: a slow sweep, which stays on its branch.
 
     Parameters
@@ -284,7 +550,7 @@ def followed(points: Iterable[Mapping[str, float]], settling: int = _SETTLING) -
     points : iterable of mapping
         From :func:`lap_values`, in the order of the sweep; the first begins at ``steady``.
     settling : int
-        Laps before Newton at each point.
+        Laps before Newton at each point, as for :func:`orbit_from`.
     """
     found: list[CoupledOrbit] = []
     for values in points:
@@ -293,11 +559,11 @@ def followed(points: Iterable[Mapping[str, float]], settling: int = _SETTLING) -
     return found
 
 
-def one_phase(motor: Motor, drive: Drive, levels: Levels, rotor_mass: float, steps: float = 400) -> CoupledOrbit:
+def one_phase(motor: Motor, drive: Drive, levels: Levels, rotor_mass: float, tolerance: float = 1e-6) -> CoupledOrbit:
     """Phase A alone, always on, under a rotor that does not turn: what an amplitude under prepressure is measured on.
 
     ``highest_wave`` is the amplitude.  The drive's load and pulses do not count.
     """
     alone = Drive(prepressure=drive.prepressure, frequency_difference=drive.frequency_difference, load_torque=0.0)
-    values = lap_values(motor, alone, levels, Schedule(kind="single"), rotor_mass=rotor_mass, steps=steps)
-    return orbit_from(values, start_of("steady", values), "steady", settling=300)
+    values = lap_values(motor, alone, levels, Schedule(kind="single"), rotor_mass=rotor_mass, tolerance=tolerance)
+    return orbit_from(values, start_of("steady", values), "steady")

@@ -32,7 +32,6 @@ from trum_sym.values import Value
 __all__ = ["DriveHistory", "DriveOrbit", "drive_history", "drive_orbit", "history_of", "read_by_encoder"]
 
 _MOVING = [STATE.index(name) for name in ("w_A", "v_A", "w_B", "v_B", "v")]
-_SETTLING = 600  # drive periods before Newton: 22 of the time in which a free wave falls by e
 _COUNT = Domain(low=1, low_open=False, high=1e6, integer=True)
 _PAUSE = Domain(low=0, low_open=False, high=1e6, integer=True)
 _PERIOD = Domain(low=0.0, high=1e6)
@@ -161,7 +160,7 @@ class DriveOrbit(Result, Value):
     orbit : CoupledOrbit
         Mean, extremes and deviation of the speed, wave, power, whether it closes and is stable.
     history : DriveHistory
-        Of the cycle.
+        Of the orbit's cycles.
     encoder_deviation, encoder_low, encoder_high : float or None, rad/s
         Standard deviation, least and largest of what the encoder reads; None without a sampling period.
     inputs : Inputs
@@ -220,7 +219,7 @@ class DriveOrbit(Result, Value):
 
 
 def _values(
-    motor: Motor, drive: Drive, schedule: Schedule | None, levels: Levels, rotor_mass: float, steps: float
+    motor: Motor, drive: Drive, schedule: Schedule | None, levels: Levels, rotor_mass: float, tolerance: float
 ) -> tuple[Schedule, dict[str, float]]:
     """The schedule and what its laps depend on.
 
@@ -233,7 +232,7 @@ def _values(
     chosen = Schedule() if schedule is None else schedule
     if not isinstance(chosen, Schedule):
         raise ParameterError("schedule", chosen, "a Schedule")
-    return chosen, lap_values(motor, drive, levels, chosen, rotor_mass=rotor_mass, steps=steps)
+    return chosen, lap_values(motor, drive, levels, chosen, rotor_mass=rotor_mass, tolerance=tolerance)
 
 
 def _coupled(levels: LevelChoice) -> Levels:
@@ -252,7 +251,7 @@ def drive_orbit(
     start: str = "rest",
     sampling_period: float | str | None = None,
     samples_per_period: float = 8,
-    steps: float = 400,
+    tolerance: float = 1e-6,
     **levels: Unpack[LevelChoice],
 ) -> DriveOrbit:
     """The cycle that any drive comes back to, with the rotor's reaction on the wave (docs/coupling.md).
@@ -271,8 +270,8 @@ def drive_orbit(
         Of an encoder that averages over it.
     samples_per_period : whole number
         Parts of a drive period between which the rotor's path is taken for the encoder.
-    steps : whole number
-        Time steps in a drive period, a multiple of ``samples_per_period``.
+    tolerance : float
+        Of mean, lowest and highest speed over the largest, 1e-9 to 1e-2.
     contact, resonance, foundation, amplitude, compliance, tangential, coupling
         Levels, as for :func:`trum_sym.evaluate`; ``coupling`` is ``contact`` here.
 
@@ -300,32 +299,22 @@ def drive_orbit(
     drive = Drive() if drive is None else drive
     choice("start", start, STARTS)
     chosen_levels = _coupled(levels)
-    samples = _samples(samples_per_period, steps)
+    samples = _samples(samples_per_period)
     period = None if sampling_period is None else one_number("sampling_period", sampling_period, "s", _PERIOD)
     mass = one_number("rotor_mass", rotor_mass, "kg")
-    chosen, values = _values(motor, drive, schedule, chosen_levels, mass, steps)
+    chosen, values = _values(motor, drive, schedule, chosen_levels, mass, tolerance)
     begun = start_of(start, values)
     first = laps(values, begun[:, np.newaxis])[0][:, 0]
     again = np.array_equal(first[_MOVING], begun[_MOVING]) and not values["mass"]  # all has come to rest
-    settling = 0 if again else max(30, int(np.ceil(_SETTLING / values["m"])))
+    settling = 0 if again else None
     return _answer(
         values, orbit_from(values, begun, start, settling), chosen, samples, motor, drive, chosen_levels, period
     )
 
 
-def _samples(samples_per_period: object, steps: object) -> int:
-    """Parts of a drive period.
-
-    Raises
-    ------
-    ParameterError
-        If there is no whole number of steps in each.
-    """
-    samples = int(one_number("samples_per_period", samples_per_period, "1", _COUNT))
-    count = one_number("steps", steps, "1")
-    if count % samples:
-        raise ParameterError("steps", count, f"a multiple of samples_per_period, {samples}")
-    return samples
+def _samples(samples_per_period: object) -> int:
+    """Parts of a drive period."""
+    return int(one_number("samples_per_period", samples_per_period, "1", _COUNT))
 
 
 def _answer(
@@ -338,8 +327,9 @@ def _answer(
     levels: Levels,
     period: float | None,
 ) -> DriveOrbit:
-    """The orbit with the history of its cycle and what an encoder reads of it."""
-    walked = history_of(values, orbit.state, schedule.gates(drive), samples)
+    """The orbit with the history of its cycles and what an encoder reads of it."""
+    gates = np.tile(schedule.gates(drive), (orbit.cycles, 1))
+    walked = history_of(values, orbit.state, gates, samples)
     spread, low, high = (None,) * 3 if period is None else read_by_encoder(walked.time, walked.angle, period)
     return DriveOrbit(schedule, orbit, walked, spread, low, high, Inputs(motor, drive, levels, period))
 
@@ -353,14 +343,14 @@ def drive_history(
     pause: float = 0,
     rotor_mass: float | str = 0.0,
     samples_per_period: float = 8,
-    steps: float = 400,
+    tolerance: float = 1e-6,
     **levels: Unpack[LevelChoice],
 ) -> DriveHistory:
     """How a motor starts from rest under a drive, and how it stops when the drive is switched off (docs/coupling.md).
 
     Parameters
     ----------
-    motor, drive, schedule, rotor_mass, steps
+    motor, drive, schedule, rotor_mass, tolerance
         As for :func:`drive_orbit`.
     cycles : whole number
         Of the schedule, from rest.
@@ -385,17 +375,18 @@ def drive_history(
     >>> import trum_sym as ts
     >>> from trum_sym.model.drive_orbit import drive_history
     >>> drive = ts.Drive(frequency_difference=500, load_torque=0)
-    >>> found = drive_history(drive=drive, schedule=ts.Schedule(kind="continuous"), cycles=100, pause=100, steps=80)
+    >>> always = ts.Schedule(kind="continuous")
+    >>> found = drive_history(drive=drive, schedule=always, cycles=100, pause=100, tolerance=1e-4)
     >>> bool(found.speed.max() > 40), float(found.speed[-1])
     (True, 0.0)
     """
     motor = load_motor() if motor is None else motor
     drive = Drive() if drive is None else drive
     chosen_levels = _coupled(levels)
-    samples = _samples(samples_per_period, steps)
+    samples = _samples(samples_per_period)
     repeats = int(one_number("cycles", cycles, "1", _COUNT))
     still = int(one_number("pause", pause, "1", _PAUSE))
     mass = one_number("rotor_mass", rotor_mass, "kg")
-    chosen, values = _values(motor, drive, schedule, chosen_levels, mass, steps)
+    chosen, values = _values(motor, drive, schedule, chosen_levels, mass, tolerance)
     gates = np.concatenate([np.tile(chosen.gates(drive), (repeats, 1)), np.zeros((still, 2))])
     return history_of(values, start_of("rest", values), gates, samples)

@@ -1,0 +1,3 @@
+#define LANES 8
+#define COUPLED coupled_avx512
+#include "coupled.inc"

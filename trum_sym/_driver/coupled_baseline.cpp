@@ -1,0 +1,3 @@
+#define LANES 2
+#define COUPLED coupled_baseline
+#include "coupled.inc"
