@@ -252,7 +252,12 @@ def _dependents(name: str, importers: Mapping[str, set[str]]) -> set[str]:
 def _headers() -> Mapping[str, list[object]]:
     """The tables of numbers, of the emitter as it is loaded now."""
     now = sys.modules[emit.__name__]
-    makers = {"collocation": now._collocation, "quadrature": now._quadrature, "elementary": now._elementary}
+    makers = {
+        "collocation": now._collocation,
+        "quadrature": now._quadrature,
+        "elementary": now._elementary,
+        "runge_kutta": now._runge_kutta,
+    }
     return numbers({**{f"trum_{name}.h": make() for name, make in makers.items()}, "trum_kernels.h": now._header()})
 
 

@@ -16,6 +16,7 @@ _INSTALLED = _PACKAGE / "data" / "c"
 _TREE = _PACKAGE.parent
 _OTHERS = {
     "trum_coupled.h",
+    "trum_coupled_step.h",
     "trum_coupled_calls.h",
     "trum_coupled_lanes.h",
     "trum_runge_kutta.h",

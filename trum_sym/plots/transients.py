@@ -36,7 +36,7 @@ def start_and_stop(
     Parameters
     ----------
     motor, drive, schedule, cycles, pause, rotor_mass, levels
-        As for :func:`trum_sym.model.drive_orbit.drive_history`.
+        As for ``trum_sym.model.drive_orbit.drive_history``.
     axes : two Axes, optional
         A new figure's if not given.
     """
