@@ -32,9 +32,14 @@ NEVER = {
     "trum_point.h": {
         "point->speed_volatility_error": "no mean speed that was tried has an open sign",
         "} else if (error <= drive->tolerance)": "rounding alone has met every tolerance that was tried",
+        "return A > 10 || B > 10;": "free motion that lasts is much the same in both phases",
     },
     "trum_brush.h": {"for (k = 0; k < 16": "a bristle sticks and slides three times at most"},
-    "trum_cycle.h": {"for (i = 0; i < 200": "a bracket halved this often is closed before"},
+    "trum_cycle.h": {
+        "for (i = 0; i < 200": "a bracket halved this often is closed before",
+        "if (!(k->m > TRUM_C(0.5) + TRUM_REPEATS_BEYOND": "without damping a long schedule takes too long here",
+        "return time < 0 ? 0 : time < c->duration": "no region that was tried begins with almost no free motion",
+    },
     "orbit": {
         "static int mask_in_lane(": ONE_LANE,
         "static mask where_mask(": ONE_LANE,
@@ -74,6 +79,7 @@ NEVER = {
         "} else if (!trum_finish_rough_lap(": LAPS,
         "if (in[k].held > TRUM_C(0.5) && isnan(out[k].held)": "a motion that cannot be followed held nor free",
         "if (s.last) {": LAPS,
+        "if (searches[0].repetition.is_long && record.written": "no long history ended with a step",
         "if (mask_in_lane(lanes.status.failed, 0)": "a history repeats a lap that came to its end",
     },
 }
@@ -107,6 +113,8 @@ def edges() -> list[str]:
         "prepressure=400 load_torque=0.1",
         "prepressure=20 load_torque=0.01",
         "prepressure=5000",  # the whole wave in contact
+        "periods=20000 on_periods=20000 start=steady load_torque=0.05",  # a long schedule without free motion
+        "damping_ratio=1e-5 frequency_difference=2054.92 load_torque=0.05",  # free motion adds up from cycle to cycle
         "prepressure=5000 contact=hertz",
         "prepressure=50000 load_torque=0.1 start=rest",
         "prepressure=50000 load_torque=0.1 start=rest contact=hertz amplitude=5e-6",
