@@ -28,6 +28,7 @@ FOLDERS = [ROOT / "generated", DRIVER, ROOT / "examples" / "c"]
 # Branches that no input takes, by their header (or its folder) and the beginning of their line, and why
 ONE_LANE = "one lane: the batches of the Python package take it"
 LAPS = "a limit of the search for the orbit that no point tried has met"
+LONG = "long schedules are run at a few points here: tests/model/test_long_schedules.py has more"
 NEVER = {
     "trum_point.h": {
         "point->speed_volatility_error": "no mean speed that was tried has an open sign",
@@ -80,6 +81,20 @@ NEVER = {
         "} else if (!trum_finish_rough_lap(": LAPS,
         "if (in[k].held > TRUM_C(0.5) && isnan(out[k].held)": "a motion that cannot be followed held nor free",
         "if (s.last) {": LAPS,
+        "return reach > trum_least_counted": LONG,
+        "static int trum_is_long(": LONG,
+        "const trum_real reversal = share < 1": LONG,
+        "return (friction > contact ? friction": LONG,
+        "trum_real length = r->waiting": LONG,
+        "r->watched = length <": LONG,
+        "if (length < 1) length = 1;": LONG,
+        "if (length > r->left) length": LONG,
+        "r->left -= length,": LONG,
+        "for (k = 0; k < 60 && high": LONG,
+        "r->waiting = !(a > low)": LONG,
+        "const trum_real decay = held ? 1 : 1 - kept_error": LONG,
+        "set_lane(&lap->remainder, i, (added": LONG,
+        "if (r->left < TRUM_C(0.5)) return 0;": LONG,
         "if (searches[0].repetition.is_long && record.written": "no long history ended with a step",
         "if (mask_in_lane(lanes.status.failed, 0)": "a history repeats a lap that came to its end",
     },
