@@ -28,7 +28,7 @@ FOLDERS = [ROOT / "generated", DRIVER, ROOT / "examples" / "c"]
 # Branches that no input takes, by their header (or its folder) and the beginning of their line, and why
 ONE_LANE = "one lane: the batches of the Python package take it"
 LAPS = "a limit of the search for the orbit that no point tried has met"
-LONG = "long schedules are run at a few points here: tests/model/test_long_schedules.py has more"
+LONG = "none of the few long schedules that are run here takes it"
 NEVER = {
     "trum_point.h": {
         "point->speed_volatility_error": "no mean speed that was tried has an open sign",

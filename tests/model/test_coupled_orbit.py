@@ -226,6 +226,12 @@ def test_an_orbit_that_rounding_alone_keeps_from_closing_is_closed(motor):
     assert orbit.missed < 1e-8
 
 
+def test_pulses_have_the_force_of_the_motors_electrodes(motor):
+    levels = Levels(amplitude="forced")
+    whole, part = (lap_values(m, ts.Drive(), levels) for m in (motor, motor.with_values({"phase_coverage": 4 / 9})))
+    assert part["F_q"] / whole["F_q"] == pytest.approx(4 / 9, rel=1e-12)
+
+
 @pytest.mark.filterwarnings("ignore::trum_sym.ValidityWarning")
 def test_one_phase_without_prepressure_has_the_free_amplitude(motor):
     drive = ts.Drive(prepressure=0.1, frequency_difference=0.0)

@@ -102,7 +102,7 @@ def calibrate(
     if plot is not None:
         from trum_sym.plots import answers
 
-        answers.write("--plot", answers.fitted(found), plot)
+        answers.write_picture("--plot", answers.fitted(found), plot)
     if found.status != "solved":
         return 1
     if out is not None:

@@ -102,5 +102,5 @@ def evaluate(
     if plot is not None:
         from trum_sym.plots import answers
 
-        answers.write("--plot", answers.point(point), plot)
+        answers.write_picture("--plot", answers.point(point), plot)
     return 0 if point.converged else 1

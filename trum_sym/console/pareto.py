@@ -98,5 +98,5 @@ def pareto(
     if plot is not None and front.points:
         from trum_sym.plots import answers
 
-        answers.write("--plot", answers.front(front), plot)
+        answers.write_picture("--plot", answers.front(front), plot)
     return 0 if front.status == "solved" else 1

@@ -107,5 +107,5 @@ def robust(
     if plot is not None and found.cases:
         from trum_sym.plots import answers
 
-        answers.write("--plot", answers.worst_case(found), plot)
+        answers.write_picture("--plot", answers.worst_case(found), plot)
     return 0 if found.status == "solved" else 1

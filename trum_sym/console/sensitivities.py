@@ -59,5 +59,5 @@ def sensitivities(
     if plot is not None:
         from trum_sym.plots import answers
 
-        answers.write("--plot", answers.slopes(found), plot)
+        answers.write_picture("--plot", answers.slopes(found), plot)
     return 0 if np.isfinite(found["mean_speed"]["prepressure"]) else 1

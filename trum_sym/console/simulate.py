@@ -81,5 +81,5 @@ def simulate(
     if plot is not None:
         from trum_sym.plots import answers
 
-        answers.write("--plot", answers.histories(histories), plot)
+        answers.write_picture("--plot", answers.histories(histories), plot)
     return 0 if histories.attrs["converged"] else 1

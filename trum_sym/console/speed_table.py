@@ -106,7 +106,7 @@ def speed_table(
     if plot is not None:
         from trum_sym.plots import answers
 
-        answers.write("--plot", answers.table(table), plot)
+        answers.write_picture("--plot", answers.table(table), plot)
     if out is not None:
         table.save(out, "--out")
         if not as_json:

@@ -121,7 +121,7 @@ def sweep(
     found, summary = run("--out", plan, out, scheduler, chunk is not None, sys.stderr)
     say(f"{out}: {_summary(plan, summary)}")
     if plot is not None:
-        answers.write("--plot", answers.swept(found), plot)
+        answers.write_picture("--plot", answers.swept(found), plot)
 
 
 def _ranges(options: dict[str, Any], overrides: tuple[str, ...], fixed: tuple[str, ...]) -> dict[str, str]:

@@ -88,5 +88,5 @@ def track(
     if plot is not None:
         from trum_sym.plots import answers
 
-        answers.write("--plot", answers.tracked(found), plot)
+        answers.write_picture("--plot", answers.tracked(found), plot)
     return 0 if found.loop.gain_margin > 1 and not found.beyond else 1

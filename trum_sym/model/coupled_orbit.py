@@ -150,7 +150,6 @@ def lap_values(
     *,
     rotor_mass: float = 0.0,
     tolerance: float = 1e-6,
-    coverage: float = 1.0,
     reaction: bool = True,
 ) -> dict[str, float]:
     """What a lap depends on, by symbol, in SI.
@@ -169,8 +168,6 @@ def lap_values(
     tolerance : float
         Of an orbit's mean, lowest and highest speed, over the largest speed, or over a thousandth of the surface's
         where the rotor hardly turns; 1e-9 to 1e-2.
-    coverage : float
-        As for :func:`trum_sym.model.coupling.coupled_values`.
     reaction : bool
         Whether the contact acts on the phases; without, their amplitude is that of the modal force alone.
 
@@ -182,7 +179,7 @@ def lap_values(
     if drive.start != "periodic":
         raise ParameterError("start", drive.start, "periodic where coupling is contact: cycles follow each other")
     plain = Drive(**{**drive.numbers(), **drive.words(), "on_periods": drive.periods})  # type: ignore[arg-type]
-    values = coupled_values(motor, plain, Levels(**{**vars(levels), "coupling": "contact"}), coverage=coverage)
+    values = coupled_values(motor, plain, Levels(**{**vars(levels), "coupling": "contact"}))
     own, turn, xi = (float(values[name]) for name in ("omega_n", "omega_q", "xi"))
     lead = float(np.angle(complex(own**2 - turn**2, 2 * xi * own * turn)))
     return {

@@ -308,9 +308,8 @@ def aim_of(
 def warn_of_box(problem: Problem) -> None:
     """Warn of a box that reaches beyond the prepressures on which eq. 8 was fitted, or to an undamped resonance."""
     motor, box = problem.motor, problem.box
-    if (
-        "frequency_difference" in box.names
-    ):  # as near to the resonance as the box goes, but for what has no state at all
+    if "frequency_difference" in box.names:
+        # as near to the resonance as the box goes, but for what has no state at all
         nearest = box.low + 0.5 * (box.high - box.low)
         k = box.names.index("frequency_difference")
         nearest[k] = np.clip(0.0, box.low[k], box.high[k]) or 1e-3

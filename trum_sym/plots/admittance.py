@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from trum_sym.output.files import write_bytes
-from trum_sym.plots.style import COLOURS, blank, figure_of, styled, without_tex
+from trum_sym.plots.style import COLOURS, blank, figure_of, styled, without_tex, write_picture
 from trum_sym.plots.tolerance import check_picture
 
 if TYPE_CHECKING:
@@ -40,15 +38,11 @@ def draw(name: str, found: xr.Dataset, target: Path) -> None:
         As :func:`check_picture` does, or if the file cannot be written.
     """
     check_picture(name, target)
-    content = BytesIO()
-    _figure(found, target.suffix.removeprefix("."), content)
-    write_bytes(name, content.getbuffer(), target)
+    write_picture(name, _figure(found), target)
 
 
 @styled
-def _figure(found: xr.Dataset, kind: str, content: BytesIO) -> Figure:
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-
+def _figure(found: xr.Dataset) -> Figure:
     size, angle, circle, wave = blank(2, 2, 6.0)
     frequency = found["frequency"].values / 1e3
     for k, state in enumerate(found["state"].values):
@@ -70,6 +64,4 @@ def _figure(found: xr.Dataset, kind: str, content: BytesIO) -> Figure:
     handles, labels = size.get_legend_handles_labels()
     figure.suptitle(str(found.attrs["title"]), x=0.02, ha="left", fontsize=9)
     figure.legend(handles, labels, loc="upper right", ncols=len(labels), fontsize=8, frameon=False)
-    FigureCanvasAgg(figure)
-    figure.savefig(content, format=kind, dpi=150, facecolor="white")
     return figure

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict
-from io import BytesIO
 from itertools import pairwise
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -22,8 +20,7 @@ from trum_sym.inputs.units import ARCSEC
 from trum_sym.model.histories import simulate
 from trum_sym.model.operating_point import OperatingPoint
 from trum_sym.model.sensitivities import PARAMETERS, Sensitivities
-from trum_sym.output.files import write_bytes
-from trum_sym.plots.style import COLOURS, GRID, INK, figure_of, legend, panels, styled
+from trum_sym.plots.style import COLOURS, GRID, INK, figure_of, legend, panels, styled, write_picture
 from trum_sym.quantities import QUANTITIES, Quantity
 from trum_sym.studies.pareto import ParetoFront
 from trum_sym.studies.robust import RobustPoint
@@ -47,23 +44,10 @@ __all__ = [
     "table",
     "tracked",
     "worst_case",
-    "write",
+    "write_picture",
 ]
 
 SUFFIXES = (".png", ".svg", ".pdf")
-
-
-def write(name: str, figure: Figure, target: Path) -> None:
-    """Write a picture, whole or not at all.
-
-    Raises
-    ------
-    ParameterError
-        If the file cannot be written.
-    """
-    content = BytesIO()
-    figure.savefig(content, format=target.suffix[1:], dpi=150, facecolor="white")
-    write_bytes(name, content.getvalue(), target)
 
 
 def _plain(text: str) -> str:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from trum_sym.output.files import write_bytes
-from trum_sym.plots.style import COLOURS, blank, figure_of, styled, without_tex
+from trum_sym.plots.style import COLOURS, blank, figure_of, styled, without_tex, write_picture
 from trum_sym.plots.tolerance import check_picture
 
 if TYPE_CHECKING:
@@ -43,15 +41,11 @@ def draw(name: str, curves: xr.Dataset, target: Path) -> None:
         As :func:`check_picture` does, or if the file cannot be written.
     """
     check_picture(name, target)
-    content = BytesIO()
-    _figure(curves, target.suffix.removeprefix("."), content)
-    write_bytes(name, content.getbuffer(), target)
+    write_picture(name, _figure(curves), target)
 
 
 @styled
-def _figure(curves: xr.Dataset, kind: str, content: BytesIO) -> Figure:
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-
+def _figure(curves: xr.Dataset) -> Figure:
     panels = blank(3, 2, 7.0)
     torque, power, efficiency, frequency, speed, stall = panels
     _draw(torque, curves, "mean_speed", "torque", "load torque (N m)", "speed (rpm)", _RPM)
@@ -68,8 +62,6 @@ def _figure(curves: xr.Dataset, kind: str, content: BytesIO) -> Figure:
     figure = figure_of(torque)
     figure.suptitle(str(curves.attrs["title"]), x=0.02, ha="left", fontsize=9)
     figure.legend(handles, labels, loc="upper right", ncols=len(labels), fontsize=8, frameon=False)
-    FigureCanvasAgg(figure)
-    figure.savefig(content, format=kind, dpi=150, facecolor="white")
     return figure
 
 

@@ -33,6 +33,7 @@ __all__ = [
     "styled",
     "svg",
     "without_tex",
+    "write_picture",
 ]
 
 Panels: TypeAlias = "Axes | Sequence[Axes] | None"
@@ -192,6 +193,29 @@ def legend(axes: Axes, **options: Any) -> None:  # noqa: ANN401
             **options,
         }
     )
+
+
+def write_picture(name: str, figure: Figure, target: Path) -> None:
+    """Write a picture in the format of its suffix, whole or not at all.
+
+    Parameters
+    ----------
+    name : str
+        What a refusal calls the file.
+    figure : Figure
+        Any.
+    target : Path
+        A .png, .svg or .pdf file.
+
+    Raises
+    ------
+    ParameterError
+        If the file cannot be written.
+    """
+    content = io.BytesIO()
+    with _style():
+        figure.savefig(content, format=target.suffix[1:], dpi=150, facecolor="white")
+    write_bytes(name, content.getvalue(), target)
 
 
 def save(figure: Figure, target: Path) -> None:
