@@ -81,7 +81,7 @@ def main(arguments: list[str] | None = None) -> int:
     if options.command == "generate":
         return _generate(options.check)
     if options.command == "certificates":
-        from derivations.certificates.make import command as certificates
+        from derivations.certificates.command import command as certificates
 
         return certificates(write=options.write)
     if options.command == "codecheck":

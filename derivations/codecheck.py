@@ -5,8 +5,9 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from derivations.certificates.make import SOURCES, as_json, make
-from derivations.certificates.make import page as certificates_page
+from derivations.certificates.make import as_json, make
+from derivations.certificates.page import page as certificates_page
+from derivations.certificates.sources import SOURCES
 from derivations.ledger import ENTRIES
 from derivations.ledger.command import outputs, prove
 

@@ -16,6 +16,9 @@ from lazily import lazily
 
 checker = lazily("derivations.certificates.checker")
 make = lazily("derivations.certificates.make")
+page = lazily("derivations.certificates.page")
+reading = lazily("derivations.certificates.reading")
+sources = lazily("derivations.certificates.sources")
 
 ROOT = Path(__file__).parents[2]
 FILES = sorted((ROOT / "derivations" / "certificates" / "data").glob("*.json"))
@@ -46,7 +49,7 @@ def test_the_checker_needs_python_alone():
 def test_a_certificate_is_proved_read_right_and_what_is_made_now(name):
     certificate = load(name)
     checker.check(certificate)
-    assert make.misread(certificate) == []
+    assert reading.misread(certificate) == []
     assert (ROOT / "derivations" / "certificates" / "data" / f"{name}.json").read_text("utf-8") == make.as_json(
         make.make(name)
     )
@@ -96,21 +99,21 @@ def test_a_certificate_of_a_wrong_statement_is_refused():
         {"name": "slope", "says": "", "goal": goal, "times": one, "equals": [], "multipliers": [[2, {"": "1"}]]}
     ]
     checker.check(printed)  # the algebra is right
-    assert any("is not 0" in problem for problem in make.misread(printed))
+    assert any("is not 0" in problem for problem in reading.misread(printed))
     other = copy.deepcopy(right)
     other["letters"]["f"] = "sqrt((Y + 2)/(Y - 1))"
-    assert make.misread(other)
+    assert reading.misread(other)
     weaker = copy.deepcopy(right)  # right about the derived form, and about anything else
     weaker["claims"][1]["goal"] = {}
     weaker["claims"][1]["multipliers"] = []
     checker.check({**weaker, "claims": weaker["claims"][1:2]})
-    assert any("the print satisfies it too" in problem for problem in make.misread(weaker))
+    assert any("the print satisfies it too" in problem for problem in reading.misread(weaker))
 
 
 def test_the_page_shows_what_the_files_say():
     records = json.loads((ROOT / "generated" / "ledger.json").read_text("utf-8"))
-    order = [source.name for source in make.SOURCES]
+    order = [source.name for source in sources.SOURCES]
     assert sorted(order) == sorted(NAMES)
     text = (ROOT / "docs" / "certificates.md").read_text("utf-8")
-    assert text == make.page([load(name) for name in order], records)
+    assert text == page.page([load(name) for name in order], records)
     assert "F Y r - F r + 1 = 0 (slope)" in text
