@@ -131,6 +131,23 @@ def test_a_light_rotor_that_stops_with_the_surface_knows_how_slow_it_was(trum60,
     assert abs(slowest) <= error  # it stops; friction never drives it against the load's direction
 
 
+def test_rounding_does_not_hold_the_length_of_steps(trum60):
+    """After the shortest step, whose error is rounding, steps grow again; they stayed as short to the lap's end."""
+    friction, force = 0.22564927670817728, 178.99184418052397
+    motor = trum60.with_values({"rotor_inertia": 2.2639380268390183e-09, "friction_coefficient": friction})
+    drive = ts.Drive(
+        prepressure=force,
+        frequency_difference=-2792.3195933355173,
+        periods=2,
+        on_periods=1,
+        load_torque=-0.9982134285453587 * friction * force * 0.0265,
+        start="steady",
+    )
+    fine, coarse = (ts.evaluate(motor, drive, tolerance=tolerance) for tolerance in (1.0608321754513768e-09, 1e-5))
+    assert fine.converged
+    assert abs(fine.mean_speed - coarse.mean_speed) <= coarse.mean_speed_error
+
+
 def random_drives(seed, count, nearest):
     rng = np.random.default_rng(seed)
     periods, force = rng.integers(1, 31, count), rng.uniform(100, 220, count)
