@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 
 import sympy as sp
 
@@ -22,6 +23,7 @@ __all__ = [
     "contact_edge",
     "deviation",
     "excess",
+    "hidden_peak",
     "kronrod",
     "monotone_weight",
     "pressure",
@@ -98,6 +100,32 @@ def excess() -> sp.Expr:
             if not slack.is_nonnegative:
                 raise ProofError(f"the excess, {name}: {slack} can be negative")
     return -(push - sp.Abs(drag)) + away
+
+
+def hidden_peak() -> int:
+    """What a peak of friction integrates to over a step's length times what it makes the nodes differ by, at most: 12.
+
+    Next to a standing wave that passes zero at the rate s while the other phase is d, the cosine of the surface's phase
+    is d / sqrt(d^2 + (s t)^2), and with it friction has a peak A / sqrt(1 + (t/w)^2) of half-width w = d/s.  Its integral
+    over a step h is 2 A w asinh(x) at most, x = h/(2 w), as the inverse hyperbolic sine is concave.  Lobatto's middle
+    nodes are h/(2 sqrt 5) from the step's middle, so that one node is no further from the peak, and one end is at least
+    h/2 from it: the nodes differ by A (1/sqrt(1 + x^2/5) - 1/sqrt(1 + x^2)) at least, wherever the peak is.  The quotient of both over
+    h is asinh(x)/g(x) with g = x (1/sqrt(1 + x^2/5) - 1/sqrt(1 + x^2)), which rises with x.  The phase counts as turning
+    from a cosine below 0.4 between two nodes on, x > 1.46; up to x = 1e6 the quotient is at most 12, as it is
+    at most asinh(b)/g(a) between a and b.
+    """
+    X, half = sp.Symbol("x", positive=True), sp.Rational(1, 2)
+    near, far = (1 + X**2 / 5) ** (-half), (1 + X**2) ** (-half)
+    middle = collocation.nodes()[2] - half
+    _zero(middle / half - 1 / sp.sqrt(5), "the middle nodes")
+    g = X * (near - far)
+    _zero(g.diff(X) - (near**3 - far**3), "the slope of g")
+    angle = 2 * sp.atan(X / sp.sqrt(5))
+    places = [sp.Rational(146, 100), *(sp.Integer(10) ** k for k in (1, 2, 6))]
+    if not sp.cos(angle.subs(X, places[0])).evalf() > sp.Rational(4, 10):
+        raise ProofError("a turn begins at a narrower peak")
+    found = max(sp.asinh(b).evalf() / g.subs(X, a).evalf() for a, b in pairwise(places))
+    return int(sp.ceiling(found))
 
 
 def monotone_weight() -> sp.Expr:
@@ -299,6 +327,7 @@ THEOREMS = (
     Theorem("comparison", "friction does not rise with the rotor's speed", comparison),
     Theorem("saturation", "friction is at most mu times the pressure", saturation),
     Theorem("excess", "friction is saturated past the surface's speed", excess),
+    Theorem("hidden peak", "a peak of the form that the phase of a nearly standing wave gives it", hidden_peak),
     Theorem("monotone weight", "comparison", monotone_weight),
     Theorem("kronrod", "nothing", kronrod),
     Theorem("start speed", "comparison", start_speed),

@@ -14,7 +14,7 @@ import casadi as ca
 import mpmath as mp
 import sympy as sp
 
-from derivations import collocation, fixed_grid, runge_kutta
+from derivations import collocation, error_bound, fixed_grid, runge_kutta
 from derivations.codegen import driver
 from derivations.codegen.kernels import Kernel, kernels
 from derivations.codegen.library import headers
@@ -279,6 +279,8 @@ def _collocation() -> str:
             "/* at the check nodes: the value of the polynomial through the nodes' values, its integral from 0 */",
             f"#define TRUM_CHECK_VALUES {_table(collocation.check_values())}",
             f"#define TRUM_CHECK_INTEGRALS {_table(collocation.check_integrals())}",
+            "/* the integral of a peak between the nodes over what their values differ by, at most */",
+            f"#define TRUM_HIDDEN_PEAK {error_bound.hidden_peak()}",
             "",
         ]
     )

@@ -308,6 +308,23 @@ def _stage_error(t: Tables) -> list[Number]:
     return [*(_same(found, 0, 20) for found in sums[:8]), mp.mpf(0 if any(abs(x) > 1e-4 for x in sums[8:]) else 2)]
 
 
+def _hidden_peak(t: Tables) -> list[Number]:
+    """Of peaks 1/sqrt(1 + (s - c)^2/w^2): the integral from 0 to 1 over the nodes' range; near the bound for one."""
+    z, (bound,) = t["TRUM_COLLOCATION_POINTS"], t["TRUM_HIDDEN_PEAK"]
+    found = []
+    for wide in ("1.46", "10", "1e2", "1e3", "1e4", "1e5", "1e6"):  # half a step over the peak's half-width
+        for place in ("0.5", "0.4", "0.2764", "0.1", "0"):
+            width, centre = mp.mpf("0.5") / mp.mpf(wide), mp.mpf(place)
+
+            def peak(s: Number, w: Number = width, c: Number = centre) -> Number:
+                return 1 / mp.sqrt(1 + ((s - c) / w) ** 2)
+
+            ends = [mp.mpf(0), *(x for x in (centre - width, centre, centre + width) if 0 < x < 1), mp.mpf(1)]
+            seen = [peak(s) for s in z]
+            found.append(mp.quad(peak, ends) / (max(seen) - min(seen)) / bound)
+    return [*found, mp.mpf("0.95") / max(found)]
+
+
 _SHARED = "each phase has n pulses, A is off in the first region, never are both"
 _CHECKED = "with Lobatto's nodes they integrate powers up to 9 exactly"
 TABLES = (
@@ -330,6 +347,9 @@ TABLES = (
     Table("TRUM_CHECK_FULL_WEIGHTS", _CHECKED, _check_rule),
     Table("TRUM_CHECK_VALUES", "powers below n reproduced at the check nodes", _check_values),
     Table("TRUM_CHECK_INTEGRALS", "powers below n integrated exactly up to each check node", _check_integrals),
+    Table(
+        "TRUM_HIDDEN_PEAK", "a peak's integral over what the nodes see of it: at most that, and nearly", _hidden_peak
+    ),
     Table(
         "TRUM_RUNGE_KUTTA_STAGES",
         "how many stages there are",

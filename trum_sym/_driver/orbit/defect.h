@@ -20,6 +20,7 @@ typedef struct {
   real stiffness;       /* rate at which speeds draw together, 1/s */
   real local_end, local_inside; /* bounds of the error at the end and within, if the step began exactly, */
   real most_end, most_inside;   /* and with what the lap is off by so far */
+  mask turns;           /* whether the surface's phase turns by much between two nodes */
 } trum_defect;
 
 /* exp(-z) and the mean of exp(-y) for y from 0 to z, for z >= 0, to a few per cent. */
@@ -94,6 +95,32 @@ static real trum_rounding(const trum_lanes* lanes, const trum_trial_step* trial)
   return h * (REAL(10 * trum_unit) * (REAL(1) + REAL(3) * reciprocal(theta * theta + REAL(trum_tiny))) + phase * at_stake);
 }
 
+/* Whether the surface's phase turns by much between two nodes, as it does near a standing wave; where the whole wave touches
+ * a layer it does not matter, as the pressure is nearly even then; under the Hertz width it keeps its crest. */
+static mask trum_phase_turns(const trum_lanes* lanes, const trum_trial_step* trial) {
+  real cosine = lanes->start.cos_phi, sine = lanes->start.sin_phi;
+  mask turns = mask_all(0);
+  int j;
+  for (j = 1; j < NODES; ++j) {
+    const real along = cosine * trial->at[j].cos_phi + sine * trial->at[j].sin_phi;
+    turns = turns | (less_than(along, REAL(trum_min_phase_cosine)) &
+                     (with_hertz(lanes) ? mask_all(1)
+                                        : less_than(REAL(0), maximum(trial->events[j][EVENT_FULL_CONTACT],
+                                                                     trial->events[j - 1][EVENT_FULL_CONTACT]))));
+    cosine = trial->at[j].cos_phi, sine = trial->at[j].sin_phi;
+  }
+  return turns;
+}
+
+/* What friction does within such a turn and the nodes do not see: a peak of which they see the sides
+ * (derivations/error_bound.py, hidden_peak). */
+static real trum_hidden_peak(const trum_lanes* lanes, const trum_trial_step* trial) {
+  real highest = trial->f[0], lowest = trial->f[0];
+  int j;
+  for (j = 1; j < NODES; ++j) highest = maximum(highest, trial->f[j]), lowest = minimum(lowest, trial->f[j]);
+  return REAL(TRUM_HIDDEN_PEAK) * lanes->step.h * (highest - lowest);
+}
+
 /* Bounds of an error where R_v passes zero faster than steps resolve: a rotor that is faster than the surface is slowed by
  * push - |drag|, so that |v| - R_v of the exact solution grows above what it is at the step's start (or 0) by no more than
  * what R_v changes faster than that, and so the two solutions are no further apart than both are from 0.  Between nodes R_v
@@ -132,7 +159,7 @@ static void trum_step_defect(const trum_lanes* lanes, const trum_trial_step* tri
   static const trum_real A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS;
   const real push = lanes->equation.push, h = lanes->step.h;
   real K[NODES], r[3], angle[3], exponent[3], left[3], stiff = REAL(0), to_saturation = REAL(0), all, least;
-  real size, rounding, first, damped, weakest = REAL(trum_unmeasured), largest = REAL(0), lasting;
+  real size, rounding, hidden, first, damped, weakest = REAL(trum_unmeasured), largest = REAL(0), lasting;
   int i, j;
   for (j = 0; j < NODES; ++j) K[j] = trial->T[j] * trial->f_v[j];
   trum_extrapolate_ends(lanes->step.curvature, K);
@@ -167,10 +194,13 @@ static void trum_step_defect(const trum_lanes* lanes, const trum_trial_step* tri
   d->x = push * d->x;
   rounding = trum_rounding(lanes, trial);
   d->friction_remainder = trum_quadrature_remainder(r, &size);
-  d->friction_remainder = where(trial->damped, damped, d->friction_remainder) + rounding + root_error;
+  d->turns = trum_phase_turns(lanes, trial);
+  hidden = where(d->turns, trum_hidden_peak(lanes, trial), REAL(0));
+  d->friction_remainder = where(trial->damped, damped, d->friction_remainder) + rounding + root_error + hidden;
   /* between the ends of a damped step the error is where friction balances the defect */
   d->inside = push * where(trial->damped, minimum(REAL(0.5) * size, largest * reciprocal(REAL(1) + weakest)),
                            REAL(0.5) * size);
+  d->inside = d->inside + push * hidden;
   /* the decay of errors is known to the first order only */
   d->remainder = push * d->friction_remainder + trial->unsolved +
                  push * size * stiff * stiff * reciprocal(REAL(20) + stiff * stiff * (REAL(4) + stiff));

@@ -32,8 +32,8 @@ static real trum_error_ratio(trum_lanes* lanes, const trum_trial_step* trial, ma
   const real of_friction = absolute(d->friction) + d->friction_remainder;
   const real of_angle = REAL(0.31830988618379067154) * (absolute(d->angle) + d->angle_remainder);
   const real of_x = (absolute(d->x) + d->remainder) * reciprocal(lanes->equation.push + REAL(trum_tiny));
-  real G[NODES], ratio, cosine = lanes->start.cos_phi, sine = lanes->start.sin_phi;
-  mask finite, phase_unresolved = mask_all(0);
+  real G[NODES], ratio;
+  mask finite, turned;
   int j;
   ratio = where(held, maximum(where(lanes->status.contact_only, REAL(0), of_friction), of_angle), of_x) *
           lanes->tolerances.inverse_step;
@@ -64,21 +64,8 @@ static real trum_error_ratio(trum_lanes* lanes, const trum_trial_step* trial, ma
   finite = less_than(ratio, REAL(1e30));
   ratio = where(finite & mask_not(trial->not_converged), minimum(ratio, REAL(1e6)), REAL(1e6));
   lanes->status.failed = lanes->status.failed | (lanes->status.active & mask_not(finite) & minimal);
-  /* near a standing wave the surface's phase turns fast: the nodes must resolve it, unless the whole wave touches a layer,
-   * whose pressure is nearly even then; under the Hertz width it keeps its crest */
-  for (j = 1; j < NODES; ++j) {
-    const real along = cosine * trial->at[j].cos_phi + sine * trial->at[j].sin_phi;
-    phase_unresolved =
-        phase_unresolved |
-        (less_than(along, REAL(trum_min_phase_cosine)) &
-         (with_hertz(lanes) ? mask_all(1)
-                       : less_than(REAL(0), maximum(trial->events[j][EVENT_FULL_CONTACT],
-                                                    trial->events[j - 1][EVENT_FULL_CONTACT]))));
-    cosine = trial->at[j].cos_phi, sine = trial->at[j].sin_phi;
-  }
-  phase_unresolved =
-      phase_unresolved & less_than(REAL(trum_min_step_for_phase) * lanes->equation.period, lanes->step.h);
-  ratio = where(phase_unresolved, maximum(ratio, REAL(40)), ratio);
+  turned = d->turns & less_than(REAL(trum_min_step_for_phase) * lanes->equation.period, lanes->step.h);
+  ratio = where(turned, maximum(ratio, REAL(40)), ratio);
   return where(less_than(REAL(1.01) * longest, lanes->step.h), maximum(ratio, REAL(10)), ratio);
 }
 
