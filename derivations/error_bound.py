@@ -105,14 +105,14 @@ def excess() -> sp.Expr:
 def hidden_peak() -> int:
     """What a peak of friction integrates to over a step's length times what it makes the nodes differ by, at most: 12.
 
-    Next to a standing wave that passes zero at the rate s while the other phase is d, the cosine of the surface's phase
-    is d / sqrt(d^2 + (s t)^2), and with it friction has a peak A / sqrt(1 + (t/w)^2) of half-width w = d/s.  Its integral
-    over a step h is 2 A w asinh(x) at most, x = h/(2 w), as the inverse hyperbolic sine is concave.  Lobatto's middle
-    nodes are h/(2 sqrt 5) from the step's middle, so that one node is no further from the peak, and one end is at least
-    h/2 from it: the nodes differ by A (1/sqrt(1 + x^2/5) - 1/sqrt(1 + x^2)) at least, wherever the peak is.  The quotient of both over
-    h is asinh(x)/g(x) with g = x (1/sqrt(1 + x^2/5) - 1/sqrt(1 + x^2)), which rises with x.  The phase counts as turning
-    from a cosine below 0.4 between two nodes on, x > 1.46; up to x = 1e6 the quotient is at most 12, as it is
-    at most asinh(b)/g(a) between a and b.
+    Next to a standing wave that passes zero at the rate s while the other phase is d, the cosine of the surface's
+    phase is d / sqrt(d^2 + (s t)^2), and with it friction has a peak A / sqrt(1 + (t/w)^2) of half-width w = d/s. Its
+    integral over a step h is 2 A w asinh(x) at most, x = h/(2 w), as the inverse hyperbolic sine is concave.
+    Lobatto's middle nodes are h/(2 sqrt 5) from the step's middle, so that one node is no further from the peak, and
+    one end is at least h/2 from it: the nodes differ by A (1/sqrt(1 + x^2/5) - 1/sqrt(1 + x^2)) at least, wherever
+    the peak is. The quotient of both over h is asinh(x)/g(x) with g = x (1/sqrt(1 + x^2/5) - 1/sqrt(1 + x^2)), which
+    rises with x. The phase counts as turning from a cosine below 0.4 between two nodes on, x > 1.46; up to x = 1e6
+    the quotient is at most 12, as it is at most asinh(b)/g(a) between a and b.
     """
     X, half = sp.Symbol("x", positive=True), sp.Rational(1, 2)
     near, far = (1 + X**2 / 5) ** (-half), (1 + X**2) ** (-half)

@@ -148,6 +148,26 @@ def test_rounding_does_not_hold_the_length_of_steps(trum60):
     assert abs(fine.mean_speed - coarse.mean_speed) <= coarse.mean_speed_error
 
 
+@pytest.mark.parametrize("tolerance", [1e-5, 1e-7, 8.96153987144326e-09, 5e-9, 1e-9])
+def test_a_peak_of_friction_that_steps_pass_over_is_in_the_bound(trum60, tolerance):
+    """The wave of a start from rest, 9e-15 m high where it passes zero: friction peaks for 5e-9 drive periods."""
+    drive = ts.Drive(
+        prepressure=164.89141065680303,
+        frequency_difference=-2641.7417594596004,
+        periods=2,
+        on_periods=1,
+        switching_phase=1.2515251344676794,
+        phase_lead=-1,
+        load_torque=-0.3121710830350415 * 0.25 * 164.89141065680303 * 0.0265,
+        start="rest",
+    )
+    point = ts.evaluate(trum60, drive, contact="hertz", tolerance=tolerance)
+    limit = 0.25 * 164.89141065680303 * 0.0265
+    exact = 0.3659265783260 * limit  # studies/witness.py, to 1e-13 of the limit
+    assert point.converged
+    assert abs(abs(point.stall_torque) - exact) <= point.stall_torque_error + 1e-12 * limit
+
+
 def random_drives(seed, count, nearest):
     rng = np.random.default_rng(seed)
     periods, force = rng.integers(1, 31, count), rng.uniform(100, 220, count)
