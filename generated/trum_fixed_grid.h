@@ -13,3 +13,5 @@
 #define TRUM_GRID_EVENT_BOUND (0.090909090909090909091)
 #define TRUM_GRID_END_BOUND (1.5000000000000000000)
 #define TRUM_GRID_HELD_BOUND (0.25000000000000000000)
+/* of the three-quarter power of a half-width, both in steps, in the area of a peak */
+#define TRUM_GRID_PEAK (3.0000000000000000000)

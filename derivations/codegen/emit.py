@@ -319,6 +319,8 @@ def _fixed_grid() -> str:
         "/* of fourth differences' magnitudes, at a region's ends of second ones', in the bound of what is left */"
     )
     lines += [f"#define TRUM_GRID_{name}_BOUND ({sp.N(value, 20)})" for name, value in fixed_grid.bounds().items()]
+    lines += ["/* of the three-quarter power of a half-width, both in steps, in the area of a peak */"]
+    lines += [f"#define TRUM_GRID_PEAK ({sp.N(fixed_grid.passing(), 20)})"]
     return "\n".join([*lines, ""])
 
 

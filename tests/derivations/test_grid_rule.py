@@ -64,3 +64,25 @@ def test_the_driver_counts_twice_what_an_event_leaves():
     assert found["END"] == 2 * sp.Rational(3, 4)
     assert found["HELD"] == 4 * sp.Rational(1, 16)
     assert fixed_grid.end() == Fraction(3, 4)
+
+
+def test_a_peak_s_area_is_bounded_by_where_its_line_passes():
+    """By quadrature of the cosine of the phase along random straight lines, which knows nothing of widths."""
+    rng, bound = np.random.default_rng(5), fixed_grid.passing()
+    share = (np.polynomial.legendre.leggauss(400)[0] + 1) / 2
+    weights = np.polynomial.legendre.leggauss(400)[1] / 2
+    largest = 0.0
+    for _ in range(300):
+        nearest, before, after = 10 ** rng.uniform(-3, 0), rng.uniform(0.05, 1), rng.uniform(0.05, 1)
+        heights = np.hypot(nearest, [before, after])
+        turn = np.arctan(before / nearest) + np.arctan(after / nearest)
+        way = heights @ heights - 2 * heights.prod() * np.cos(turn)
+        half_width = heights.prod() * np.sin(turn) / way
+        span = np.arcsinh(before / nearest) + np.arcsinh(after / nearest)
+        times = np.arcsinh(-before / nearest) + share * span
+        along = nearest * np.sinh(times)  # so that the nodes gather at the peak
+        cosine = nearest / np.hypot(nearest, along)
+        area = (weights * cosine * nearest * np.cosh(times)).sum() * span / (before + after)  # in steps
+        assert area <= bound * half_width**0.75
+        largest = max(largest, area / (bound * half_width**0.75))
+    assert largest > 0.9

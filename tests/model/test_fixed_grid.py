@@ -189,3 +189,38 @@ def test_a_sweep_says_where_it_used_a_grid(trum60):
     asked = ts.sweep(trum60, prepressure="170:190:2", tolerance=1e-2, method="adaptive", outputs=("mean_speed",))
     drive = ts.Drive(prepressure=np.array([170.0, 190.0]))
     assert np.array_equal(asked.mean_speed, ts.evaluate(trum60, drive, tolerance=1e-2, method="adaptive").mean_speed)
+
+
+# From rest the wave passes zero between nodes; stall torque, by studies/witness.py, and load over the limit
+PASSING = {
+    "two periods": (
+        {"prepressure": 146.83928479934693, "frequency_difference": -35.53640941152298, "phase_lead": -1},
+        {"periods": 2, "on_periods": 1},
+        0.0016411568819763524,
+        0.23294854312951274,
+        0.879177117237907,
+    ),
+    "eight periods": (
+        {"prepressure": 215.99544720520592, "frequency_difference": 2720.633820124357},
+        {"periods": 8, "on_periods": 7, "switching_phase": 1.5925138358978936},
+        0.0013962389792359596,
+        0.8225133844029022,
+        0.9267947698629374,
+    ),
+    "three periods": (
+        {"prepressure": 154.4059325952122, "frequency_difference": 2364.705442171068},
+        {"periods": 3, "on_periods": 2, "switching_phase": 1.7200734159872304},
+        0.005802269786871486,
+        0.5741763376322729,
+        0.5954382556488623,
+    ),
+}
+
+
+@pytest.mark.parametrize(("drive", "cycle", "tolerance", "share", "load"), PASSING.values(), ids=list(PASSING))
+def test_a_peak_of_the_held_rotor_s_friction_between_two_nodes_is_in_the_bound(drive, cycle, tolerance, share, load):
+    motor, limit = ts.load_motor("trum60"), 0.25 * drive["prepressure"] * 0.0265
+    drive = ts.Drive(**drive, **cycle, load_torque=load * limit, start="rest")
+    point = ts.evaluate(motor, drive, contact="hertz", tolerance=tolerance)
+    assert point.converged
+    assert abs(abs(point.stall_torque) - share * limit) <= point.stall_torque_error
