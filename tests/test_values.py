@@ -62,7 +62,11 @@ VALUES = {
     "Drive of arrays": lambda: ts.Drive(prepressure=[170.0, 180.0]),
     "Schedule": lambda: ts.Schedule(kind="burst", periods=3, on_periods=2),
     "DriveOrbit": lambda: ts.drive_orbit(
-        motor(), ts.Drive(load_torque=0.0), ts.Schedule(kind="burst", periods=300, on_periods=1), tolerance=1e-4
+        motor(),
+        ts.Drive(load_torque=0.0),
+        ts.Schedule(kind="burst", periods=300, on_periods=1),
+        rotor_mass=0.0,
+        tolerance=1e-4,
     ),
     "Distribution": lambda: ts.Distribution("normal", mean=1.0, standard_deviation=0.1),
     "OperatingPoint": lambda: ts.evaluate(motor()),

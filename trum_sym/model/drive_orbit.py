@@ -219,7 +219,7 @@ class DriveOrbit(Result, Value):
 
 
 def _values(
-    motor: Motor, drive: Drive, schedule: Schedule | None, levels: Levels, rotor_mass: float, tolerance: float
+    motor: Motor, drive: Drive, schedule: Schedule | None, levels: Levels, rotor_mass: float | str | None, tolerance: float
 ) -> tuple[Schedule, dict[str, float]]:
     """The schedule and what its laps depend on.
 
@@ -247,7 +247,7 @@ def drive_orbit(
     drive: Drive | None = None,
     schedule: Schedule | None = None,
     *,
-    rotor_mass: float | str = 0.0,
+    rotor_mass: float | str | None = None,
     start: str = "rest",
     sampling_period: float | str | None = None,
     samples_per_period: float = 8,
@@ -262,8 +262,9 @@ def drive_orbit(
         As for :func:`trum_sym.evaluate`, but every number a single one.
     schedule : Schedule, optional
         Which phase is driven when; the drive's superimposed pulses if not given.
-    rotor_mass : float, kg
-        That goes up and down under the prepressure; without one the rotor follows the wave.
+    rotor_mass : float, kg, optional
+        That goes up and down under the prepressure; the motor file's if not given, none where it states none.  A rotor
+        without a mass follows the wave.
     start : {"rest", "steady"}
         Where the laps begin that lead to the orbit: another start may lead to another one.
     sampling_period : float, s, optional
@@ -287,11 +288,13 @@ def drive_orbit(
 
     Examples
     --------
-    Of a burst of one period in a thousand everything comes to rest again; a step is 184 arcsec:
+    Of a burst of one period in a thousand everything comes to rest again; a step is 184 arcsec under a rotor that
+    follows the wave:
 
     >>> import trum_sym as ts
     >>> drive = ts.Drive(frequency_difference=500, load_torque=0)
-    >>> found = ts.drive_orbit(drive=drive, schedule=ts.Schedule(kind="burst", periods=1000, on_periods=1))
+    >>> burst = ts.Schedule(kind="burst", periods=1000, on_periods=1)
+    >>> found = ts.drive_orbit(drive=drive, schedule=burst, rotor_mass=0)
     >>> found.orbit.closed, f"{found.history.angle[-1] * 206264.8:.0f} arcsec"
     (True, '184 arcsec')
     """
@@ -301,8 +304,7 @@ def drive_orbit(
     chosen_levels = _coupled(levels)
     samples = _samples(samples_per_period)
     period = None if sampling_period is None else one_number("sampling_period", sampling_period, "s", _PERIOD)
-    mass = one_number("rotor_mass", rotor_mass, "kg")
-    chosen, values = _values(motor, drive, schedule, chosen_levels, mass, tolerance)
+    chosen, values = _values(motor, drive, schedule, chosen_levels, rotor_mass, tolerance)
     begun = start_of(start, values)
     first = laps(values, begun[:, np.newaxis])[0][:, 0]
     again = np.array_equal(first[_MOVING], begun[_MOVING]) and not values["mass"]  # all has come to rest
@@ -341,7 +343,7 @@ def drive_history(
     *,
     cycles: float = 1,
     pause: float = 0,
-    rotor_mass: float | str = 0.0,
+    rotor_mass: float | str | None = None,
     samples_per_period: float = 8,
     tolerance: float = 1e-6,
     **levels: Unpack[LevelChoice],
@@ -386,7 +388,6 @@ def drive_history(
     samples = _samples(samples_per_period)
     repeats = int(one_number("cycles", cycles, "1", _COUNT))
     still = int(one_number("pause", pause, "1", _PAUSE))
-    mass = one_number("rotor_mass", rotor_mass, "kg")
-    chosen, values = _values(motor, drive, schedule, chosen_levels, mass, tolerance)
+    chosen, values = _values(motor, drive, schedule, chosen_levels, rotor_mass, tolerance)
     gates = np.concatenate([np.tile(chosen.gates(drive), (repeats, 1)), np.zeros((still, 2))])
     return history_of(values, start_of("rest", values), gates, samples)

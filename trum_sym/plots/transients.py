@@ -27,7 +27,7 @@ def start_and_stop(
     *,
     cycles: float = 10,
     pause: float = 200,
-    rotor_mass: float = 0.0,
+    rotor_mass: float | str | None = None,
     axes: Panels = None,
     **levels: Unpack[LevelChoice],
 ) -> Figure:
