@@ -235,7 +235,7 @@ def balance() -> dict[str, sp.Expr]:
 
 @cache
 def swing() -> dict[str, sp.Expr]:
-    """Steady swing of a phase that nothing but its modal force acts on, and the angle by which the force is ahead of it.
+    """Steady swing of a phase that its modal force alone acts on, and the angle by which the force is ahead of it.
 
     It is the plain wave's balance without a contact, where both phases swing as if alone.
 

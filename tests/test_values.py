@@ -72,6 +72,10 @@ VALUES = {
     "OperatingPoint": lambda: ts.evaluate(motor()),
     "OperatingPoint without a speed": lambda: ts.evaluate(motor(), ts.Drive(load_torque=2.0)),
     "OperatingPoint of arrays": lambda: ts.evaluate(motor(), ts.Drive(load_torque=[0.1, 2.0])),
+    "CoupledPoint": lambda: ts.evaluate(motor(), coupling="contact", compliance="flange", tolerance=1e-2),
+    "CoupledPoint of arrays": lambda: ts.evaluate(
+        motor(), ts.Drive(load_torque=[0.1, 2.0]), coupling="contact", compliance="flange", tolerance=1e-2
+    ),
     "Optimum": optimum,
     "Calibration": calibration,
     "ParetoFront": lambda: ts.pareto(

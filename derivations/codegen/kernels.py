@@ -200,7 +200,11 @@ def _coupling() -> list[Kernel]:
             {**coupling.balance(), "omega_r": coupling.resonance()},
         ),
         ("trum_plain_powers", "Mean powers of a plain wave", coupling.powers()),
-        ("trum_mode_swing", "Steady swing of a phase under its modal force alone, and the force's lead", coupling.swing()),
+        (
+            "trum_mode_swing",
+            "Steady swing of a phase under its modal force alone, and the force's lead",
+            coupling.swing(),
+        ),
         (
             "trum_engagement",
             "The layer's force at full wave over the prepressure, per height of the wave",

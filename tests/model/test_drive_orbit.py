@@ -279,7 +279,9 @@ def test_an_answer_is_a_table_and_a_record(motor, drive):
     assert record["encoder_deviation"] == found.encoder_deviation > 0
     assert found.encoder_low == 0  # the pause is longer than 2 ms
     assert "mean speed" in found.to_text()
-    assert "repeats itself and attracts" in found.to_text()
+    assert "TRUM-60, burst, 1 of 1000 periods on, at 180 N" in found.to_text()
+    assert "from rest: closed after 1 cycle, attracts\n" in found.to_text()
+    assert found.converged is record["converged"] is True
     assert '"mean_speed"' in found.to_json()
 
 
@@ -287,7 +289,7 @@ def test_an_answer_is_a_table_and_a_record(motor, drive):
     ("words", "naming"),
     [
         ({"kind": "bursts"}, "kind: got bursts, need one of pulses, burst, single, continuous"),
-        ({"kind": "burst", "periods": 10}, "on_periods: got None, need an integer >= 1 for a burst"),
+        ({"kind": "burst", "periods": 10}, "on_periods: got none, need an integer >= 1 for a burst"),
         ({"kind": "burst", "periods": 10, "on_periods": 0}, "on_periods: got 0"),
         ({"kind": "single", "periods": 10}, "periods: got 10, need none where the schedule is single"),
         ({"kind": "single", "ratio": 0.5}, "ratio: got 0.5, need none where the schedule is single"),

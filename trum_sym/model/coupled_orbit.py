@@ -66,7 +66,7 @@ _SAFETY = np.array([20.0, 20.0, 20.0, 20.0, 50.0, 30.0, 20.0])
 """Of the errors of ``_NAMED``; time steps are not chosen by the contact's width.  studies/coupling.py tries it."""
 _SHARE = 0.1  # of the largest error of a speed, that each has at least
 _STEP = 1e-2  # that a lap's time step may be off where no orbit is asked for, over the figures' tolerance
-_TOLERANCE = Domain(low=1e-9, low_open=False, high=1e-2)
+_TOLERANCE = Domain(low=1e-9, low_open=False, high=1e-2, high_open=False)
 _MASS = Domain(low=0.0, low_open=False, high=10.0)
 _NAMED = ("mean_speed", "min_speed", "max_speed", "deviation", "contact_fraction", "highest_wave", "input_power")
 _SUMMED = ("mean", "low", "high", "variance", "touching", "highest", "input")
