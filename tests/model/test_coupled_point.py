@@ -236,6 +236,21 @@ def test_what_does_not_take_the_level_says_why_in_one_line(name):
     assert_one_clear_line(str(caught.value), "coupling: got contact, need none: ", "need not be the only one")
 
 
+CONSOLE = {
+    "c-library": ("{folder}/library",),
+    "fmu": ("{folder}/motor.fmu", "--sources-only"),
+    "speed-table": ("--from", "1 arcsec/s", "--to", "2 arcsec/s", "--points", "2"),
+    "evaluate": ("--hold-within", "0.01", "--compliance", "flange"),
+}
+
+
+@pytest.mark.parametrize("command", CONSOLE)
+def test_the_console_refuses_it_too_and_writes_nothing(console_refuses, tmp_path, command):
+    line = [word.format(folder=tmp_path) for word in CONSOLE[command]]
+    console_refuses(command, *line, "--coupling", "contact", naming=("--coupling: got contact, need none: ",))
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_the_table_names_the_orbit_and_the_console_ends_with_what_became_of_it(capsys):
     from trum_sym import console
 

@@ -97,9 +97,14 @@ class CoupledPoint(Point):
         Mean of what the modal forces put in and the load takes; the latter negative where the load drives the rotor.
     efficiency : 1
         Output over input power.
-    mean_speed_error and so on
+    mean_speed_error, min_speed_error, max_speed_error : rad/s
         Estimates, from orbits of shorter and shorter time steps, times a factor of safety: no bounds.  NaN where no
         orbit is.
+    speed_volatility_error, contact_fraction_error, efficiency_error : 1
+    highest_wave_error, amplitude_A_error, amplitude_B_error : m
+    lag_A_error, lag_B_error : rad
+    input_power_error, output_power_error : W
+        Likewise; that of the volatility is infinite where the mean's sign is uncertain.
     closed, stable, converged : bool
         Whether laps end where they began; whether small disturbances die out; both, and whether the errors of mean and
         extremes meet the tolerance.

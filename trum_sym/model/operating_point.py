@@ -233,7 +233,8 @@ def evaluate(
     tolerance : float, optional
         What the bounds of the errors of mean, extremes and deviation may be, relative to the largest speed, and those
         of contact and stall torque, relative to 1 and to the largest friction; from 1e-9 to 1e-2.  If not given it is
-        1e-6, and a single point goes on until its mean speed has four digits or 1e-9 is reached.
+        1e-6, and a single point goes on until its mean speed has four digits or 1e-9 is reached; with coupling it stays
+        1e-6.
     method : {"auto", "adaptive", "grid"}, optional
         How orbits are found: in adaptive steps; on a grid of equal steps, but for points where its bounds miss the
         tolerance; or so from a tolerance of 1e-3 on, where that is faster.  ``method`` of the result says which it was.

@@ -142,7 +142,7 @@ def check_swept(dimensions: int) -> None:
 def swept(found: xr.Dataset) -> Figure:
     """Figures of a sweep over one axis as lines, over two as maps; at most four of them."""
     names = [str(name) for name in found.data_vars if name != "status"]
-    chosen = _SHOWN_COUPLED if found.attrs["coupling"] == "contact" else _SHOWN
+    chosen = _SHOWN_COUPLED if found.attrs.get("coupling") == "contact" else _SHOWN
     names = ([name for name in chosen if name in names] or names)[:4]
     dimensions = [str(name) for name in found[names[0]].dims]
     check_swept(len(dimensions))

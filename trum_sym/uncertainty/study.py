@@ -36,6 +36,7 @@ __all__ = ["MOTOR_FILE", "Study", "spread"]
 
 MOTOR_FILE = "motor"  # stands for every parameter that the motor file gives a range or a distribution
 
+_PLAIN = Levels()
 _TARGET = re.compile(r"\s*(\w+)\s*(>=|<=|>|<)\s*(.+)", re.DOTALL)
 
 
@@ -129,7 +130,7 @@ def _chosen(
     return chosen
 
 
-def read_target(text: object, levels: Levels) -> Target:
+def read_target(text: object, levels: Levels = _PLAIN) -> Target:
     found = _TARGET.fullmatch(text) if isinstance(text, str) else None
     if found is None:
         raise ParameterError("target", text, "OUTPUT >= NUMBER or <=, >, <, such as mean_speed >= 600 arcsec/s")
