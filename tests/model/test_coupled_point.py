@@ -50,6 +50,14 @@ def test_a_point_has_the_figures_of_the_orbits_to_the_bit(motor, table_3):
     assert table_3.efficiency == pytest.approx(0.3 * orbit.mean_speed / orbit.input_power, rel=1e-12)
 
 
+def test_figures_that_take_no_orbit_are_those_of_a_prescribed_wave(motor, table_3):
+    prescribed = ts.evaluate(motor, compliance="flange")
+    for name in ("resonance_frequency", "drive_frequency", "cycle_time", "neutral_axis", "wavenumber"):
+        assert getattr(table_3, name) == pytest.approx(getattr(prescribed, name), rel=1e-14)
+    light = ts.evaluate(motor, foundation="none")  # of a stator that nothing presses on
+    assert table_3.free_resonance == pytest.approx(light.resonance_frequency, rel=1e-14)
+
+
 def test_points_of_an_array_are_those_alone_to_the_bit(motor):
     loads, masses = np.array([0.1, 0.3, 3.0]), np.array([[0.0], [0.02]])
     words = {**FLANGE, "tolerance": 1e-3}
