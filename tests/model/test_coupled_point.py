@@ -187,7 +187,7 @@ def changed(monkeypatch, **fields):
 
 
 CASES = [
-    ([{"closed": False}] * 2, "none", "laps come back neither from rest nor from the steady swing", "no orbit"),
+    ([{"closed": False}] * 2, "none", "laps come back neither from rest nor from the steady swing", "laps come back"),
     ([{"multipliers": np.array([1.5 + 0j])}] * 2, "none", "a small disturbance is 1.5 times as large", "no orbit"),
     ([{"tolerance_met": False}] * 2, "1 of 2", "the estimates of the errors miss the tolerance", "another orbit"),
     ([{"closed": False}, {}], "only", "", "from rest laps come to no orbit that attracts"),
@@ -204,7 +204,74 @@ def test_the_flag_says_why_not(monkeypatch, motor, of, branch, reason, remark):
     assert point.converged == (reason == "")
     assert reason in point.reason
     assert any(remark in said for said in point.remarks)
+    assert len(set(point.remarks)) == len(point.remarks)
+    assert np.isfinite(point.lag_A)
     assert point.to_text().startswith("<CoupledPoint TRUM-60, mean_speed")
+
+
+def test_a_plain_wave_s_slopes_are_those_of_its_balance(motor):
+    """Of the closed form, by differences a hundred times smaller."""
+    drive = ts.Drive(on_periods=20, frequency_difference=500.0)
+    slopes = ts.sensitivities(motor, drive, tolerance=1e-7, **FLANGE)
+    levels = Levels(**FLANGE)
+
+    def speed(machine=motor, **changed):
+        waves = plain_waves(coupled_values(machine, replace(drive, **changed), levels))
+        return np.array([waves.speed[waves.highest], waves.amplitude[waves.highest], waves.input_power[waves.highest]])
+
+    def by_friction(off):
+        return speed(motor.with_values({"friction_coefficient": 0.25 + off}))
+
+    wanted = {
+        "prepressure": (speed(prepressure=180.002) - speed(prepressure=179.998)) / 0.004,
+        "load_torque": (speed(load_torque=0.30001) - speed(load_torque=0.29999)) / 2e-5,
+        "friction_coefficient": (by_friction(1e-5) - by_friction(-1e-5)) / 2e-5,
+    }
+    for parameter, (of_speed, of_wave, of_power) in wanted.items():
+        for figure, known in (("mean_speed", of_speed), ("highest_wave", of_wave), ("input_power", of_power)):
+            error = float(slopes.errors[figure][parameter])
+            assert abs(float(slopes[figure][parameter]) - known) < 1.05 * error + 1e-6 * abs(known), (parameter, figure)
+            assert error < 0.02 * abs(known), (parameter, figure)
+    assert float(slopes["mean_speed"]["load_inertia"]) == pytest.approx(0, abs=1e-3)  # nothing is accelerated
+    assert slopes.remarks == ()
+
+
+def test_slopes_are_what_points_differ_by(motor, capsys):
+    from trum_sym import console
+
+    words = ["sensitivities", "--coupling", "contact", "--compliance", "flange", "--tolerance", "1e-5"]
+    assert console.main([*words, "--json"]) == 0
+    record = json.loads(capsys.readouterr().out)
+    loads = ts.Drive(load_torque=[0.295, 0.305])
+    ends = ts.evaluate(motor, loads, tolerance=1e-6, **FLANGE)
+    slope, error = (record[name]["mean_speed"]["load_torque"] for name in ("slopes", "slope_errors"))
+    assert abs((ends.mean_speed[1] - ends.mean_speed[0]) / 0.01 - slope) < error + 2e-3 * abs(slope)
+    assert list(record["slopes"]["mean_speed"])[-1] == "rotor_mass"
+
+
+def test_an_orbit_that_does_not_attract_has_no_slopes(monkeypatch, motor):
+    changed(monkeypatch, of=[{"closed": False}] * 2)
+    with pytest.raises(ts.ParameterError) as caught:
+        ts.sensitivities(motor, **FLANGE)
+    assert_one_clear_line(str(caught.value), "coupling: got contact, need none here, where laps come back neither")
+
+
+def test_orbits_off_the_branch_give_no_slope_and_say_so(monkeypatch, motor):
+    from trum_sym.model import coupled_slopes
+
+    plain = coupled_slopes.orbit_from
+
+    def other(values, *rest):
+        orbit = plain(values, *rest)
+        return replace(orbit, cycles=2) if values["mu"] != 0.25 else orbit
+
+    monkeypatch.setattr(coupled_slopes, "orbit_from", other)
+    slopes = ts.sensitivities(motor, tolerance=1e-3, **FLANGE)
+    assert slopes.remarks == ("no slope by friction_coefficient: an orbit beside the point's is not on its branch",)
+    assert slopes.to_dict()["remarks"] == list(slopes.remarks)
+    assert " +- " in slopes.to_text()
+    assert slopes.to_text().endswith(f"remark: {slopes.remarks[0]}")
+    assert np.isfinite(slopes["mean_speed"]["prepressure"])
 
 
 @pytest.mark.parametrize(
@@ -226,7 +293,6 @@ def test_what_has_no_coupled_point_is_refused(motor, drive, words, naming):
 
 
 ONES = {
-    "sensitivities": (ts.sensitivities, {}),
     "holding": (ts.holding, {}),
     "optimize": (ts.optimize, {"target_speed": 1.0}),
     "pareto": (ts.pareto, {"objective": "wear", "points": 3}),

@@ -215,7 +215,7 @@ class CoupledPoint(Point):
             if np.isfinite(getattr(self, f"amplitude_{phase}")) and not np.isfinite(getattr(self, f"lag_{phase}"))
         ]
         for other in self.orbits[0]:
-            if other is mine:
+            if other is mine or (mine is not None and not mine.closed):
                 continue
             if not (other.closed and other.stable):
                 found.append(f"from {_NAMES[other.start]} laps come to no orbit that attracts")
@@ -483,11 +483,12 @@ def _swings(values: Mapping[str, float], history: DriveHistory, off: float) -> d
         whole, half = complex(swing.mean()), complex(swing[::2].mean())
         error = abs(whole - half) + off
         size = abs(whole)
+        swings = not size <= error  # the error of what no lap closes is not known
         ahead = force * np.exp(1j * values["force_phase"])
         found |= {
             f"amplitude_{phase}": size,
             f"amplitude_{phase}_error": error,
-            f"lag_{phase}": float(np.angle(ahead / whole)) if size > error else np.nan,
-            f"lag_{phase}_error": error / size if size > error else np.nan,
+            f"lag_{phase}": float(np.angle(ahead / whole)) if swings else np.nan,
+            f"lag_{phase}_error": error / size if swings else np.nan,
         }
     return found

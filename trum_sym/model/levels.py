@@ -50,8 +50,8 @@ where its bounds meet the tolerance, or so from the tolerance on at which that i
 
 
 _NOT_ALONE = (
-    "with it an orbit need not be the only one, so that evaluate, simulate, sweep and spread find each point's, and "
-    "this does not (docs/coupling.md)"
+    "with it an orbit need not be the only one, so that evaluate, simulate, sensitivities, sweep and spread find each "
+    "point's, and this does not (docs/coupling.md)"
 )
 
 

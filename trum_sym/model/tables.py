@@ -225,11 +225,11 @@ def _orbit_in_words(point: CoupledPoint) -> str:
     if orbit is None:
         return "orbit: none"
     mass = float(point.inputs.motor.rotor_mass.value) if point.inputs.motor.rotor_mass is not None else 0.0
-    state = "closed" if orbit.closed else "not closed"
+    state = f"closed after {orbit.cycles} cycle{'s' * (orbit.cycles != 1)}" if orbit.closed else "no lap closes"
     sizes = np.abs(orbit.multipliers)
     return (
-        f"orbit: from {point.start}, {state} after {orbit.cycles} cycle{'s' * (orbit.cycles != 1)}, branch "
-        f"{point.branch}, multipliers up to {float(sizes.max()):.3g}; rotor of {1e3 * mass:.6g} g; "
+        f"orbit: from {point.start}, {state}, branch {point.branch}, "
+        f"multipliers up to {float(sizes.max()):.3g}; rotor of {1e3 * mass:.6g} g; "
         "errors are estimates"
     )
 

@@ -19,7 +19,7 @@ from trum_sym.inputs.shown import full, quantity_of, readable
 from trum_sym.inputs.units import ARCSEC
 from trum_sym.model.histories import simulate
 from trum_sym.model.operating_point import OperatingPoint
-from trum_sym.model.sensitivities import PARAMETERS, Sensitivities
+from trum_sym.model.sensitivities import Sensitivities
 from trum_sym.plots.style import COLOURS, GRID, INK, figure_of, legend, panels, styled, write_picture
 from trum_sym.quantities import QUANTITIES, Quantity
 from trum_sym.studies.pareto import ParetoFront
@@ -239,7 +239,7 @@ def slopes(found: Sensitivities) -> Figure:
         quantity = quantity_of(figure)
         changes = {
             name: readable(figure, float(found[figure][name]) * _SHARE * float(np.asarray(values[name])))
-            for name in PARAMETERS
+            for name in found.parameters
         }
         order = sorted(changes, key=lambda name, of=changes: abs(of[name]))  # type: ignore[misc]
         ax.barh([name.replace("_", " ") for name in order], [changes[name] for name in order], color=colour)
