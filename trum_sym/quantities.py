@@ -147,7 +147,11 @@ COUPLED = {
     },
     **{
         f"lag_{phase}": Quantity(
-            f"lag of {phase}", "", "rad", "deg", f"by which that part is behind {phase}'s modal force; 90 at resonance"
+            f"lag of {phase}",
+            "",
+            "rad",
+            "deg",
+            f"by which that part is behind {phase}'s modal force; 90 deg at resonance",
         )
         for phase in "AB"
     },

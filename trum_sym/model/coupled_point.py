@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, fields, replace
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -190,9 +190,11 @@ class CoupledPoint(Point):
     }
     unlisted: ClassVar = ("orbits", "inputs")
 
-    def __getattr__(self, name: str) -> Any:  # noqa: ANN401
-        why = ABSENT.get(name, "no such figure")
-        raise AttributeError(f"{name}: a CoupledPoint has none; {why}")
+    if not TYPE_CHECKING:  # which knows the fields, and takes no other
+
+        def __getattr__(self, name: str) -> Any:  # noqa: ANN401
+            why = ABSENT.get(name, "no such figure")
+            raise AttributeError(f"{name}: a CoupledPoint has none; {why}")
 
     @property
     def orbit(self) -> CoupledOrbit | None:

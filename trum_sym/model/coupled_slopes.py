@@ -40,6 +40,7 @@ FIGURES = (
     "input_power",
 )
 _STEPS = (2e-3, 1e-3)  # of a parameter's size, to either side; the second is taken, their difference is its error
+_WIDTH = 5e-3  # of the resonance, about half its width: the size of a frequency difference
 _TURN = 2 * np.pi
 
 Slopes = dict[str, dict[str, np.ndarray[tuple[int, ...], np.dtype[np.float64]]]]
@@ -71,7 +72,7 @@ def coupled_slopes(motor: Motor, drive: Drive, levels: Levels, tolerance: float)
         raise ParameterError("coupling", "contact", f"none here, where {point.reason}")
     sizes = {
         "prepressure": values["F_c"],
-        "frequency_difference": values["xi"] * values["omega_n"] / _TURN,  # half the width of the resonance
+        "frequency_difference": _WIDTH * values["omega_n"] / _TURN,
         "load_torque": values["mu"] * values["F_c"] * values["r_c"],
         "load_inertia": values["J_total"],
         "friction_coefficient": values["mu"],
