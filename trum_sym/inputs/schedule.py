@@ -89,9 +89,10 @@ class Schedule(Value):
     def __post_init__(self) -> None:
         """Checks and stores every number as a float."""
         choice("kind", self.kind, SCHEDULES)
-        for quantity in fields(self)[3:]:
+        for quantity in fields(self):
             name, about = quantity.name, quantity.metadata
-            object.__setattr__(self, name, one_number(name, getattr(self, name), about["unit"], about["domain"]))
+            if "unit" in about and quantity.default is not None:
+                object.__setattr__(self, name, one_number(name, getattr(self, name), about["unit"], about["domain"]))
         for name in ("periods", "on_periods"):
             given = getattr(self, name)
             if given is None and self.kind == "burst":
