@@ -141,6 +141,11 @@ class CoupledOrbit(Value):
         """Whether a small disturbance dies out."""
         return bool(np.abs(self.multipliers).max() < 1)
 
+    @property
+    def converged(self) -> bool:
+        """Whether it closes, attracts, and its errors meet the tolerance."""
+        return self.closed and self.stable and self.tolerance_met
+
 
 def lap_values(
     motor: Motor,

@@ -325,7 +325,7 @@ def _at(motor: Motor, drive: Drive, shape: tuple[int, ...], index: tuple[int, ..
 def best_of(orbits: Collection[CoupledOrbit]) -> CoupledOrbit | None:
     """Of the orbits that starts lead to: the first that attracts and meets the tolerance, or attracts, or closes."""
     marks = (
-        lambda o: o.closed and o.stable and o.tolerance_met,
+        lambda o: o.converged,
         lambda o: o.closed and o.stable,
         lambda o: o.closed,
         lambda o: True,  # noqa: ARG005
@@ -437,7 +437,7 @@ def _of_point(values: Mapping[str, float], period: float | None, swung: bool) ->
         "branches": float(len(attracting)),
         "closed": orbit.closed,
         "stable": orbit.stable,
-        "converged": orbit.closed and orbit.stable and orbit.tolerance_met,
+        "converged": orbit.converged,
         "start": orbit.start,
         "branch": several if place else "none",
         "reason": _reason(orbit),

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 import numpy as np
 
 from trum_sym.errors import ParameterError
+from trum_sym.inputs.checks import Array
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
 from trum_sym.inputs.plausible import unquestioned
@@ -43,7 +44,7 @@ _STEPS = (2e-3, 1e-3)  # of a parameter's size, to either side; the second is ta
 _WIDTH = 5e-3  # of the resonance, about half its width: the size of a frequency difference
 _TURN = 2 * np.pi
 
-Slopes = dict[str, dict[str, np.ndarray[tuple[int, ...], np.dtype[np.float64]]]]
+Slopes = dict[str, dict[str, Array]]
 
 
 def coupled_slopes(motor: Motor, drive: Drive, levels: Levels, tolerance: float) -> tuple[Slopes, Slopes]:
@@ -70,15 +71,7 @@ def coupled_slopes(motor: Motor, drive: Drive, levels: Levels, tolerance: float)
     orbit, values = point.orbit, case.points[0]
     if orbit is None or not point.converged:
         raise ParameterError("coupling", "contact", f"none here, where {point.reason}")
-    sizes = {
-        "prepressure": values["F_c"],
-        "frequency_difference": _WIDTH * values["omega_n"] / _TURN,
-        "load_torque": values["mu"] * values["F_c"] * values["r_c"],
-        "load_inertia": values["J_total"],
-        "friction_coefficient": values["mu"],
-        "damping_ratio": values["xi"],
-        "rotor_mass": values["mass"],
-    }
+    sizes = _sizes(values)
     names = [name for name in PARAMETERS if sizes[name] > 0]
     moves = [(name, way * step) for name in names for step in _STEPS for way in (1, -1)]
     found: list[CoupledOrbit | None] = [None] * len(moves)
@@ -93,13 +86,31 @@ def coupled_slopes(motor: Motor, drive: Drive, levels: Levels, tolerance: float)
     errors: Slopes = {figure: {} for figure in FIGURES}
     for k, name in enumerate(names):
         beside = [one for one in found[4 * k : 4 * k + 4] if one is not None]
-        known = all(one.closed and one.stable and one.tolerance_met and one.cycles == orbit.cycles for one in beside)
+        known = all(one.converged and one.cycles == orbit.cycles for one in beside)
         for figure in FIGURES:
             at = np.array([_figure(figure)(one) for one in beside]) if known else np.full((4, 2), np.nan)
-            wide, near = ((at[2 * j, 0] - at[2 * j + 1, 0]) / (2 * s * sizes[name]) for j, s in enumerate(_STEPS))
-            off = at[2:, 1].sum() / (2 * _STEPS[1] * sizes[name])
-            slopes[figure][name], errors[figure][name] = np.asarray(near), np.asarray(abs(near - wide) + off)
+            slopes[figure][name], errors[figure][name] = _difference(at, sizes[name])
     return slopes, errors
+
+
+def _difference(at: Array, size: float) -> tuple[Array, Array]:
+    """A slope and its error from a figure with its error at both steps to either side, (4, 2)."""
+    wide, near = ((at[2 * j, 0] - at[2 * j + 1, 0]) / (2 * step * size) for j, step in enumerate(_STEPS))
+    off = at[2:, 1].sum() / (2 * _STEPS[1] * size)
+    return np.asarray(near), np.asarray(abs(near - wide) + off)
+
+
+def _sizes(values: Mapping[str, float]) -> dict[str, float]:
+    """Of each parameter, in its unit, what steps are shares of."""
+    return {
+        "prepressure": values["F_c"],
+        "frequency_difference": _WIDTH * values["omega_n"] / _TURN,
+        "load_torque": values["mu"] * values["F_c"] * values["r_c"],
+        "load_inertia": values["J_total"],
+        "friction_coefficient": values["mu"],
+        "damping_ratio": values["xi"],
+        "rotor_mass": values["mass"],
+    }
 
 
 def _moved(motor: Motor, drive: Drive, name: str, amount: float) -> tuple[Motor, Drive]:

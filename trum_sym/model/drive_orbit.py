@@ -204,7 +204,7 @@ class DriveOrbit(Result, Value):
     @property
     def converged(self) -> bool:
         """Whether the orbit closes, attracts, and has errors that meet the tolerance."""
-        return self.orbit.closed and self.orbit.stable and self.orbit.tolerance_met
+        return self.orbit.converged
 
     def to_text(self) -> str:
         """A table of the speed's figures in arcsec/s, then wave and power, with the estimates of their errors."""
