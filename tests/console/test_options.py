@@ -123,6 +123,7 @@ OTHER = {
     **{(command, "--spread"): "prepressure=+-0.2 N" for command in ("evaluate", "optimize", "pareto", "speed-table")},
     ("robust", "--samples"): "cases.csv",
     ("speed-table", "--direction"): "both",
+    ("drive", "--compliance"): "layer",
     ("pareto", "--constraint"): "mean_speed >= 400000 arcsec/s",
     ("sweep", "--prepressure"): "171",
 }
