@@ -30,6 +30,7 @@ __all__ = [
     "powers",
     "reaction",
     "resonance",
+    "swing",
     "work",
 ]
 
@@ -230,6 +231,26 @@ def balance() -> dict[str, sp.Expr]:
         "residual": in_phase**2 + ahead**2 - F_q**2,
         "lead": sp.atan2(ahead, in_phase),
     }
+
+
+@cache
+def swing() -> dict[str, sp.Expr]:
+    """Steady swing of a phase that its modal force alone acts on, and the angle by which the force is ahead of it.
+
+    It is the plain wave's balance without a contact, where both phases swing as if alone.
+
+    Raises
+    ------
+    CouplingError
+        If it is not the amplitude at resonance where the modal force is that of the measured amplitude.
+    """
+    alone = {central: 0, along: 0, W: 1}
+    in_phase, ahead = (balance()[name].subs(alone) for name in ("in_phase", "ahead"))
+    found = {"swing": F_q / sp.sqrt(in_phase**2 + ahead**2), "lead": sp.atan2(ahead, in_phase)}
+    at_resonance = {omega_q: omega_n0, F_q: modal()["F_measured"].subs(modal()["M_q"], M_q)}
+    _zero(found["swing"].subs(at_resonance) - W_max, "the swing at resonance")
+    _zero(found["lead"].subs(omega_q, omega_n0) - sp.pi / 2, "the force's lead at resonance")
+    return found
 
 
 def resonance() -> sp.Expr:

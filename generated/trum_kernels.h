@@ -9,7 +9,7 @@
 #include "trum_math.h"
 
 /* SHA-256 of the expressions that the kernels are written from */
-#define TRUM_DERIVATIONS "3e1f68bf02820f198777bc827ddfff5f2abf4792a97655a704d30196779866dd"
+#define TRUM_DERIVATIONS "c9d56794e10efe82e2729dd89941b9c0537467e89f9ff7fbb3378fe673f9e4ed"
 
 #ifdef __cplusplus
 extern "C" {
@@ -109,6 +109,11 @@ enum { trum_plain_balance_out_in_phase, trum_plain_balance_out_ahead, trum_plain
 int trum_plain_powers(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_plain_powers_in_D, trum_plain_powers_in_F_c, trum_plain_powers_in_M_q, trum_plain_powers_in_W, trum_plain_powers_in_along, trum_plain_powers_in_f, trum_plain_powers_in_k_c, trum_plain_powers_in_mu, trum_plain_powers_in_omega_n0, trum_plain_powers_in_omega_q, trum_plain_powers_in_v, trum_plain_powers_in_xi, trum_plain_powers_n_arg };
 enum { trum_plain_powers_out_P_in, trum_plain_powers_out_P_stator, trum_plain_powers_out_P_contact, trum_plain_powers_out_P_slip, trum_plain_powers_out_P_rotor, trum_plain_powers_n_res };
+
+/* Steady swing of a phase under its modal force alone, and the force's lead */
+int trum_mode_swing(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_mode_swing_in_F_q, trum_mode_swing_in_M_q, trum_mode_swing_in_omega_n0, trum_mode_swing_in_omega_q, trum_mode_swing_in_xi, trum_mode_swing_n_arg };
+enum { trum_mode_swing_out_swing, trum_mode_swing_out_lead, trum_mode_swing_n_res };
 
 /* The layer's force at full wave over the prepressure, per height of the wave */
 int trum_engagement(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
@@ -316,6 +321,7 @@ enum { trum_interface_out_v_x, trum_interface_out_v_x_slope, trum_interface_out_
   X(trum_plain_reaction, 6, 4, "F_c alpha engagement mu share theta", "f f_alpha central along") \
   X(trum_plain_balance, 10, 5, "D F_q M_q W along central k_c omega_n0 omega_q xi", "in_phase ahead residual lead omega_r") \
   X(trum_plain_powers, 12, 5, "D F_c M_q W along f k_c mu omega_n0 omega_q v xi", "P_in P_stator P_contact P_slip P_rotor") \
+  X(trum_mode_swing, 5, 2, "F_q M_q omega_n0 omega_q xi", "swing lead") \
   X(trum_engagement, 4, 1, "F_c k_N k_c n_j", "engagement_per_height") \
   X(trum_mode_flow, 3, 4, "omega_n0 tau xi", "w_w w_v v_w v_v") \
   X(trum_coupled_instant, 10, 12, "D F_c height k_N k_c n_j v_A v_B w_A w_B", "W_c sin_crest cos_crest R_v phi cos_phi sin_phi theta sin_theta cos_theta engagement share") \

@@ -276,6 +276,7 @@ enum {
   trum_at_stress,
   trum_at_stuck,
   trum_at_susceptance,
+  trum_at_swing,
   trum_at_t_0,
   trum_at_tan_delta,
   trum_at_tau,
@@ -423,6 +424,12 @@ static inline void trum_call_plain_powers(trum_real* v) {
   const trum_real* arg[trum_plain_powers_n_arg] = {v + trum_at_D, v + trum_at_F_c, v + trum_at_M_q, v + trum_at_W, v + trum_at_along, v + trum_at_f, v + trum_at_k_c, v + trum_at_mu, v + trum_at_omega_n0, v + trum_at_omega_q, v + trum_at_v, v + trum_at_xi};
   trum_real* res[trum_plain_powers_n_res] = {v + trum_at_P_in, v + trum_at_P_stator, v + trum_at_P_contact, v + trum_at_P_slip, v + trum_at_P_rotor};
   (void)trum_plain_powers(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_mode_swing(trum_real* v) {
+  const trum_real* arg[trum_mode_swing_n_arg] = {v + trum_at_F_q, v + trum_at_M_q, v + trum_at_omega_n0, v + trum_at_omega_q, v + trum_at_xi};
+  trum_real* res[trum_mode_swing_n_res] = {v + trum_at_swing, v + trum_at_lead};
+  (void)trum_mode_swing(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_engagement(trum_real* v) {

@@ -213,7 +213,8 @@ def _followed(motor: ts.Motor, condition: Condition, rival: Rival, targets: Sequ
 
     def values_at(setting: float, machine: ts.Motor = motor) -> dict[str, float]:
         schedule, frequency = rival.at(setting)
-        return lap_values(machine, condition.drive(frequency), condition.levels, schedule, tolerance=_TOLERANCE)
+        drive = condition.drive(frequency)
+        return lap_values(machine, drive, condition.levels, schedule, rotor_mass=0.0, tolerance=_TOLERANCE)
 
     answers = _branch(rival, values_at, targets)
     lacking = [target for target in targets if answers[target][0]]
@@ -249,7 +250,7 @@ def _bursts(motor: ts.Motor, condition: Condition, on: int, targets: Sequence[fl
 
     def of(machine: ts.Motor) -> ts.DriveOrbit:
         words = {"compliance": condition.contact, "tolerance": _TOLERANCE, "samples_per_period": _SAMPLES}
-        return drive_orbit(machine, drive, schedule, **words)  # type: ignore[arg-type]
+        return drive_orbit(machine, drive, schedule, rotor_mass=0.0, **words)  # type: ignore[arg-type]
 
     found = of(motor)
     time, angle, orbit = found.history.time, found.history.angle, found.orbit

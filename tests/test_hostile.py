@@ -149,6 +149,7 @@ GOOD = {
             "motor": MOTOR,
             "drive": ts.Drive(),
             "schedule": ts.Schedule(kind="burst", periods=200, on_periods=1),
+            "rotor_mass": 0.0,
             "tolerance": 1e-2,
         },
     ),

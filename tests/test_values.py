@@ -62,12 +62,20 @@ VALUES = {
     "Drive of arrays": lambda: ts.Drive(prepressure=[170.0, 180.0]),
     "Schedule": lambda: ts.Schedule(kind="burst", periods=3, on_periods=2),
     "DriveOrbit": lambda: ts.drive_orbit(
-        motor(), ts.Drive(load_torque=0.0), ts.Schedule(kind="burst", periods=300, on_periods=1), tolerance=1e-4
+        motor(),
+        ts.Drive(load_torque=0.0),
+        ts.Schedule(kind="burst", periods=300, on_periods=1),
+        rotor_mass=0.0,
+        tolerance=1e-4,
     ),
     "Distribution": lambda: ts.Distribution("normal", mean=1.0, standard_deviation=0.1),
     "OperatingPoint": lambda: ts.evaluate(motor()),
     "OperatingPoint without a speed": lambda: ts.evaluate(motor(), ts.Drive(load_torque=2.0)),
     "OperatingPoint of arrays": lambda: ts.evaluate(motor(), ts.Drive(load_torque=[0.1, 2.0])),
+    "CoupledPoint": lambda: ts.evaluate(motor(), coupling="contact", compliance="flange", tolerance=1e-2),
+    "CoupledPoint of arrays": lambda: ts.evaluate(
+        motor(), ts.Drive(load_torque=[0.1, 2.0]), coupling="contact", compliance="flange", tolerance=1e-2
+    ),
     "Optimum": optimum,
     "Calibration": calibration,
     "ParetoFront": lambda: ts.pareto(

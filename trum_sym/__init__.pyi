@@ -16,6 +16,7 @@ from .inputs.motor import Parameter as Parameter
 from .inputs.motor_file import load_motor as load_motor
 from .inputs.motor_writer import save_motor as save_motor
 from .inputs.schedule import Schedule as Schedule
+from .model.coupled_point import CoupledPoint as CoupledPoint
 from .model.drive_orbit import DriveOrbit as DriveOrbit
 from .model.drive_orbit import drive_orbit as drive_orbit
 from .model.histories import simulate as simulate
@@ -42,6 +43,7 @@ __version__: str
 __all__ = [
     "Calibration",
     "ConvergenceError",
+    "CoupledPoint",
     "Distribution",
     "Drive",
     "DriveOrbit",

@@ -9,7 +9,19 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple
 
-__all__ = ["ERRORS", "MORE", "QUANTITIES", "Quantity", "in_glossary", "in_help", "unit_of_figure"]
+__all__ = [
+    "COUPLED",
+    "COUPLED_ERRORS",
+    "ERRORS",
+    "MORE",
+    "QUANTITIES",
+    "Quantity",
+    "figures_at",
+    "in_glossary",
+    "in_help",
+    "known_quantity",
+    "unit_of_figure",
+]
 
 
 class Quantity(NamedTuple):
@@ -111,6 +123,53 @@ ERRORS = {
 }
 """Bounds of the errors of the rotor's figures, by the figure's name with ``_error`` after it."""
 
+_SHARED = (
+    "resonance_frequency",
+    "drive_frequency",
+    "cycle_time",
+    "neutral_axis",
+    "wavenumber",
+    "mean_speed",
+    "min_speed",
+    "max_speed",
+    "speed_volatility",
+    "contact_fraction",
+)
+COUPLED = {
+    **{name: QUANTITIES[name] for name in _SHARED},
+    "free_resonance": Quantity("resonance without a rotor", "f_0", "Hz", "Hz", "of a phase that nothing presses on"),
+    "highest_wave": Quantity("highest wave", "", "m", "µm", "highest height of the wave in the cycle"),
+    **{
+        f"amplitude_{phase}": Quantity(
+            f"amplitude of {phase}", "", "m", "µm", f"of the part of {phase}'s displacement that swings with the drive"
+        )
+        for phase in "AB"
+    },
+    **{
+        f"lag_{phase}": Quantity(
+            f"lag of {phase}",
+            "",
+            "rad",
+            "deg",
+            f"by which that part is behind {phase}'s modal force; 90 deg at resonance",
+        )
+        for phase in "AB"
+    },
+    "input_power": Quantity("input power", "", "W", "W", "mean of what both phases' modal forces put in"),
+    "output_power": Quantity(
+        "output power", "", "W", "W", "mean of what the load takes; negative where it drives the rotor"
+    ),
+    "efficiency": Quantity("efficiency", "", "1", "%", "output power over input power, the ceramic's loss left out"),
+}
+"""The figures of a point whose wave feels the rotor: those that it shares with a prescribed wave's, then its own."""
+
+COUPLED_ERRORS = {
+    f"{name}_error": Quantity(f"{quantity.label}, estimate of its error", "", quantity.unit, quantity.shown)
+    for name, quantity in COUPLED.items()
+    if name not in (*_SHARED[:5], "free_resonance")  # which take no orbit
+}
+"""Estimates of the errors of its orbit's figures, by the figure's name with ``_error`` after it."""
+
 MORE = {
     "speed_deviation": Quantity("standard deviation of the speed", "", "rad/s", "arcsec/s"),
     "peak_pressure": Quantity("peak pressure", "", "Pa", "MPa", "highest pressure between layer and stator in a cycle"),
@@ -137,16 +196,21 @@ MORE = {
 """What answers have beside the figures of an operating point."""
 
 
+def figures_at(coupled: bool) -> dict[str, Quantity]:
+    """The figures of a point whose wave feels the rotor, or of one whose wave is prescribed."""
+    return COUPLED if coupled else QUANTITIES
+
+
 def in_help(names: Iterable[str]) -> str:
     """Figures with their SI units, for the end of a command's help."""
-    known = {**QUANTITIES, **MORE}
+    known = {**QUANTITIES, **COUPLED, **MORE}
     return "\b\nFigures:\n" + "\n".join(f"  {n:<20} {known[n].unit:<6} {known[n].label}" for n in names)
 
 
 def in_glossary() -> str:
     """The figures as rows of the glossary: term, meaning, symbol, unit, equation, name."""
     rows = []
-    for name, q in QUANTITIES.items():
+    for name, q in {**QUANTITIES, **COUPLED}.items():
         units = q.unit if q.shown == q.unit else f"{q.unit}, read in {q.shown}"
         meaning = q.meaning[0].upper() + q.meaning[1:]
         rows.append(
@@ -155,7 +219,13 @@ def in_glossary() -> str:
     return "\n".join(rows)
 
 
+def known_quantity(name: str) -> Quantity | None:
+    """Label and units of a figure, None for what is none."""
+    tables = (QUANTITIES, ERRORS, MORE, COUPLED, COUPLED_ERRORS)
+    return next((table[name] for table in tables if name in table), None)
+
+
 def unit_of_figure(name: str) -> str | None:
     """The SI unit of a figure, None for what is none."""
-    found = QUANTITIES.get(name) or ERRORS.get(name) or MORE.get(name)
+    found = known_quantity(name)
     return None if found is None else found.unit

@@ -186,7 +186,7 @@ def _coupling() -> list[Kernel]:
         "lead": "rad",
         "omega_r": "rad/s",
         "R_v": "m/s",
-        "W_c": "m",
+        **dict.fromkeys(("W_c", "swing"), "m"),
         **dict.fromkeys(("phi", "theta"), "rad"),
         **dict.fromkeys(("sin_crest", "cos_crest", "cos_phi", "sin_phi", "sin_theta", "cos_theta"), "1"),
         **dict.fromkeys(("engagement", "share"), "1"),
@@ -200,6 +200,11 @@ def _coupling() -> list[Kernel]:
             {**coupling.balance(), "omega_r": coupling.resonance()},
         ),
         ("trum_plain_powers", "Mean powers of a plain wave", coupling.powers()),
+        (
+            "trum_mode_swing",
+            "Steady swing of a phase under its modal force alone, and the force's lead",
+            coupling.swing(),
+        ),
         (
             "trum_engagement",
             "The layer's force at full wave over the prepressure, per height of the wave",

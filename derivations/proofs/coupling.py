@@ -108,6 +108,12 @@ def _powers(p: Point, m: Maths) -> Found:
     }
 
 
+def _swing(p: Point, m: Maths) -> Found:  # noqa: ARG001
+    """The phase's equation of motion for complex amplitudes: the force over the swing that it makes."""
+    over = p.M_q * (-(p.omega_q**2) + 2 * p.xi * p.omega_n0 * mp.mpc(0, p.omega_q) + p.omega_n0**2)
+    return {"swing": abs(p.F_q / over), "lead": mp.arg(over)}
+
+
 def _flow(p: Point, m: Maths) -> Found:  # noqa: ARG001
     """The exponential of the oscillator's matrix."""
     moved = mp.expm(mp.matrix([[0, 1], [-(p.omega_n0**2), -2 * p.xi * p.omega_n0]]) * p.tau)
@@ -278,6 +284,15 @@ PROOFS = (
         grid("D F_c M_q W along f k_c mu omega_n0 omega_q v xi"),
         "random points around TRUM-60",
         symbolic=True,
+    ),
+    Proof(
+        "trum_mode_swing",
+        "swing lead",
+        f"7 {_RESTS}",
+        "the phase's equation of motion for complex amplitudes",
+        _swing,
+        grid("F_q M_q omega_n0 omega_q xi", 12),
+        "random points around TRUM-60",
     ),
     Proof(
         "trum_engagement",

@@ -8,7 +8,7 @@ from typing import Any
 import trum_sym as ts
 from trum_sym.inputs.motor_schema import schema
 from trum_sym.model.inputs import SCHEMA
-from trum_sym.quantities import ERRORS, MORE, QUANTITIES
+from trum_sym.quantities import known_quantity
 
 __all__ = ["pages"]
 
@@ -31,11 +31,23 @@ _ABOUT = {
     "reason": "why not, or that a string goes slack",
     "remarks": "what the figures do not say by themselves",
     "units": "the SI unit of every number that has one, by name",
+    "cycles": "drive cycles after which the orbit repeats itself",
+    "largest_multiplier": "by how much a small disturbance is larger after them, at most",
+    "multipliers": "the sizes of all of them",
+    "branches": "different orbits that attract, of those that the starts lead to",
+    "branch": "only, or which of several it is; none where none attracts",
+    "closed": "whether laps end where they began",
+    "stable": "whether small disturbances die out",
+    "absent": "why figures of a prescribed wave are not there, by name",
+}
+_COUPLED = {
+    "start": "where the laps began that led to the orbit",
+    "converged": "closed, stable, errors within the tolerance",
 }
 
 
 def _meaning(name: str) -> str:
-    known = QUANTITIES.get(name) or ERRORS.get(name) or MORE.get(name)
+    known = known_quantity(name)
     if known is None:
         return _ABOUT.get(name, "as in the drive")
     return f"{known.label}: {known.meaning}" if known.meaning else known.label
@@ -49,16 +61,24 @@ def _kind(value: Any) -> str:  # noqa: ANN401
 def pages() -> dict[str, str]:
     """The page of the records, and the schema of motor files."""
     record = ts.evaluate().to_dict()
-    units = record["units"]
-    cells = ((f"`{name}`", _kind(value), units.get(name, ""), _meaning(name)) for name, value in record.items())
-    rows = "\n".join(f"| {' | '.join(row)} |" for row in cells)
+    coupled = ts.evaluate(coupling="contact", compliance="flange", tolerance=1e-2).to_dict()
+    units = {**coupled["units"], **record["units"]}
+    own = {name: value for name, value in coupled.items() if name not in record or name in _COUPLED}
+
+    def rows(of: dict[str, Any], about: dict[str, str]) -> str:
+        cells = ((f"`{n}`", _kind(v), units.get(n, ""), about.get(n) or _meaning(n)) for n, v in of.items())
+        return "\n".join(f"| {' | '.join(row)} |" for row in cells)
+
     text_of_schema = json.dumps(schema(), indent=2, ensure_ascii=False)
     text = (
         "# JSON\n\nEvery command has `--json`, every answer `to_dict` and `to_json`: one object, SI units, frequencies "
         "in Hz, speeds in rad/s, null for what has no meaning or is infinite; arrays where the inputs are.  It has "
         f"all inputs, so `--point FILE` gives it to any other command.  Records have version {SCHEMA} (`schema`).\n\n"
         "## The record of a point\n\nOf `trum-sym evaluate --json`; the console adds `published`, what the paper "
-        f"prints beside it.\n\n| name | kind | unit | what it is |\n|---|---|---|---|\n{rows}\n\n"
+        f"prints beside it.\n\n| name | kind | unit | what it is |\n|---|---|---|---|\n{rows(record, {})}\n\n"
+        "## With coupling\n\nOf `trum-sym evaluate --coupling contact --json`, beside the inputs and what `absent` "
+        "does not name; errors are estimates.\n\n"
+        f"| name | kind | unit | what it is |\n|---|---|---|---|\n{rows(own, _COUPLED)}\n\n"
         "Answers of searches have the same inputs and what their page in the [API](api.md) says: "
         "`holding` (slopes, drifts, precisions), `points` of a front or a table, `searched`, `evidence`.\n\n"
         "## The schema of motor files\n\nWhat `trum-sym motor schema` prints; editors complete and check by it.\n\n"

@@ -24,6 +24,7 @@ BASE = {
     ("sensitivities",): (),
     ("characteristics",): ("--points", "3"),
     ("admittance",): ("--points", "3"),
+    ("drive",): ("--compliance", "flange", "--tolerance", "1e-2", "--sampling-period", "1 ms"),
     ("sweep",): ("--prepressure", "170:180:2", "--out", "base.csv"),
     ("spread",): ("--samples", "64", "--spread", "friction_coefficient"),
     ("calibrate",): ("examples/data/torque_speed_synthetic.csv", "--fit", "friction_coefficient"),
@@ -63,7 +64,10 @@ SLOW |= {
     ("sensitivities",),
     ("characteristics",),
 }  # whose options are made as those of evaluate are
-SLOW_AS_EVALUATE = {("calibrate",)}  # a fit an option: only those that evaluate does not have are always tried
+SLOW_AS_EVALUATE = {
+    ("calibrate",),
+    ("drive",),
+}  # a fit, or an orbit, an option: only those that evaluate does not have are always tried
 
 # Another value of every option, by its name; of a command where that differs
 OTHER = {
@@ -119,6 +123,7 @@ OTHER = {
     **{(command, "--spread"): "prepressure=+-0.2 N" for command in ("evaluate", "optimize", "pareto", "speed-table")},
     ("robust", "--samples"): "cases.csv",
     ("speed-table", "--direction"): "both",
+    ("drive", "--compliance"): "layer",
     ("pareto", "--constraint"): "mean_speed >= 400000 arcsec/s",
     ("sweep", "--prepressure"): "171",
 }

@@ -85,7 +85,7 @@ def test_slopes_of_a_lap_are_differences_of_laps(motor, mass):
 
 def test_without_reaction_it_is_the_orbit_on_a_prescribed_wave(motor):
     """Of the same force, whose amplitude coupling = none is given; its cycle and orbit are another code's."""
-    values = lap_values(motor, ts.Drive(), Levels(), reaction=False, tolerance=1e-7)
+    values = lap_values(motor, ts.Drive(), Levels(), reaction=False, tolerance=1e-7, rotor_mass=0.0)
     own, turn = values["omega_n"], values["omega_q"]
     values |= {"omega_n0": own}  # at the resonance under prepressure, as there
     size = values["F_q"] / values["M_q"] / abs(complex(own**2 - turn**2, 2 * values["xi"] * own * turn))
@@ -105,7 +105,7 @@ def test_with_light_contact_it_tends_to_the_orbit_on_a_prescribed_wave(motor):
     gaps, sizes = [], []
     for force in (2.0, 1.0, 0.5):
         drive = ts.Drive(prepressure=force, frequency_difference=2e3, load_torque=0.0)
-        values = lap_values(motor, drive, Levels())
+        values = lap_values(motor, drive, Levels(), rotor_mass=0.0)
         own, turn = values["omega_n0"], values["omega_q"]
         swing = complex(own**2 - turn**2, 2 * values["xi"] * own * turn)
         values |= {"force_phase": float(np.angle(swing))}
@@ -192,7 +192,7 @@ def test_orbits_over_several_cycles_are_found(cycles):
 
 
 def test_an_orbit_of_pulses_repeats_and_its_disturbances_die_out_as_laps_do(motor):
-    values = lap_values(motor, ts.Drive(), Levels())
+    values = lap_values(motor, ts.Drive(), Levels(), rotor_mass=0.0)
     (orbit,) = coupled_orbits(values)  # both starts lead to one
     assert orbit.closed
     assert orbit.stable
@@ -209,7 +209,10 @@ def test_an_orbit_of_pulses_repeats_and_its_disturbances_die_out_as_laps_do(moto
 
 def test_a_sweep_goes_on_from_the_orbit_before(motor):
     """Where there is one orbit, it is that of any start; the second begins so near that few laps are needed first."""
-    points = [lap_values(motor, ts.Drive(frequency_difference=f), Levels(compliance="flange")) for f in (2990.0, 3e3)]
+    points = [
+        lap_values(motor, ts.Drive(frequency_difference=f), Levels(compliance="flange"), rotor_mass=0.0)
+        for f in (2990.0, 3e3)
+    ]
     first, second = followed(points, 6)
     assert (first.start, second.start) == ("steady", "followed")
     assert second.closed
@@ -228,7 +231,9 @@ def test_an_orbit_that_rounding_alone_keeps_from_closing_is_closed(motor):
 
 def test_pulses_have_the_force_of_the_motors_electrodes(motor):
     levels = Levels(amplitude="forced")
-    whole, part = (lap_values(m, ts.Drive(), levels) for m in (motor, motor.with_values({"phase_coverage": 4 / 9})))
+    whole, part = (
+        lap_values(m, ts.Drive(), levels, rotor_mass=0.0) for m in (motor, motor.with_values({"phase_coverage": 4 / 9}))
+    )
     assert part["F_q"] / whole["F_q"] == pytest.approx(4 / 9, rel=1e-12)
 
 
@@ -260,4 +265,4 @@ def test_what_a_lap_cannot_take_is_refused(motor, drive, words, naming):
 
 def test_a_start_that_is_none_is_refused(motor):
     with pytest.raises(ts.ParameterError, match="start: got moving, need one of rest, steady"):
-        start_of("moving", lap_values(motor, ts.Drive(), Levels()))
+        start_of("moving", lap_values(motor, ts.Drive(), Levels(), rotor_mass=0.0))

@@ -263,8 +263,7 @@ def test_what_the_level_does_not_know_is_refused(trum60, values, drive, levels, 
 
 def test_other_answers_refuse_the_level(trum60):
     for answer in (
-        lambda: ts.evaluate(trum60, coupling="contact"),
-        lambda: ts.sensitivities(trum60, coupling="contact"),
+        lambda: ts.holding(trum60, coupling="contact"),
         lambda: ts.calibrate({"prepressure": [100.0, 220.0], "amplitude": [8e-6, 5e-6]}, coupling="contact"),
     ):
         with pytest.raises(ts.ParameterError, match="coupling: got contact, need none"):

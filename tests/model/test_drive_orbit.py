@@ -15,7 +15,7 @@ from trum_sym.model.levels import Levels
 from trum_sym.model.rotor import encoder_readings
 
 FLANGE = Levels(compliance="flange")
-QUICK = {"compliance": "flange", "start": "steady", "tolerance": 1e-4}
+QUICK = {"compliance": "flange", "start": "steady", "tolerance": 1e-4, "rotor_mass": 0.0}
 PLAIN = ts.Schedule(kind="continuous")
 
 
@@ -79,7 +79,7 @@ def test_a_standing_wave_does_not_turn_the_rotor(motor, drive, schedule):
 def test_a_standing_wave_on_the_bare_layer_turns_it_either_way(motor):
     """The rotor at rest is an orbit there, too, but a small push grows; which way it then turns is the push's."""
     drive = ts.Drive(load_torque=0.0)
-    values = lap_values(motor, drive, Levels(), ts.Schedule(kind="single"), tolerance=1e-4)
+    values = lap_values(motor, drive, Levels(), ts.Schedule(kind="single"), tolerance=1e-4, rotor_mass=0.0)
     still = orbit_from(values, start_of("steady", values), "steady", 0)
     assert still.closed
     assert abs(still.mean_speed) < 1e-9
@@ -87,7 +87,7 @@ def test_a_standing_wave_on_the_bare_layer_turns_it_either_way(motor):
     speeds = []
     for way in (1, -1):
         pushed = still.state.copy()
-        pushed[STATE.index("v")] += way * 1e-6
+        pushed[STATE.index("v")] += way * 1e-3  # of 0.19 m/s, the surface's
         speeds.append(orbit_from(values, pushed, "pushed", 300))
     assert all(orbit.closed and orbit.stable for orbit in speeds)
     assert speeds[0].mean_speed == pytest.approx(-speeds[1].mean_speed, rel=1e-6)
@@ -104,7 +104,7 @@ def test_a_part_of_a_running_wave_turns_it_as_its_mirror_image_does_the_other_wa
     ends = []
     for way, one in ((1, schedule), (-1, mirrored)):
         start = found.state * np.array([1, 1, way, way, 1, 1, way])
-        end, lap = laps(lap_values(motor, drive, FLANGE, one, tolerance=1e-4), start[:, np.newaxis])
+        end, lap = laps(lap_values(motor, drive, FLANGE, one, tolerance=1e-4, rotor_mass=0.0), start[:, np.newaxis])
         ends.append((end[:, 0] * np.array([1, 1, way, way, 1, 1, way]), way * lap["mean"][0]))
     assert ends[1][0] == pytest.approx(ends[0][0], rel=1e-7, abs=1e-15)  # rounding at the driving zone's edges
     assert ends[1][1] == pytest.approx(ends[0][1], rel=1e-7)
@@ -120,7 +120,7 @@ def test_without_reaction_both_phases_swing_as_far_apart_and_as_high_as_they_are
     """Laps from rest come to the steady swing of two oscillators, whose complex amplitudes are as their forces."""
     drive = ts.Drive(frequency_difference=500.0, load_torque=0.0, phase_lead=lead)
     schedule = ts.Schedule(kind="continuous", phase_difference="40 deg", ratio=0.6, voltage=0.5)
-    values = lap_values(motor, drive, FLANGE, schedule, tolerance=1e-6, reaction=False)
+    values = lap_values(motor, drive, FLANGE, schedule, tolerance=1e-6, reaction=False, rotor_mass=0.0)
     state, _ = laps({**values, "m": 1500.0, "on_A": 0.0, "on_B": 0.0}, start_of("rest", values)[:, np.newaxis])
     w_A, v_A, w_B, v_B = state[:4, 0]
     of_A, of_B = complex(w_A, -v_A / values["omega_q"]), complex(w_B, -v_B / values["omega_q"])
@@ -168,7 +168,7 @@ def test_a_step_from_rest_is_the_witness_s(motor):
 @pytest.mark.parametrize("compliance", ["layer", "flange"])
 def test_friction_stops_wave_and_rotor_and_when_it_is_said_to_matters_little(motor, drive, compliance):
     schedule = ts.Schedule(kind="burst", periods=200, on_periods=2)
-    values = lap_values(motor, drive, Levels(compliance=compliance), schedule)
+    values = lap_values(motor, drive, Levels(compliance=compliance), schedule, rotor_mass=0.0)
     begun = start_of("rest", values)[:, np.newaxis]
     steps = []
     for share in (1.0, 3.0):
@@ -180,7 +180,7 @@ def test_friction_stops_wave_and_rotor_and_when_it_is_said_to_matters_little(mot
 
 
 def test_what_rests_moves_again_when_it_is_driven(motor, drive):
-    values = lap_values(motor, drive, FLANGE, PLAIN, tolerance=1e-4)
+    values = lap_values(motor, drive, FLANGE, PLAIN, tolerance=1e-4, rotor_mass=0.0)
     begun = start_of("rest", values)[:, np.newaxis]
     wanted, _ = laps({**values, "m": 2.0}, begun)
     later, lap = laps({**values, "m": 5.0, "on_A": 3.0, "on_B": 3.0}, begun)
@@ -191,7 +191,7 @@ def test_what_rests_moves_again_when_it_is_driven(motor, drive):
 def test_a_rotor_that_still_turns_is_not_at_rest_however_small_the_wave(motor):
     """It begins with the rim at 0.2 m/s, which friction cannot take from it in a drive period."""
     loaded = ts.Drive(frequency_difference=500.0, load_torque=0.0, load_inertia=2.7e-4)
-    values = lap_values(motor, loaded, FLANGE, PLAIN, tolerance=1e-4)
+    values = lap_values(motor, loaded, FLANGE, PLAIN, tolerance=1e-4, rotor_mass=0.0)
     begun = start_of("rest", values)
     begun[STATE.index("v")] = 0.2
     slowed = values["mu"] * values["F_c"] * values["r_c"] ** 2 / values["J_total"] * 2 * math.pi / values["omega_q"]
@@ -220,7 +220,9 @@ def test_a_rotor_with_a_mass_rests_while_it_still_goes_up_and_down(motor):
 
 
 def test_a_motor_starts_from_rest_and_stops(motor, drive):
-    found = drive_history(motor, drive, PLAIN, cycles=200, pause=100, compliance="flange", tolerance=1e-4)
+    found = drive_history(
+        motor, drive, PLAIN, cycles=200, pause=100, compliance="flange", tolerance=1e-4, rotor_mass=0.0
+    )
     plain = plain_waves(
         coupled_values(motor, ts.Drive(frequency_difference=500.0, load_torque=0.0, on_periods=20), FLANGE)
     )
@@ -268,14 +270,18 @@ def test_an_encoder_reads_what_the_product_s_reads_of_the_same_path():
 
 def test_an_answer_is_a_table_and_a_record(motor, drive):
     schedule = ts.Schedule(kind="burst", periods=1000, on_periods=1)
-    found = ts.drive_orbit(motor, drive, schedule, compliance="flange", sampling_period="2 ms", tolerance=1e-4)
+    found = ts.drive_orbit(
+        motor, drive, schedule, compliance="flange", sampling_period="2 ms", tolerance=1e-4, rotor_mass=0.0
+    )
     record = found.to_dict()
     assert record["schedule"]["kind"] == "burst"
     assert record["closed"]
     assert record["encoder_deviation"] == found.encoder_deviation > 0
     assert found.encoder_low == 0  # the pause is longer than 2 ms
     assert "mean speed" in found.to_text()
-    assert "repeats itself and attracts" in found.to_text()
+    assert "TRUM-60, burst, 1 of 1000 periods on, at 180 N" in found.to_text()
+    assert "from rest: closed after 1 cycle, attracts\n" in found.to_text()
+    assert found.converged is record["converged"] is True
     assert '"mean_speed"' in found.to_json()
 
 
@@ -283,7 +289,7 @@ def test_an_answer_is_a_table_and_a_record(motor, drive):
     ("words", "naming"),
     [
         ({"kind": "bursts"}, "kind: got bursts, need one of pulses, burst, single, continuous"),
-        ({"kind": "burst", "periods": 10}, "on_periods: got None, need an integer >= 1 for a burst"),
+        ({"kind": "burst", "periods": 10}, "on_periods: got none, need an integer >= 1 for a burst"),
         ({"kind": "burst", "periods": 10, "on_periods": 0}, "on_periods: got 0"),
         ({"kind": "single", "periods": 10}, "periods: got 10, need none where the schedule is single"),
         ({"kind": "single", "ratio": 0.5}, "ratio: got 0.5, need none where the schedule is single"),

@@ -57,6 +57,7 @@ FIGURES = {
     "map-periodic",
     "contact-zone",
     "speed-determinant",
+    "coupling-pulses",
 }
 J = 4.5e-6  # kg m^2, Table 1
 
@@ -325,7 +326,7 @@ def test_the_claims_cover_the_sections_and_are_all_checked(judgements):
     assert named == list(judgements)
     checks = (sections_1_to_4.CHECKS, section_5.CHECKS, section_6.CHECKS, sections_7_to_9.CHECKS)
     assert set(named) == {name for part in checks for name in part}
-    assert len(named) == sum(len(part) for part in checks) == 79
+    assert len(named) == sum(len(part) for part in checks) == 80
     assert {claim.place[:7] for claim in judgements.values()} == {f"Sect. {n}" for n in range(1, 10)}
     assert {claim.anchor for claim in judgements.values()} <= FIGURES
     assert {claim.verdict for claim in judgements.values()} == set(VERDICTS)
@@ -716,3 +717,43 @@ def test_the_docs_show_what_the_example_prints(trum60, found, judgements, follow
     shown_words, shown_numbers = split(shown)
     assert words == shown_words
     assert numbers == pytest.approx(shown_numbers, rel=0.01, abs=0.011)  # another CPU rounds otherwise
+
+
+# --- a claim that no reading decides ------------------------------------------------------------------------------
+@pytest.mark.parametrize(
+    ("settings", "verdict", "words"),
+    [
+        ({"a": True, "b": True}, REPRODUCED, "at a; b; 2 of 2 settings"),
+        ({"a": False, "b": True}, PARTLY, "at b; 1 of 2 settings"),
+        ({"a": False, "b": False}, CONTRADICTED, "at none; 0 of 2 settings"),
+    ],
+)
+def test_a_claim_apart_from_the_readings_is_judged_by_its_settings(settings, verdict, words):
+    claim = judged(ONE, Finding(False, "computed", settings=settings))
+    assert (claim.verdict, claim.conditions) == (verdict, words)
+    assert not claim.known.any()
+
+
+def test_pulses_are_steadier_than_bursts_only_as_an_encoder_reads_a_plate(judgements):
+    """What the study of all drives has, by other roots and other code, is printed in docs/coupling.md."""
+    claim = judgements["steadier"]
+    assert claim.verdict == PARTLY
+    held = claim.conditions.removeprefix("at ").split("; ")
+    assert held == [
+        *(f"an encoder of 2 ms, with the bench's plate, bursts of 20, {mean} arcsec/s" for mean in (100, 1000)),
+        "2 of 24 settings",
+    ]
+    text = (ROOT / "docs" / "coupling.md").read_text("utf-8")
+    for place, name in (("alone", "the rotor alone"), ("plate", "with the bench's plate")):
+        printed = {
+            drive: re.split(r"\s{2,}", re.search(rf"^flange {place} 0 +{drive}  +(.*)$", text, re.MULTILINE)[1])
+            for drive in ("pulses, 14 of 20", "bursts of 1", "bursts of 20")
+        }
+        for reading, column in (("the speed itself", 2), ("an encoder of 2 ms", 6)):
+            for on in (1, 20):
+                said = re.search(
+                    f"{reading}, {name}, bursts of {on}, 100 arcsec/s: (.*?) / ([0-9.e+]*)", claim.computed
+                )
+                pulses, bursts = (float(printed[d][column]) for d in ("pulses, 14 of 20", f"bursts of {on}"))
+                assert float(said[1]) == pytest.approx(pulses, rel=0.06)
+                assert float(said[2]) == pytest.approx(bursts, rel=0.06)

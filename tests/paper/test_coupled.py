@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 import time
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -63,3 +65,21 @@ def test_rows_are_what_characteristics_has(tables):
 def test_a_motor_whose_amplitude_under_prepressure_is_given_has_none():
     assert coupled_tables(MOTOR.with_values({"amplitude": 5.5e-6})) == ()
     assert coupled_tables(replace(MOTOR, flange_length=None)) == ()
+
+
+def test_table_3s_pulses_are_what_the_study_has(tables):
+    """``python -m studies.coupled_tables table-3``, as docs/coupling.md has it: mean, deviation, highest wave."""
+    text = (Path(__file__).parents[2] / "docs" / "coupling.md").read_text("utf-8")
+    block = text[text.index("<!-- python -m studies.coupled_tables table-3 -->") :]
+    compared = 0
+    for row in cells(tables[2]):
+        contact, load, mass = (row[name] for name in list(row)[:3])
+        kind = "none" if mass == "prescribed" else f"contact, {0 if mass == 'none' else 0.02:g} kg"
+        line = rf"^{contact} +{load.replace('.', '[.]')} +{kind} +(rest|steady)? +(-[0-9.]+) +([0-9.]+) +([0-9.]+)(.*)$"
+        of_study = re.findall(line, block, re.MULTILINE)
+        wanted = next(found for found in of_study if "none" not in found[4])  # of what closes
+        ours = [as_number(row[name]) for name in list(row)[3:6]]
+        assert ours == pytest.approx([float(x) for x in wanted[1:4]], rel=0.01)
+        compared += 1
+    assert compared == 12
+    assert {row["orbit"] for row in cells(tables[2])} == {"", "from rest, only", "from steady, only"}

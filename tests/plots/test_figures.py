@@ -605,9 +605,9 @@ def test_the_start_and_the_stop_are_the_motion_that_the_engine_makes():
     from trum_sym.model.levels import Levels
 
     drive, schedule = ts.Drive(load_torque=0.05), ts.Schedule(kind="burst", periods=40, on_periods=10)
-    figure = plots.start_and_stop(None, drive, schedule, cycles=2, pause=30, compliance="flange")
+    figure = plots.start_and_stop(None, drive, schedule, cycles=2, pause=30, rotor_mass=0, compliance="flange")
     upper, lower = figure.axes
-    values = lap_values(ts.load_motor(), drive, Levels(compliance="flange"), schedule)
+    values = lap_values(ts.load_motor(), drive, Levels(compliance="flange"), schedule, rotor_mass=0.0)
     period = 2e3 * np.pi / values["omega_q"]
     time, speed = data(upper)
     end, lap = laps({**values, "m": 10.0}, start_of("rest", values)[:, np.newaxis])

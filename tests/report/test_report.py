@@ -74,7 +74,7 @@ def test_every_figure_and_table_is_there_with_words_for_who_does_not_see_it(read
         assert len(re.search(r"<title>(.+?)</title>", body)[1]) > 40
         assert "var(--ink)" in body  # follows light and dark
         assert "#1b1f24" not in body
-    assert {*TABLES, "coupling", "coupling-frequency", "coupling-load"} <= set(reader.ids)
+    assert {*TABLES, "coupling", "coupling-frequency", "coupling-load", "coupling-pulses"} <= set(reader.ids)
 
 
 def test_every_claim_is_shown_with_its_verdict_and_linked_from_what_shows_it(text):

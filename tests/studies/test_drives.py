@@ -28,7 +28,13 @@ def test_bursts_far_apart_are_what_the_engine_makes_of_the_same_pause(motor):
     (record,) = drives.solved(motor, condition, "bursts of 1", (20.0,))
     schedule = ts.Schedule(kind="burst", periods=record["setting"], on_periods=1)
     found = drive_orbit(
-        motor, condition.drive(3000.0), schedule, compliance="flange", tolerance=1e-8, sampling_period="2 ms"
+        motor,
+        condition.drive(3000.0),
+        schedule,
+        compliance="flange",
+        tolerance=1e-8,
+        sampling_period="2 ms",
+        rotor_mass=0.0,
     )
     assert record["mean"] == pytest.approx(20, rel=1e-3)
     assert record["mean"] == pytest.approx(found.orbit.mean_speed / ARCSEC, rel=1e-5)
@@ -41,7 +47,9 @@ def test_a_phase_difference_and_a_voltage_give_the_mean_speed_that_was_asked_for
     condition = drives.Condition("flange", PLATE, 0.0)
     (phase,) = drives.solved(motor, condition, "phase difference", (100.0,))
     schedule = ts.Schedule(kind="continuous", phase_difference=phase["setting"])
-    found = drive_orbit(motor, condition.drive(3000.0), schedule, start="steady", compliance="flange", tolerance=1e-8)
+    found = drive_orbit(
+        motor, condition.drive(3000.0), schedule, start="steady", compliance="flange", tolerance=1e-8, rotor_mass=0.0
+    )
     assert found.orbit.mean_speed / ARCSEC == pytest.approx(100, rel=0.02)
     assert phase["deviation"] < 1
     (voltage,) = drives.solved(motor, condition, "voltage", (100.0,))

@@ -52,7 +52,7 @@ def chosen(drive: Drive, levels: LevelChoice) -> dict[str, str]:
     ParameterError
         For levels that do not go together, or that C does not know.
     """
-    Levels(**levels).check_prescribed()
+    Levels(**levels).check_prescribed("the library's points have a prescribed wave (docs/coupling.md)")
     given = {"start": drive.start, "load": drive.load, **levels}
     return {name: f"TRUM_{name}_{given.get(name) or words[0]}".upper() for name, words in CHOICES.items()}
 

@@ -22,6 +22,8 @@ _SUMMARIES = {
     "evaluate": "One operating point; with no options, TRUM-60 at the paper's Table 3.",
     "sensitivities": "How the figures of one operating point change with what it depends on.",
     "simulate": "Time histories of one operating point on its periodic orbit.",
+    "drive": "Any drive of both phases with the rotor's reaction on the wave: pulses, bursts, a phase difference, one "
+    "phase.",
     "characteristics": "Speed, power and contact efficiency under load, speed by frequency and prepressure, stall by "
     "prepressure.",
     "admittance": "Admittance of a phase over frequency, without a rotor and under one, and its circuit.",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -23,6 +23,10 @@ from trum_sym.console.options import (
 from trum_sym.console.say import say
 from trum_sym.model.levels import Method
 
+if TYPE_CHECKING:
+    from trum_sym.model.coupled_point import CoupledPoint
+    from trum_sym.model.operating_point import OperatingPoint
+
 __all__ = ["evaluate"]
 
 
@@ -33,6 +37,7 @@ __all__ = ["evaluate"]
         "trum-sym evaluate --set friction_coefficient=0.3 --json",
         "trum-sym evaluate --load-torque 0.1 --out point.csv --plot point.png",
         "trum-sym evaluate --load-torque 0.1 --hold-within '1 %' --spread prepressure='+-0.2 N'",
+        "trum-sym evaluate --coupling contact --compliance flange",
     )
 )
 @point_options
@@ -60,7 +65,7 @@ def evaluate(
     """One operating point; with no options, TRUM-60 at the paper's Table 3.
 
     Numbers are in the unit shown, or carry one: --frequency-difference "3 kHz".  Exit code 1 where no speed balances
-    the load, or the errors' bounds miss the tolerance.
+    the load, or the errors' bounds miss the tolerance; with --coupling contact also where no orbit attracts.
     """
     from trum_sym.model.operating_point import evaluate as evaluate_point
 
@@ -73,7 +78,9 @@ def evaluate(
     machine, drive = chosen_motor(motor, overrides), chosen_drive(options)
     period = options["sampling_period"]
     levels = chosen_levels(options)
-    point = evaluate_point(machine, drive, sampling_period=period, tolerance=tolerance, method=method, **levels)
+    point: OperatingPoint | CoupledPoint = evaluate_point(
+        machine, drive, sampling_period=period, tolerance=tolerance, method=method, **levels
+    )
     from trum_sym.model.tables import as_table, compared
 
     held = None

@@ -17,12 +17,13 @@ import click
 from trum_sym.console.words import typed
 from trum_sym.inputs.drive import BOX_NAMES, Drive
 from trum_sym.model.levels import LEVEL_NAMES, METHODS, LevelChoice, Levels
-from trum_sym.quantities import MORE, QUANTITIES, in_help
+from trum_sym.quantities import COUPLED, MORE, QUANTITIES, in_help
 
 if TYPE_CHECKING:
     from trum_sym.inputs.motor import Motor
 
 __all__ = [
+    "COUPLED_LEVELS",
     "FREED",
     "IN_ARITHMETIC",
     "IN_SWEEPS",
@@ -49,6 +50,7 @@ __all__ = [
     "plot_options",
     "point_options",
     "robust_held_options",
+    "schedule_options",
     "tolerance_option",
 ]
 
@@ -63,9 +65,10 @@ FREED = (
 )
 """What a search may vary: these options take ``LOW:HIGH``."""
 
-IN_SWEEPS = tuple(QUANTITIES)
-IN_ARITHMETIC = (*IN_SWEEPS, *(name for name in MORE if name in ("speed_deviation", "peak_pressure")))
-"""The figures that ``sweep`` and ``spread`` compute, and those of objectives and constraints."""
+IN_SWEEPS = (*QUANTITIES, *(name for name in COUPLED if name not in QUANTITIES))
+"""Figures that ``sweep`` and ``spread`` compute; those of a wave that feels the rotor with coupling alone."""
+IN_ARITHMETIC = (*QUANTITIES, *(name for name in MORE if name in ("speed_deviation", "peak_pressure")))
+"""Those of objectives and constraints."""
 
 
 class QuantityType(click.ParamType):  # type: ignore[type-arg, unused-ignore]
@@ -113,11 +116,11 @@ def choice_option(name: str, words: tuple[str, ...], text: str) -> Callable[...,
 
 
 def _drive_option(quantity: Field[Any]) -> Callable[..., Any]:
-    """The option of one field of the drive."""
+    """The option of one field of the drive or of a schedule."""
     about, name = quantity.metadata, option_name(quantity.name)
     if "words" in about:
         return choice_option(name, about["words"], about["text"])
-    default: float = quantity.default  # type: ignore[assignment]  # every quantity of the drive has one
+    default: float | None = quantity.default  # type: ignore[assignment]  # every quantity has one
     return number_option(name, about["unit"], default, about["text"], about["metavar"])
 
 
@@ -133,6 +136,8 @@ def _range_option(quantity: Field[Any]) -> Callable[..., Any]:
     return click.option(option_name(quantity.name), type=RangeType(), default=own, help=text, metavar="VALUE|LOW:HIGH")
 
 
+COUPLED_LEVELS = ("resonance", "foundation", "amplitude", "compliance")
+"""Levels that a wave which feels the rotor has a choice of."""
 WITHIN_DEFAULT = 0.01
 """Of ``--hold-within`` where it has one; that of :func:`trum_sym.holding`, which takes NumPy to import."""
 
@@ -338,6 +343,22 @@ def plain_wave_options(command: Callable[..., Any]) -> Callable[..., Any]:
     kept = zip(fields(Levels), _LEVELS, strict=True)
     levels = (option for level, option in kept if level.name in ("resonance", "amplitude", "compliance"))
     return _given(command, (*_MOTOR, *drive, *levels))
+
+
+def schedule_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Give a command motor, a schedule with what counts of the drive beside it, and the levels that coupling knows."""
+    from trum_sym.inputs.schedule import SCHEDULES, Schedule
+
+    known = ("prepressure", "frequency_difference", "load_torque", "load_inertia", "switching_phase", "phase_lead")
+    drive = (_drive_option(q) for q in fields(Drive) if q.name in known)
+    kind, *numbers = fields(Schedule)
+    schedule = (
+        choice_option("--schedule", SCHEDULES, kind.metadata["text"]),
+        *(_drive_option(quantity) for quantity in numbers),
+    )
+    kept = zip(fields(Levels), _LEVELS, strict=True)
+    levels = (option for level, option in kept if level.name in COUPLED_LEVELS)
+    return _given(command, (*_MOTOR, *schedule, *drive, *levels))
 
 
 def box_options(command: Callable[..., Any]) -> Callable[..., Any]:

@@ -27,6 +27,7 @@ __all__ = ["sensitivities"]
         "trum-sym sensitivities --load-torque '0.1 N m'",
         "trum-sym sensitivities --point point.json --json",
         "trum-sym sensitivities --load-torque 0.1 --plot slopes.png",
+        "trum-sym sensitivities --coupling contact --compliance flange --tolerance 1e-4",
     )
 )
 @continuous_options
@@ -46,7 +47,8 @@ def sensitivities(
 ) -> int:
     """How the figures of one operating point change with what it depends on.
 
-    Of the continuous speed.  Exit code 1 where no speed balances the load.
+    Of the continuous speed.  With --coupling contact differences of orbits on one branch, with estimates of their
+    errors.  Exit code 1 where no speed balances the load.
     """
     import numpy as np
 

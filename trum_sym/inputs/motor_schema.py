@@ -93,7 +93,9 @@ _SECTIONS: dict[str, dict[str, Entry]] = {
     },
     "Rotor and electrodes where the rotor acts back on the wave, --coupling contact; each is optional": {
         "rotor_mass": Entry(
-            "g", "of what moves up and down with the rotor; none if not given; no plain wave depends on it"
+            "g",
+            "of what moves up and down with the rotor, in pulses and other schedules; none if not given; no plain wave "
+            "depends on it",
         ),
         "phase_coverage": Entry(
             "1",

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Literal, get_args
+from dataclasses import dataclass, field, fields
+from typing import Any, Literal, get_args
 
 import numpy as np
 
@@ -23,11 +23,11 @@ SCHEDULES: tuple[Kind, ...] = get_args(Kind)
 
 _COUNT = Domain(low=1, low_open=False, high=1e8, integer=True)
 _QUARTER = math.pi / 2
-_NUMBERS = {
-    "phase_difference": ("rad", Domain(low=-math.pi, low_open=False, high=math.pi, high_open=False)),
-    "voltage": ("1", Domain(low=0.0, high=10.0, high_open=False)),
-    "ratio": ("1", Domain(low=0.0, low_open=False, high=10.0, high_open=False)),
-}
+
+
+def _number(default: float | None, unit: str, domain: Domain, text: str, metavar: str) -> Any:  # noqa: ANN401
+    """A number of the schedule; the console makes its option of what is said here."""
+    return field(default=default, metadata={"unit": unit, "domain": domain, "text": text, "metavar": metavar})
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -67,22 +67,36 @@ class Schedule(Value):
     array([[1., 1.]])
     """
 
-    kind: Kind = SCHEDULES[0]
-    periods: float | None = None
-    on_periods: float | None = None
-    phase_difference: float = _QUARTER
-    voltage: float = 1.0
-    ratio: float = 1.0
+    kind: Kind = field(default=SCHEDULES[0], metadata={"words": SCHEDULES, "text": "Which phase is driven when."})
+    periods: float | None = _number(None, "1", _COUNT, "Drive periods in a cycle; of pulses 20 if not given.", "M")
+    on_periods: float | None = _number(
+        None, "1", _COUNT, "Drive periods of a cycle in which a phase is on; of pulses 14 if not given.", "N"
+    )
+    phase_difference: float = _number(
+        _QUARTER,
+        "rad",
+        Domain(low=-math.pi, low_open=False, high=math.pi, high_open=False),
+        "By which B is ahead of A where the phase lead is 1, and behind where it is -1.",
+        "RAD",
+    )
+    voltage: float = _number(
+        1.0, "1", Domain(low=0.0, high=10.0, high_open=False), "Of A, over that of the level --amplitude.", "SHARE"
+    )
+    ratio: float = _number(
+        1.0, "1", Domain(low=0.0, low_open=False, high=10.0, high_open=False), "Voltage of B over that of A.", "SHARE"
+    )
 
     def __post_init__(self) -> None:
         """Checks and stores every number as a float."""
         choice("kind", self.kind, SCHEDULES)
-        for name, (unit, domain) in _NUMBERS.items():
-            object.__setattr__(self, name, one_number(name, getattr(self, name), unit, domain))
+        for quantity in fields(self):
+            name, about = quantity.name, quantity.metadata
+            if "unit" in about and quantity.default is not None:
+                object.__setattr__(self, name, one_number(name, getattr(self, name), about["unit"], about["domain"]))
         for name in ("periods", "on_periods"):
             given = getattr(self, name)
             if given is None and self.kind == "burst":
-                raise ParameterError(name, given, "an integer >= 1 for a burst")
+                raise ParameterError(name, "none", "an integer >= 1 for a burst")
             if given is not None and self.kind in ("single", "continuous"):
                 raise ParameterError(name, given, f"none where the schedule is {self.kind}: every period is alike")
             if given is not None:

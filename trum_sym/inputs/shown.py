@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from trum_sym.inputs.units import parse_unit
-from trum_sym.quantities import ERRORS, MORE, QUANTITIES, Quantity
+from trum_sym.quantities import Quantity, known_quantity
 
 if TYPE_CHECKING:
     from trum_sym.inputs.checks import ArrayLike
@@ -15,7 +15,10 @@ __all__ = ["full", "quantity_of", "readable"]
 
 def quantity_of(name: str) -> Quantity:
     """Label and units of a figure."""
-    return QUANTITIES.get(name) or ERRORS.get(name) or MORE[name]
+    found = known_quantity(name)
+    if found is None:
+        raise KeyError(name)
+    return found
 
 
 def readable(name: str, value: float) -> float:

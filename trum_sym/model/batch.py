@@ -13,7 +13,7 @@ from trum_sym.inputs.checks import Array, ArrayLike
 from trum_sym.model.kernels import call, signature
 from trum_sym.output.progress import shown
 
-__all__ = ["StoppedError", "call_in_blocks", "one_thread"]
+__all__ = ["StoppedError", "call_in_blocks", "one_thread", "over_points"]
 
 _BLOCK, _SMALLEST = 512, 8  # points in a block, at most and at least: what a register has lanes for
 _stopped: ContextVar[Callable[[], bool] | None] = ContextVar("_stopped", default=None)
@@ -98,6 +98,20 @@ def call_in_blocks(
         for begin in starts:
             run(begin)
     return whole()
+
+
+def over_points(run: Callable[[int], None], count: int, label: str | None = None) -> None:
+    """Work of some milliseconds a point, point by point on all cores, or on the calling thread as :func:`one_thread`
+    asks; ``label`` as for :func:`call_in_blocks`.
+    """
+    stopped, workers = _stopped.get(), min(count, os.cpu_count() or 1)
+    if stopped is None and workers > 1:
+        _in_threads(run, range(count), workers, label)
+        return
+    for point in range(count):
+        if stopped is not None and stopped():
+            raise StoppedError
+        run(point)
 
 
 def _in_threads(run: Callable[[int], None], starts: range, workers: int, label: str | None) -> None:

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from trum_sym.errors import ParameterError
-from trum_sym.inputs.checks import Array
+from trum_sym.inputs.checks import Array, ArrayLike
 from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
@@ -66,7 +66,7 @@ _SAFETY = np.array([20.0, 20.0, 20.0, 20.0, 50.0, 30.0, 20.0])
 """Of the errors of ``_NAMED``; time steps are not chosen by the contact's width.  studies/coupling.py tries it."""
 _SHARE = 0.1  # of the largest error of a speed, that each has at least
 _STEP = 1e-2  # that a lap's time step may be off where no orbit is asked for, over the figures' tolerance
-_TOLERANCE = Domain(low=1e-9, low_open=False, high=1e-2)
+_TOLERANCE = Domain(low=1e-9, low_open=False, high=1e-2, high_open=False)
 _MASS = Domain(low=0.0, low_open=False, high=10.0)
 _NAMED = ("mean_speed", "min_speed", "max_speed", "deviation", "contact_fraction", "highest_wave", "input_power")
 _SUMMED = ("mean", "low", "high", "variance", "touching", "highest", "input")
@@ -141,6 +141,11 @@ class CoupledOrbit(Value):
         """Whether a small disturbance dies out."""
         return bool(np.abs(self.multipliers).max() < 1)
 
+    @property
+    def converged(self) -> bool:
+        """Whether it closes, attracts, and its errors meet the tolerance."""
+        return self.closed and self.stable and self.tolerance_met
+
 
 def lap_values(
     motor: Motor,
@@ -148,7 +153,7 @@ def lap_values(
     levels: Levels,
     schedule: Schedule | None = None,
     *,
-    rotor_mass: float = 0.0,
+    rotor_mass: float | str | None = None,
     tolerance: float = 1e-6,
     reaction: bool = True,
 ) -> dict[str, float]:
@@ -163,8 +168,9 @@ def lap_values(
         Of one point; ``levels.coupling`` is taken as ``contact``.
     schedule : Schedule
         The drive's superimposed pulses if not given.
-    rotor_mass : float, kg
-        That goes up and down under the prepressure; without one the rotor follows the wave.
+    rotor_mass : float, kg, optional
+        That goes up and down under the prepressure; the motor file's if not given, none where it states none.  A rotor
+        without a mass follows the wave.
     tolerance : float
         Of an orbit's mean, lowest and highest speed, over the largest speed, or over a thousandth of the surface's
         where the rotor hardly turns; 1e-9 to 1e-2.
@@ -180,19 +186,24 @@ def lap_values(
         raise ParameterError("start", drive.start, "periodic where coupling is contact: cycles follow each other")
     plain = Drive(**{**drive.numbers(), **drive.words(), "on_periods": drive.periods})  # type: ignore[arg-type]
     values = coupled_values(motor, plain, Levels(**{**vars(levels), "coupling": "contact"}))
-    own, turn, xi = (float(values[name]) for name in ("omega_n", "omega_q", "xi"))
-    lead = float(np.angle(complex(own**2 - turn**2, 2 * xi * own * turn)))
+    prescribed = _swing({**values, "omega_n0": values["omega_n"]})
+    mass = values["m_r"] if rotor_mass is None else rotor_mass
     return {
         **{name: float(value) for name, value in values.items()},
         **(Schedule() if schedule is None else schedule).symbols(drive),
         "held": held_wave(values) if reaction else 0.0,
-        "mass": one_number("rotor_mass", rotor_mass, "kg", _MASS),
+        "mass": one_number("rotor_mass", mass, "kg", _MASS),
         "reaction": float(reaction),
-        "size": float(values["F_q"]) / float(values["M_q"]) / abs(complex(own**2 - turn**2, 2 * xi * own * turn)),
+        "size": prescribed["swing"],
         "wanted": one_number("tolerance", tolerance, "1", _TOLERANCE),
         "tolerance": _STEP * one_number("tolerance", tolerance, "1", _TOLERANCE),
-        "force_phase": float(np.asarray(drive.switching_phase)) + lead,
+        "force_phase": float(np.asarray(drive.switching_phase)) + prescribed["lead"],
     }
+
+
+def _swing(values: Mapping[str, ArrayLike]) -> dict[str, float]:
+    """Steady swing of a phase under the modal force, without a rotor, and the angle by which the force is ahead."""
+    return {name: float(np.asarray(value)) for name, value in call("trum_mode_swing", values).items()}
 
 
 def laps(values: Mapping[str, float], states: Array) -> tuple[Array, dict[str, Array]]:
@@ -217,9 +228,8 @@ def start_of(name: str, values: Mapping[str, float]) -> Array:
     state = np.zeros(len(STATE))
     state[4] = -1 / (np.pi * per_height)  # the layer carries the prepressure all round
     if name == "steady":
-        own, turn = values["omega_n0"], values["omega_q"]
-        force = values["F_q"] * np.exp(1j * values["force_phase"])
-        swing = force / values["M_q"] / complex(own**2 - turn**2, 2 * values["xi"] * own * turn)
+        free, turn = _swing(values), values["omega_q"]
+        swing = free["swing"] * np.exp(1j * (values["force_phase"] - free["lead"]))
         of_A, of_B = values["force_A"] * swing, complex(values["force_B_along"], values["force_B_ahead"]) * swing
         state[:4] = of_A.real, (1j * turn * of_A).real, of_B.real, (1j * turn * of_B).real
         state[4] += float(np.hypot(state[0], state[2]))
@@ -556,10 +566,13 @@ def followed(points: Iterable[Mapping[str, float]], settling: int | None = None)
     return found
 
 
-def one_phase(motor: Motor, drive: Drive, levels: Levels, rotor_mass: float, tolerance: float = 1e-6) -> CoupledOrbit:
+def one_phase(
+    motor: Motor, drive: Drive, levels: Levels, rotor_mass: float | None = None, tolerance: float = 1e-6
+) -> CoupledOrbit:
     """Phase A alone, always on, under a rotor that does not turn: what an amplitude under prepressure is measured on.
 
-    ``highest_wave`` is the amplitude.  The drive's load and pulses do not count.
+    ``highest_wave`` is the amplitude.  The drive's load and pulses do not count; ``rotor_mass`` and ``tolerance`` are
+    those of :func:`lap_values`.
     """
     alone = Drive(prepressure=drive.prepressure, frequency_difference=drive.frequency_difference, load_torque=0.0)
     values = lap_values(motor, alone, levels, Schedule(kind="single"), rotor_mass=rotor_mass, tolerance=tolerance)

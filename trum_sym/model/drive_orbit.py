@@ -6,12 +6,12 @@ that the rotor's path is known: what an encoder reads is differences of it.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Unpack
 
 import numpy as np
-from tabulate import tabulate
 
 from trum_sym.errors import ParameterError
 from trum_sym.inputs.checks import Array
@@ -22,11 +22,15 @@ from trum_sym.inputs.motor import Motor
 from trum_sym.inputs.motor_file import load_motor
 from trum_sym.inputs.points import check_point, one_number
 from trum_sym.inputs.schedule import Schedule
+from trum_sym.inputs.shown import full
 from trum_sym.inputs.units import ARCSEC
 from trum_sym.model.coupled_orbit import STARTS, STATE, CoupledOrbit, lap_values, laps, orbit_from, start_of
 from trum_sym.model.inputs import Inputs
 from trum_sym.model.levels import LevelChoice, Levels
+from trum_sym.output.digits import with_error
 from trum_sym.output.result import Result
+from trum_sym.output.text_table import text_table
+from trum_sym.text import one_line
 from trum_sym.values import Value
 
 __all__ = ["DriveHistory", "DriveOrbit", "drive_history", "drive_orbit", "history_of", "read_by_encoder"]
@@ -191,35 +195,70 @@ class DriveOrbit(Result, Value):
             **self.inputs.record(),
             "schedule": dict(vars(self.schedule)),
             **numbers,
-            "closed": self.orbit.closed,
             "stable": self.orbit.stable,
+            "converged": self.converged,
             "largest_multiplier": float(np.abs(self.orbit.multipliers).max()),
             **{name: getattr(self, name) for name in ("encoder_deviation", "encoder_low", "encoder_high")},
         }
 
+    @property
+    def converged(self) -> bool:
+        """Whether the orbit closes, attracts, and has errors that meet the tolerance."""
+        return self.orbit.converged
+
     def to_text(self) -> str:
-        """A table of the speed's figures in arcsec/s, then wave and power."""
-        orbit = self.orbit
-        rows: list[tuple[str, float | None, str]] = [
-            ("mean speed", orbit.mean_speed / ARCSEC, "arcsec/s"),
-            ("standard deviation", orbit.deviation / ARCSEC, "arcsec/s"),
-            ("least", orbit.min_speed / ARCSEC, "arcsec/s"),
-            ("largest", orbit.max_speed / ARCSEC, "arcsec/s"),
-        ]
-        if self.encoder_deviation is not None and self.encoder_low is not None and self.encoder_high is not None:
-            rows += [
-                ("encoder's deviation", self.encoder_deviation / ARCSEC, "arcsec/s"),
-                ("its least reading", self.encoder_low / ARCSEC, "arcsec/s"),
-                ("its largest reading", self.encoder_high / ARCSEC, "arcsec/s"),
-            ]
-        rows += [("highest wave", 1e6 * orbit.highest_wave, "um"), ("power of the drive", orbit.input_power, "W")]
-        word = "repeats itself" if orbit.closed else "does not repeat after a cycle"
-        word += " and attracts" if orbit.closed and orbit.stable else ""
-        return f"{self.schedule.kind}, from {orbit.start}: {word}\n{tabulate(rows, floatfmt='.6g')}"
+        """A table of the speed's figures in arcsec/s, then wave and power, with the estimates of their errors."""
+        orbit, rows = self.orbit, []
+        for name, label, unit, scale in _SHOWN:
+            value, error = getattr(orbit, name), getattr(orbit, f"{name}_error")
+            rows.append((label, *with_error(value / scale, error / scale), unit))
+        read = (self.encoder_deviation, self.encoder_low, self.encoder_high)
+        for label, figure in zip(_READ, read, strict=True):
+            if figure is not None:
+                rows.append((label, f"{figure / ARCSEC:.6g}", "", "arcsec/s"))
+        state = f"closed after {orbit.cycles} cycle{'s' * (orbit.cycles != 1)}" if orbit.closed else "comes to no orbit"
+        most = float(np.abs(orbit.multipliers).max())
+        state += ", attracts" if orbit.stable else f", does not attract: multipliers up to {most:.4g}" * orbit.closed
+        state += ", errors miss the tolerance" if orbit.closed and not orbit.tolerance_met else ""
+        drive, motor = self.inputs.drive, one_line(self.inputs.motor.name)
+        title = (
+            f"{motor}, {self._schedule()}, at {full(drive.prepressure)} N, "
+            f"{float(drive.frequency_difference):+.10g} Hz, {drive.load_text()}"
+        )
+        table = text_table(rows, ("", "value", "+-", "unit"), "lrll")
+        return f"{title}\nfrom {orbit.start}: {state}\n\n{table}"
+
+    def _schedule(self) -> str:
+        """The schedule in words."""
+        schedule = self.schedule
+        m, n = schedule.counts(self.inputs.drive)
+        found = [schedule.kind + (f", {n} of {m} periods on" if schedule.kind in ("pulses", "burst") else "")]
+        plain = Schedule()
+        for name, unit, scale in (("phase_difference", "deg", math.degrees(1.0)), ("voltage", "", 1), ("ratio", "", 1)):
+            if getattr(schedule, name) != getattr(plain, name):
+                found.append(f"{name.replace('_', ' ')} {scale * getattr(schedule, name):.6g} {unit}".rstrip())
+        return ", ".join(found)
+
+
+_SHOWN = (
+    ("mean_speed", "mean speed", "arcsec/s", ARCSEC),
+    ("deviation", "standard deviation", "arcsec/s", ARCSEC),
+    ("min_speed", "lowest speed", "arcsec/s", ARCSEC),
+    ("max_speed", "highest speed", "arcsec/s", ARCSEC),
+    ("contact_fraction", "contact fraction", "", 1.0),
+    ("highest_wave", "highest wave", "µm", 1e-6),
+    ("input_power", "input power", "W", 1.0),
+)
+_READ = ("encoder's deviation", "its least reading", "its largest reading")
 
 
 def _values(
-    motor: Motor, drive: Drive, schedule: Schedule | None, levels: Levels, rotor_mass: float, tolerance: float
+    motor: Motor,
+    drive: Drive,
+    schedule: Schedule | None,
+    levels: Levels,
+    rotor_mass: float | str | None,
+    tolerance: float,
 ) -> tuple[Schedule, dict[str, float]]:
     """The schedule and what its laps depend on.
 
@@ -247,7 +286,7 @@ def drive_orbit(
     drive: Drive | None = None,
     schedule: Schedule | None = None,
     *,
-    rotor_mass: float | str = 0.0,
+    rotor_mass: float | str | None = None,
     start: str = "rest",
     sampling_period: float | str | None = None,
     samples_per_period: float = 8,
@@ -262,8 +301,9 @@ def drive_orbit(
         As for :func:`trum_sym.evaluate`, but every number a single one.
     schedule : Schedule, optional
         Which phase is driven when; the drive's superimposed pulses if not given.
-    rotor_mass : float, kg
-        That goes up and down under the prepressure; without one the rotor follows the wave.
+    rotor_mass : float, kg, optional
+        That goes up and down under the prepressure; the motor file's if not given, none where it states none.  A rotor
+        without a mass follows the wave.
     start : {"rest", "steady"}
         Where the laps begin that lead to the orbit: another start may lead to another one.
     sampling_period : float, s, optional
@@ -287,11 +327,13 @@ def drive_orbit(
 
     Examples
     --------
-    Of a burst of one period in a thousand everything comes to rest again; a step is 184 arcsec:
+    Of a burst of one period in a thousand everything comes to rest again; a step is 184 arcsec under a rotor that
+    follows the wave:
 
     >>> import trum_sym as ts
     >>> drive = ts.Drive(frequency_difference=500, load_torque=0)
-    >>> found = ts.drive_orbit(drive=drive, schedule=ts.Schedule(kind="burst", periods=1000, on_periods=1))
+    >>> burst = ts.Schedule(kind="burst", periods=1000, on_periods=1)
+    >>> found = ts.drive_orbit(drive=drive, schedule=burst, rotor_mass=0)
     >>> found.orbit.closed, f"{found.history.angle[-1] * 206264.8:.0f} arcsec"
     (True, '184 arcsec')
     """
@@ -301,8 +343,7 @@ def drive_orbit(
     chosen_levels = _coupled(levels)
     samples = _samples(samples_per_period)
     period = None if sampling_period is None else one_number("sampling_period", sampling_period, "s", _PERIOD)
-    mass = one_number("rotor_mass", rotor_mass, "kg")
-    chosen, values = _values(motor, drive, schedule, chosen_levels, mass, tolerance)
+    chosen, values = _values(motor, drive, schedule, chosen_levels, rotor_mass, tolerance)
     begun = start_of(start, values)
     first = laps(values, begun[:, np.newaxis])[0][:, 0]
     again = np.array_equal(first[_MOVING], begun[_MOVING]) and not values["mass"]  # all has come to rest
@@ -341,7 +382,7 @@ def drive_history(
     *,
     cycles: float = 1,
     pause: float = 0,
-    rotor_mass: float | str = 0.0,
+    rotor_mass: float | str | None = None,
     samples_per_period: float = 8,
     tolerance: float = 1e-6,
     **levels: Unpack[LevelChoice],
@@ -386,7 +427,6 @@ def drive_history(
     samples = _samples(samples_per_period)
     repeats = int(one_number("cycles", cycles, "1", _COUNT))
     still = int(one_number("pause", pause, "1", _PAUSE))
-    mass = one_number("rotor_mass", rotor_mass, "kg")
-    chosen, values = _values(motor, drive, schedule, chosen_levels, mass, tolerance)
+    chosen, values = _values(motor, drive, schedule, chosen_levels, rotor_mass, tolerance)
     gates = np.concatenate([np.tile(chosen.gates(drive), (repeats, 1)), np.zeros((still, 2))])
     return history_of(values, start_of("rest", values), gates, samples)

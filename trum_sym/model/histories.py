@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from importlib.metadata import version
-from typing import TYPE_CHECKING, Unpack
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 
@@ -25,6 +25,8 @@ from trum_sym.text import one_line, plain
 
 if TYPE_CHECKING:
     import xarray as xr
+
+    from trum_sym.model.coupled_point import CoupledCase, CoupledPoint
 
 __all__ = ["REGIONS", "VARIABLES", "simulate"]
 
@@ -79,8 +81,9 @@ def simulate(
         ``w_A``, ``w_B`` (m, eqs. 9, 10), ``zeta_z``, ``zeta_x`` (m, eq. 11), ``Q`` (m^2/s, eq. A5), ``crest_speed``
         (m/s), ``theta`` (rad, eq. 31), ``friction`` (share of mu F_c, eqs. 34 to 37), ``rotor_speed`` (rad/s, eq. 38),
         ``rotor_angle`` (rad); ``attrs`` of each holds unit and meaning, those of the set every setting, every figure of
-        ``evaluate`` and the package's version.  Where no speed balances the load, ``runaway`` is 1 there, and
-        ``friction``, ``rotor_speed`` and ``rotor_angle`` are NaN.
+        ``evaluate`` and the package's version.  With ``coupling = "contact"`` there is no ``Q``, but ``rotor_height``
+        (m) and ``pressure_force`` (N), and the orbit is the one whose figures ``evaluate`` gives.  Where no speed
+        balances the load, ``runaway`` is 1 there, and ``friction``, ``rotor_speed`` and ``rotor_angle`` are NaN.
 
     Raises
     ------
@@ -114,23 +117,29 @@ def simulate(
         if repeats * per_period * int(drive.periods) > _MAX_SAMPLES:
             allowed = f"at most {_MAX_SAMPLES} samples, cycles * periods * samples_per_period"
             raise ParameterError("cycles", repeats, allowed)
-    case, point = settle(motor, drive, Levels(**levels), tolerance, period)
+    chosen = Levels(**levels)
+    case: Case | CoupledCase
+    point: OperatingPoint | CoupledPoint
+    if chosen.coupling == "contact":
+        from trum_sym.model import coupled_histories as coupled
+        from trum_sym.model.coupled_point import coupled_point, prepare_coupled
+
+        case = prepare_coupled(motor, drive, chosen, tolerance, period)
+        point = coupled_point(case)
+        variables, data = coupled.VARIABLES, coupled.coupled_cycles(case, point, repeats, per_period)
+        asked = case.tolerance
+    else:
+        case, point = settle(motor, drive, chosen, tolerance, period)
+        variables, data = VARIABLES, _cycles(case, point, repeats, per_period)
+        asked = float(np.asarray(case.arguments["tolerance"]))
     count = int(drive.periods) * per_period
-    columns, region = _cycle(case, point, count)
-    advance = columns.pop("advance")
-    laps = np.repeat(np.arange(repeats), count)
-    data = {name: np.tile(column, repeats) for name, column in columns.items()}
-    data["rotor_angle"] += laps * advance
-    time = point.cycle_time * (laps + np.tile(np.arange(count), repeats) / count)
-    settings = {
-        "cycles": repeats,
-        "samples_per_period": per_period,
-        "tolerance": float(np.asarray(case.arguments["tolerance"])),
-    }
+    region = _regions(drive, count)
+    time = point.cycle_time * (np.repeat(np.arange(repeats), count) + np.tile(np.arange(count), repeats) / count)
+    settings = {"cycles": repeats, "samples_per_period": per_period, "tolerance": asked}
     return xr.Dataset(
         {
             name: ("time", data[name], {"units": unit, "long_name": meaning})
-            for name, (unit, meaning) in VARIABLES.items()
+            for name, (unit, meaning) in variables.items()
         },
         coords={
             "time": ("time", time, {"units": "s", "long_name": "time since t1 of the first cycle"}),
@@ -144,11 +153,26 @@ def simulate(
     )
 
 
-def _cycle(
-    case: Case, point: OperatingPoint, count: int
-) -> tuple[dict[str, Array], np.ndarray[tuple[int, ...], np.dtype[np.int8]]]:
-    """One cycle at ``count`` equal times from t1 on, what the rotor's angle advances in it, and the regions."""
-    drive, stator, arguments = case.drive, case.stator, case.arguments
+def _regions(drive: Drive, count: int) -> np.ndarray[tuple[int, ...], np.dtype[np.int8]]:
+    """0, 1 or 2 while A is off, B is off, both are on, at ``count`` equal times of a cycle."""
+    samples = np.arange(count)
+    off = (int(drive.periods) - int(drive.on_periods)) * count // int(drive.periods)
+    return ((samples >= off).astype(np.int8) + (samples >= 2 * off)).astype(np.int8)
+
+
+def _cycles(case: Case, point: OperatingPoint, repeats: int, per_period: int) -> dict[str, Array]:
+    """Some cycles at equal times, by the names of :data:`VARIABLES`; the rotor's angle goes on."""
+    count = int(case.drive.periods) * per_period
+    columns = _cycle(case, point, count)
+    advance = columns.pop("advance")
+    data = {name: np.tile(column, repeats) for name, column in columns.items()}
+    data["rotor_angle"] += np.repeat(np.arange(repeats), count) * advance
+    return data
+
+
+def _cycle(case: Case, point: OperatingPoint, count: int) -> dict[str, Array]:
+    """One cycle at ``count`` equal times from t1 on, and what the rotor's angle advances in it."""
+    stator, arguments = case.stator, case.arguments
     radius = float(case.motor.contact_radius.value)
     samples = np.arange(count)
     found = response(point.cycle_time * samples / count, scaled(case.values, stator.W), stator.D, stator.k_c)
@@ -173,13 +197,11 @@ def _cycle(
             else np.full(count, arguments["f"])  # of a brush: what balances the load
         )
     columns |= {"rotor_speed": speed, "rotor_angle": angle, "advance": advance}
-    off = (int(drive.periods) - int(drive.on_periods)) * count // int(drive.periods)
-    region = (samples >= off).astype(np.int8) + (samples >= 2 * off)
-    return {name: np.array(column, np.float64) for name, column in columns.items()}, region.astype(np.int8)
+    return {name: np.array(column, np.float64) for name, column in columns.items()}
 
 
 def _attributes(
-    case: Case, point: OperatingPoint, settings: Mapping[str, float | None]
+    case: Case | CoupledCase, point: OperatingPoint | CoupledPoint, settings: Mapping[str, float | None]
 ) -> dict[str, str | float | int]:
     """Every setting, figure and flag, as text and numbers that any file format holds."""
     motor, drive, levels = case.motor, case.drive, case.levels
@@ -196,6 +218,7 @@ def _attributes(
         "amplitude_level": levels.amplitude,
         "compliance": levels.compliance,
         "tangential": levels.tangential,
+        "coupling": levels.coupling,
         **{name: "none" if value is None else value for name, value in settings.items()},
         **figures,
         "converged": int(bool(point.converged)),
@@ -204,4 +227,9 @@ def _attributes(
     }
     for name, parameter in motor.parameters():
         attributes[f"motor_{name}"] = f"{float(parameter.value):.12g} {parameter.unit} ({plain(parameter.source)})"
-    return {name: value if isinstance(value, str | int) else float(value) for name, value in attributes.items()}
+    return {name: _plain(value) for name, value in attributes.items()}
+
+
+def _plain(value: Any) -> str | float | int:  # noqa: ANN401
+    """As text or a number that any file format holds."""
+    return value if isinstance(value, str) else int(value) if isinstance(value, int) else float(value)

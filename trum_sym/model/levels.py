@@ -26,6 +26,7 @@ __all__ = [
     "LevelChoice",
     "Levels",
     "Method",
+    "PrescribedChoice",
 ]
 
 Contact = Literal["winkler", "hertz"]
@@ -48,8 +49,14 @@ METHODS: tuple[Method, ...] = get_args(Method)
 where its bounds meet the tolerance, or so from the tolerance on at which that is faster."""
 
 
-class LevelChoice(TypedDict, total=False):
-    """The levels as keyword arguments of the functions that evaluate; see :class:`Levels` for their meanings."""
+_NOT_ALONE = (
+    "with it an orbit need not be the only one, so that evaluate, simulate, sensitivities, sweep and spread find each "
+    "point's, and this does not (docs/coupling.md)"
+)
+
+
+class PrescribedChoice(TypedDict, total=False):
+    """The levels of a wave that is prescribed, as keyword arguments; see :class:`Levels` for their meanings."""
 
     contact: Contact
     resonance: Resonance
@@ -57,6 +64,11 @@ class LevelChoice(TypedDict, total=False):
     amplitude: Amplitude
     compliance: Compliance
     tangential: Tangential
+
+
+class LevelChoice(PrescribedChoice, total=False):
+    """All levels as keyword arguments of the functions that evaluate."""
+
     coupling: Coupling
 
 
@@ -87,8 +99,7 @@ class Levels(Value):
         plain wave alone (both phases always on).
     coupling : {"none", "contact"}
         Whether the rotor acts back on the wave: not at all, so that amplitude and resonance are prescribed, or through
-        pressure and friction of the contact, which :func:`trum_sym.characteristics` and :func:`trum_sym.admittance`
-        compute for the plain wave.
+        pressure and friction of the contact (docs/coupling.md, with a table of what takes it).
 
     Raises
     ------
@@ -113,12 +124,10 @@ class Levels(Value):
             if self.contact == "hertz" and getattr(self, name) != plain:
                 raise ParameterError(name, getattr(self, name), f"{plain} where contact is hertz")
 
-    def check_prescribed(self) -> None:
-        """Raise a ParameterError unless the wave is prescribed, for all that knows no other."""
+    def check_prescribed(self, why: str = _NOT_ALONE) -> None:
+        """Raise a ParameterError unless the wave is prescribed, for all that knows no other, and say why."""
         if self.coupling != COUPLINGS[0]:
-            raise ParameterError(
-                "coupling", self.coupling, "none: of all answers, characteristics and admittance alone have another"
-            )
+            raise ParameterError("coupling", self.coupling, f"none: {why}")
 
 
 LEVEL_NAMES = tuple(level.name for level in fields(Levels))

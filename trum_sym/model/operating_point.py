@@ -4,37 +4,31 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Collection, Mapping
-from dataclasses import asdict, dataclass, field, fields
-from typing import TYPE_CHECKING, Any, Unpack
+from dataclasses import dataclass, field, fields
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Unpack, overload
 
 import numpy as np
 
-from trum_sym.errors import MissingExtraError, ParameterError, ValidityWarning
-from trum_sym.inputs.carried import Labels, labels_of
+from trum_sym.errors import ParameterError, ValidityWarning
 from trum_sym.inputs.checks import Array, ArrayLike, broadcast_shape
 from trum_sym.inputs.choices import choice
 from trum_sym.inputs.domain import Domain
-from trum_sym.inputs.drive import DRIVE_DOMAINS, Drive
+from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
 from trum_sym.inputs.motor_file import load_motor
 from trum_sym.inputs.points import check_point, numbers_of, one_number, period_of
-from trum_sym.inputs.shown import readable
 from trum_sym.model.brush import brush_values, check_drive
 from trum_sym.model.cycle import check_steady_state, cycle_sums, lack_of_damping, modal_values, scaled
-from trum_sym.model.inputs import Inputs, remarks_of, units_of
+from trum_sym.model.inputs import Inputs, Point, remarks_of
 from trum_sym.model.kernels import call
-from trum_sym.model.levels import METHODS, LevelChoice, Levels, Method
-from trum_sym.model.rotor import Orbit, encoder_deviation, history, orbit_values, reasons, solve_orbit
+from trum_sym.model.levels import METHODS, LevelChoice, Levels, Method, PrescribedChoice
+from trum_sym.model.rotor import Orbit, encoder_deviation, history, orbit_values, over_mean, reasons, solve_orbit
 from trum_sym.model.stator import Stator, solve_stator
 from trum_sym.model.string import SLACK, least_tension
-from trum_sym.output.result import Result
-from trum_sym.quantities import ERRORS, QUANTITIES
-from trum_sym.text import one_line
-from trum_sym.values import Value
+from trum_sym.quantities import QUANTITIES
 
 if TYPE_CHECKING:
-    import pandas as pd
-    import xarray as xr
+    from trum_sym.model.coupled_point import CoupledPoint
 
 __all__ = [
     "OF_CYCLE",
@@ -87,7 +81,7 @@ _SAMPLED_PERIODS = 10_000  # that are kept as samples
 
 
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)
-class OperatingPoint(Result, Value):
+class OperatingPoint(Point):
     """What the motor does at a drive; SI units, frequencies in Hz, speeds in rad/s.
 
     Every number is a float, or an array of the inputs' common shape.
@@ -173,110 +167,13 @@ class OperatingPoint(Result, Value):
     reason: str | np.ndarray[tuple[int, ...], np.dtype[np.str_]]
     method: str | np.ndarray[tuple[int, ...], np.dtype[np.str_]]
     inputs: Inputs = field(repr=False)
-
-    def __repr__(self) -> str:
-        speed, about = np.asarray(self.mean_speed), one_line(self.motor)
-        if speed.ndim:
-            return f"<OperatingPoint {about}, array of shape {speed.shape}>"
-        state = "converged" if self.converged else f"not converged: {self.reason}"
-        return f"<OperatingPoint {about}, mean_speed {float(speed):.6g} rad/s, {state}>"
-
-    @property
-    def figures(self) -> dict[str, Any]:
-        """The figures by name, in the order of the fields; without ``inputs``."""
-        return {field.name: getattr(self, field.name) for field in fields(self) if field.name != "inputs"}
-
-    @property
-    def units(self) -> dict[str, str]:
-        """The SI unit of every figure that has one."""
-        return units_of(self.figures)
+    quantities: ClassVar = QUANTITIES
+    shared: ClassVar = ("motor", "start", "contact")
 
     @property
     def remarks(self) -> tuple[str, ...]:
         """What the figures of a single point do not say by themselves: a load that drives the rotor back, and so on."""
         return () if np.ndim(self.mean_speed) else remarks_of(self.figures, float(self.inputs.drive.load_torque))
-
-    def to_dict(self) -> dict[str, Any]:
-        """Inputs, figures, remarks and units by name, in SI units: what ``--point`` reads."""
-        found = {**self.inputs.record(), **{k: _plain(v) for k, v in self.figures.items()}, "remarks": self.remarks}
-        return {**found, "units": units_of(found)}
-
-    def to_text(self) -> str:
-        """The figures with their units, a line each; of arrays the range."""
-        lines = []
-        for name, quantity in QUANTITIES.items():
-            values = np.asarray(getattr(self, name), np.float64)
-            low, high = (readable(name, float(x)) for x in (np.nanmin(values), np.nanmax(values)))
-            value = f"{low:.6g}" if not values.ndim else f"{low:.6g} to {high:.6g}"
-            lines.append(f"{name:<20} {value} {'' if quantity.shown == '1' else quantity.shown}".rstrip())
-        return "\n".join([repr(self), *lines, *(f"remark: {remark}" for remark in self.remarks)])
-
-    def to_xarray(self) -> xr.Dataset:
-        """The figures as a labelled data set with units; the inputs are its attributes.
-
-        Dimensions are those of labelled inputs where they name them, else ``dim_0`` and so on.
-
-        Raises
-        ------
-        MissingExtraError
-            Without xarray.
-        """
-        try:
-            import xarray as xr
-        except ImportError:
-            raise MissingExtraError("to_xarray", "xarray", "data") from None
-        shape = np.shape(self.mean_speed)
-        labels = _labels(self.inputs, len(shape))
-        dims = labels.dimensions if labels else tuple(f"dim_{k}" for k in range(len(shape)))
-        coords = dict(zip(dims, labels.indices, strict=True)) if labels else {}
-        units = self.units
-        variables: dict[str, Any] = {}
-        for name in (*RESULTS, *_WORDS):
-            known = QUANTITIES.get(name) or ERRORS.get(name)
-            attrs = {"units": units[name]} if name in units else {}
-            variables[name] = (dims, getattr(self, name), {**attrs, "long_name": known.label if known else name})
-        settings = self.inputs
-        attributes: dict[str, Any] = {"motor": self.motor, "start": self.start, "tolerance": settings.tolerance}
-        attributes |= {f"{name}_level": level for name, level in asdict(settings.levels).items()}
-        for name, value in settings.drive.numbers().items():
-            if np.ndim(value):
-                variables.setdefault(name, (dims, np.broadcast_to(value, shape), {"units": _unit_of_input(name)}))
-            else:
-                attributes.setdefault(name, value)
-        return xr.Dataset(variables, {n: index for n, index in coords.items() if index is not None}, attrs=attributes)
-
-    def to_frame(self) -> pd.DataFrame:
-        """The figures as a pandas data frame, a row a point; ``attrs["units"]`` has the units.
-
-        Raises
-        ------
-        MissingExtraError
-            Without pandas.
-        """
-        try:
-            import pandas as pd
-        except ImportError:
-            raise MissingExtraError("to_frame", "pandas", "data") from None
-        shape = np.shape(self.mean_speed)
-        columns = {**self.figures, **self.inputs.drive.numbers()}
-        frame = pd.DataFrame({name: np.broadcast_to(value, shape).ravel() for name, value in columns.items()})
-        frame.attrs["units"] = {**{name: _unit_of_input(name) for name in self.inputs.drive.numbers()}, **self.units}
-        return frame
-
-
-def _unit_of_input(name: str) -> str:
-    return DRIVE_DOMAINS[name][1] if name in DRIVE_DOMAINS else "1"
-
-
-def _labels(inputs: Inputs, count: int) -> Labels | None:
-    """Names of the dimensions, where an input of as many brings them."""
-    values = (*inputs.drive.numbers().values(), *(p.value for _, p in inputs.motor.parameters()))
-    found = (labels_of(value) for value in values)
-    return next((labels for labels in found if labels is not None and len(labels.dimensions) == count), None)
-
-
-def _plain(value: object) -> object:
-    return value.tolist() if isinstance(value, np.ndarray) else value
 
 
 _WORDS = ("reason", "method")
@@ -284,6 +181,33 @@ RESULTS = tuple(
     field.name for field in fields(OperatingPoint) if field.name not in ("motor", "start", "contact", *_WORDS, "inputs")
 )
 """The figures of an operating point that depend on its numbers, in order."""
+
+
+@overload
+def evaluate(  # type: ignore[overload-overlap]  # the other one's levels have coupling, too, but not as "contact"
+    motor: Motor | None = None,
+    drive: Drive | None = None,
+    *,
+    sampling_period: ArrayLike | None = None,
+    tolerance: float | None = None,
+    method: Method = "auto",
+    progress: bool = False,
+    coupling: Literal["contact"],
+    **levels: Unpack[PrescribedChoice],
+) -> CoupledPoint: ...
+
+
+@overload
+def evaluate(
+    motor: Motor | None = None,
+    drive: Drive | None = None,
+    *,
+    sampling_period: ArrayLike | None = None,
+    tolerance: float | None = None,
+    method: Method = "auto",
+    progress: bool = False,
+    **levels: Unpack[LevelChoice],
+) -> OperatingPoint: ...
 
 
 def evaluate(
@@ -295,7 +219,7 @@ def evaluate(
     method: Method = "auto",
     progress: bool = False,
     **levels: Unpack[LevelChoice],
-) -> OperatingPoint:
+) -> OperatingPoint | CoupledPoint:
     """The operating point of a motor under a drive.
 
     Parameters
@@ -309,7 +233,8 @@ def evaluate(
     tolerance : float, optional
         What the bounds of the errors of mean, extremes and deviation may be, relative to the largest speed, and those
         of contact and stall torque, relative to 1 and to the largest friction; from 1e-9 to 1e-2.  If not given it is
-        1e-6, and a single point goes on until its mean speed has four digits or 1e-9 is reached.
+        1e-6, and a single point goes on until its mean speed has four digits or 1e-9 is reached; with coupling it stays
+        1e-6.
     method : {"auto", "adaptive", "grid"}, optional
         How orbits are found: in adaptive steps; on a grid of equal steps, but for points where its bounds miss the
         tolerance; or so from a tolerance of 1e-3 on, where that is faster.  ``method`` of the result says which it was.
@@ -321,7 +246,9 @@ def evaluate(
     Returns
     -------
     OperatingPoint
-        Floats, or arrays of the inputs' common shape.
+        Floats, or arrays of the inputs' common shape.  With ``coupling = "contact"`` a :class:`CoupledPoint`, whose
+        figures are those of the orbit of wave, contact and rotor together: some of them others, each point an orbit of
+        its own (some 0.1 s), errors that are estimates and no bounds.
 
     Raises
     ------
@@ -343,7 +270,13 @@ def evaluate(
     >>> f"{point.cycle_time * 1e3:.4f} ms, {point.units['mean_speed']}"
     '0.4760 ms, rad/s'
     """
-    return settle(motor, drive, Levels(**levels), tolerance, sampling_period, progress, method)[1]
+    chosen = Levels(**levels)
+    if chosen.coupling == "contact":
+        from trum_sym.model.coupled_point import coupled_point, prepare_coupled
+
+        case = prepare_coupled(motor, drive, chosen, tolerance, sampling_period, method=method)
+        return coupled_point(case, progress)
+    return settle(motor, drive, chosen, tolerance, sampling_period, progress, method)[1]
 
 
 def settle(
@@ -497,12 +430,8 @@ def _of_orbit(case: Case, cycle_time: ArrayLike, wanted: Collection[str], progre
             deviation = readings[..., 0] / np.asarray(case.symbols["r_c"])
             # averaging makes no deviation larger, so that of the error holds for an encoder, too
             deviation_error = deviation_error + readings[..., 1] / np.asarray(case.symbols["r_c"])
-        mean = np.abs(orbit.mean_speed)
-        with np.errstate(all="ignore"):
-            found["speed_volatility"] = deviation / mean
-            least = mean - orbit.mean_speed_error
-            error = (deviation_error + found["speed_volatility"] * orbit.mean_speed_error) / least
-            found["speed_volatility_error"] = np.where(least <= 0, np.inf, error)
+        of_mean = orbit.mean_speed, orbit.mean_speed_error
+        found["speed_volatility"], found["speed_volatility_error"] = over_mean(deviation, deviation_error, *of_mean)
     return found
 
 

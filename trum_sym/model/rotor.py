@@ -312,6 +312,16 @@ def lap_from(
     }
 
 
+def over_mean(deviation: Array, error: Array, mean: Array, mean_error: Array) -> tuple[Array, Array]:
+    """A deviation over the size of the mean (eq. 40), and its error: infinite where the mean's sign is uncertain."""
+    size = np.abs(mean)
+    with np.errstate(all="ignore"):
+        found = deviation / size
+        least = size - mean_error
+        of_both = (error + found * mean_error) / least
+        return np.asarray(found), np.where(least <= 0, np.inf, of_both)
+
+
 def encoder_deviation(distance: Array, cycle_time: float, period: float) -> float:
     """Standard deviation of the speeds that an encoder reads which averages over ``period``, m/s.
 

@@ -13,6 +13,8 @@ from trum_sym.errors import MissingExtraError, ParameterError, ValidityWarning
 from trum_sym.inputs.checks import Array, ArrayLike
 from trum_sym.inputs.drive import DRIVE_DOMAINS, Drive
 from trum_sym.inputs.motor import SPECS, Motor
+from trum_sym.inputs.motor_file import load_motor
+from trum_sym.inputs.points import check_point
 from trum_sym.inputs.shown import quantity_of, readable
 from trum_sym.model.batch import call_in_blocks
 from trum_sym.model.inputs import Inputs, units_of
@@ -21,6 +23,7 @@ from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.model.operating_point import Case, prepare
 from trum_sym.model.rotor import Orbit, as_orbit, weight_inertia
 from trum_sym.model.stator import solve_stator
+from trum_sym.output.digits import with_error
 from trum_sym.output.result import Result
 from trum_sym.output.text_table import text_table
 from trum_sym.values import Value
@@ -72,6 +75,8 @@ class Sensitivities(Result, Value, Mapping[str, Mapping[str, Array]]):
         What ``evaluate``'s figure changes by, per change of the parameter, in SI units (frequencies in Hz).
     inputs : Inputs
         Motor, drive, levels and tolerance that they hold for.
+    errors : mapping of mappings of arrays, or None
+        With coupling, what the slopes may be off, estimates of the same units; None for slopes carried along an orbit.
 
     Examples
     --------
@@ -85,6 +90,7 @@ class Sensitivities(Result, Value, Mapping[str, Mapping[str, Array]]):
 
     slopes: Mapping[str, Mapping[str, Array]]
     inputs: Inputs
+    errors: Mapping[str, Mapping[str, Array]] | None = None
 
     def __getitem__(self, figure: str) -> Mapping[str, Array]:
         return self.slopes[figure]
@@ -96,7 +102,20 @@ class Sensitivities(Result, Value, Mapping[str, Mapping[str, Array]]):
         return len(self.slopes)
 
     def __repr__(self) -> str:
-        return f"<Sensitivities of {', '.join(self)} by {', '.join(PARAMETERS)}>"
+        return f"<Sensitivities of {', '.join(self)} by {', '.join(self.parameters)}>"
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """What the slopes are by."""
+        return tuple(next(iter(self.slopes.values())))
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """Of a single point with coupling: what has no slope, and why."""
+        if self.errors is None:
+            return ()
+        lost = [by for by in self.parameters if not np.isfinite(next(iter(self.values()))[by])]
+        return tuple(f"no slope by {by}: an orbit beside the point's is not on its branch" for by in lost)
 
     @property
     def units(self) -> dict[str, dict[str, str]]:
@@ -107,19 +126,33 @@ class Sensitivities(Result, Value, Mapping[str, Mapping[str, Array]]):
         """Inputs, slopes and their units by name, in SI units."""
         slopes = {figure: {by: np.asarray(slope).tolist() for by, slope in self[figure].items()} for figure in self}
         found = self.inputs.record()
-        return {**found, "slopes": slopes, "remarks": [], "units": {**units_of(found), "slopes": self.units}}
+        if self.errors is not None:
+            found["slope_errors"] = {f: {by: float(e) for by, e in of.items()} for f, of in self.errors.items()}
+        return {
+            **found,
+            "slopes": slopes,
+            "remarks": list(self.remarks),
+            "units": {**units_of(found), "slopes": self.units},
+        }
 
     def to_text(self) -> str:
         """A table: a row a figure, a column a parameter, in the units that people read."""
         rows = []
         for figure in self:
             quantity, scale = quantity_of(figure), readable(figure, 1.0)
-            cells = [np.asarray(self[figure][by]) * scale for by in PARAMETERS]
+            cells = [np.asarray(self[figure][by]) * scale for by in self.parameters]
             unit = "" if quantity.shown == "1" else f" [{quantity.shown}]"
-            rows.append((quantity.label + unit, *(f"{float(x):.6g}" if not x.ndim else f"{x.shape}" for x in cells)))
-        units = {by: "" if _unit_of(by) == "1" else f" [{_unit_of(by)}]" for by in PARAMETERS}
+            shown = [f"{float(x):.6g}" if not x.ndim else f"{x.shape}" for x in cells]
+            if self.errors is not None:
+                off = (float(self.errors[figure][by]) * scale for by in self.parameters)
+                shown = [
+                    " +- ".join(with_error(float(x), e)).removesuffix(" +- ") for x, e in zip(cells, off, strict=True)
+                ]
+            rows.append((quantity.label + unit, *shown))
+        units = {by: "" if _unit_of(by) == "1" else f" [{_unit_of(by)}]" for by in self.parameters}
         headers = ("change of", *(f"per {by}\n{unit.strip()}" for by, unit in units.items()))
-        return text_table(rows, headers, "l" + "r" * len(PARAMETERS))
+        table = text_table(rows, headers, "l" + "r" * len(self.parameters))
+        return "\n".join([table, *(f"remark: {remark}" for remark in self.remarks)])
 
     def to_frame(self) -> pd.DataFrame:
         """A pandas data frame of a single point: figures by parameters; ``attrs["units"]`` has the units.
@@ -137,7 +170,7 @@ class Sensitivities(Result, Value, Mapping[str, Mapping[str, Array]]):
             raise MissingExtraError("to_frame", "pandas", "data") from None
         if any(np.ndim(slope) for by in self.values() for slope in by.values()):
             raise ParameterError("to_frame", "slopes of an array of points", "a single point; to_xarray takes arrays")
-        frame = pd.DataFrame({by: {figure: float(self[figure][by]) for figure in self} for by in PARAMETERS})
+        frame = pd.DataFrame({by: {figure: float(self[figure][by]) for figure in self} for by in self.parameters})
         frame.attrs["units"] = self.units
         return frame
 
@@ -156,11 +189,11 @@ class Sensitivities(Result, Value, Mapping[str, Mapping[str, Array]]):
         points = [f"dim_{k}" for k in range(np.ndim(self["mean_speed"]["prepressure"]))]
         return xr.Dataset(
             {
-                figure: (["parameter", *points], np.stack([self[figure][by] for by in PARAMETERS]),
+                figure: (["parameter", *points], np.stack([self[figure][by] for by in self.parameters]),
                          {"units": " or ".join(dict.fromkeys(self.units[figure].values()))})
                 for figure in self
             },
-            {"parameter": list(PARAMETERS)},
+            {"parameter": list(self.parameters)},
         )  # fmt: skip
 
 
@@ -206,7 +239,10 @@ def sensitivities(
         prepressure and frequency difference as they do in ``evaluate``; under ``amplitude`` and
         ``resonance_frequency`` stands what each does alone.  ``speed_volatility`` is the continuous one.  NaN where
         no speed balances the load.  A weight's inertia follows ``load_torque``.  Where an extreme changes hands the
-        slope is that of the extreme which is seen, one of the two sides'.
+        slope is that of the extreme which is seen, one of the two sides'.  With ``coupling = "contact"``, for a single
+        point: central differences of orbits on one branch with estimates of their errors, ``errors``; of
+        ``highest_wave`` and ``input_power`` and not the stall torque, by ``damping_ratio`` and ``rotor_mass`` and not
+        amplitude and resonance.
 
     Raises
     ------
@@ -222,7 +258,16 @@ def sensitivities(
     >>> f"{slopes['mean_speed']['load_torque']:.3g} {slopes.units['mean_speed']['load_torque']}"
     '-16.5 rad/s/(N*m)'
     """
-    case = prepare(motor, drive, Levels(**levels), tolerance)
+    chosen = Levels(**levels)
+    if chosen.coupling == "contact":
+        from trum_sym.model.coupled_slopes import coupled_slopes
+
+        motor = load_motor() if motor is None else motor
+        drive = Drive() if drive is None else drive
+        check_point(motor, drive)
+        slopes, errors = coupled_slopes(motor, drive, chosen, tolerance)
+        return Sensitivities(slopes, Inputs(motor, drive, chosen, None, tolerance), errors)
+    case = prepare(motor, drive, chosen, tolerance)
     _, found = orbit_with_slopes(case)
     inputs = Inputs(case.motor, case.drive, case.levels, None, case.tolerance)
     return Sensitivities({name: found[name] for name in DIFFERENTIATED}, inputs)

@@ -19,11 +19,13 @@ from trum_sym.model.inputs import Inputs
 from trum_sym.model.operating_point import OF_ORBIT, OperatingPoint, prepare, results
 from trum_sym.output.digits import with_error
 from trum_sym.output.text_table import text_table
-from trum_sym.quantities import QUANTITIES
+from trum_sym.quantities import QUANTITIES, Quantity
 from trum_sym.text import one_line
 
 if TYPE_CHECKING:
     import xarray as xr
+
+    from trum_sym.model.coupled_point import CoupledPoint
 
 __all__ = ["as_table", "compared", "drive_in_words", "histories_table", "reading_in_words", "shown_with_error"]
 
@@ -81,11 +83,12 @@ def _alike(one: float, other: float) -> bool:
     return math.isclose(one, other, rel_tol=1e-9, abs_tol=1e-8)
 
 
-def compared(point: OperatingPoint) -> dict[str, dict[str, object]]:
+def compared(point: OperatingPoint | CoupledPoint) -> dict[str, dict[str, object]]:
     """What is published of the figures, by name, with the unit and place of print: of the same kind only."""
     return {
         name: {"value": parse_unit(entry.unit).to_si(entry.value), "source": entry.source}
         for name, entry in _published(point.inputs).items()
+        if name in point.quantities
     }
 
 
@@ -117,12 +120,14 @@ def reading_in_words(inputs: Inputs) -> list[str]:
     ]
 
 
-def _resting_on_assumed(point: OperatingPoint) -> dict[str, set[str]]:
+def _resting_on_assumed(point: OperatingPoint | CoupledPoint) -> dict[str, set[str]]:
     """The figures that change when an assumed value of the motor goes to an end of its range, by that value's name."""
     inputs = point.inputs
     assumed = inputs.motor.assumed()
     if not assumed:
         return {}
+    if not isinstance(point, OperatingPoint):
+        return _coupled_on_assumed(inputs, assumed, point.quantities)
     closed = [name for name in QUANTITIES if name not in OF_ORBIT]
     # as they are, then each in turn at another value: one batch
     columns = {name: np.full(len(assumed) + 1, float(parameter.value)) for name, parameter in assumed.items()}
@@ -144,6 +149,35 @@ def _resting_on_assumed(point: OperatingPoint) -> dict[str, set[str]]:
     return {name: {f for f, by in found.items() if by[place]} for place, name in enumerate(assumed)}
 
 
+def _coupled_on_assumed(
+    inputs: Inputs, assumed: Mapping[str, Parameter], quantities: Mapping[str, Quantity]
+) -> dict[str, set[str]]:
+    """The same with coupling: an orbit's figures rest on all that its laps depend on."""
+    from trum_sym.model.coupled_point import FREE_OF_ORBIT, coupled_results, prepare_coupled
+
+    def at(name: str | None) -> tuple[dict[str, Any], Mapping[str, float]]:
+        with unquestioned():
+            changed = {} if name is None else {name: _another(name, assumed[name])}
+            case = prepare_coupled(inputs.motor.with_values(changed), inputs.drive, inputs.levels, inputs.tolerance)
+        return coupled_results(case, FREE_OF_ORBIT), case.points[0]
+
+    closed, values = at(None)
+    found: dict[str, set[str]] = {}
+    for name in assumed:
+        others, point = at(name)
+        found[name] = {figure for figure in closed if others[figure] != closed[figure]}
+        found[name] |= {q for q in quantities if q not in closed} if _laps_differ(values, point) else set()
+    return found
+
+
+def _laps_differ(one: Mapping[str, float], other: Mapping[str, float]) -> bool:
+    """Whether two points' laps depend on different numbers."""
+    from trum_sym.model.kernels import signature
+
+    names = signature("coupled_lap")[0]
+    return any(one[name] != other[name] for name in names if name in one)
+
+
 def _another(name: str, parameter: Parameter) -> float:
     """Another value that a parameter might have: an end of its range, or where none is stated, one beside it."""
     value = float(parameter.value)
@@ -153,7 +187,7 @@ def _another(name: str, parameter: Parameter) -> float:
     return value + 1 if SPECS[name].domain.integer else 0.999 * value
 
 
-def as_table(point: OperatingPoint) -> str:
+def as_table(point: OperatingPoint | CoupledPoint) -> str:
     """The point as a table: value, bound of its error, unit, and what is published of the same kind."""
     inputs = point.inputs
     motor, drive, published = inputs.motor, inputs.drive, _published(inputs)
@@ -163,7 +197,7 @@ def as_table(point: OperatingPoint) -> str:
     kind = "continuous" if period is None else f"encoder of {full(1e3 * float(period))} ms"
     rows: list[list[str]] = []
     figures: dict[str, Any] = point.figures
-    for name, quantity in QUANTITIES.items():
+    for name, quantity in point.quantities.items():
         label = f"{quantity.label}, {kind}" if name == "speed_volatility" else quantity.label
         row = [label, *shown_with_error(figures, name), "" if quantity.shown == "1" else quantity.shown]
         row += ["*" if name in marked else ""] * bool(marked)
@@ -180,10 +214,27 @@ def as_table(point: OperatingPoint) -> str:
         headers, align = [*headers, "published", "difference", "printed in"], align + "rrl"
     table = text_table(rows, headers, align)
     title = [f"{one_line(motor.name)} at {drive_in_words(drive)}", *reading_in_words(inputs)]
+    if not isinstance(point, OperatingPoint):
+        title.append(_orbit_in_words(point))
     return "\n".join([*title, "", table, *_notes(point, resting)])
 
 
-def _notes(point: OperatingPoint, resting: Mapping[str, set[str]]) -> list[str]:
+def _orbit_in_words(point: CoupledPoint) -> str:
+    """Which orbit a coupled point's figures are of."""
+    orbit = point.orbit
+    if orbit is None:
+        return "orbit: none"
+    mass = float(point.inputs.motor.rotor_mass.value) if point.inputs.motor.rotor_mass is not None else 0.0
+    state = f"closed after {orbit.cycles} cycle{'s' * (orbit.cycles != 1)}" if orbit.closed else "no lap closes"
+    sizes = np.abs(orbit.multipliers)
+    return (
+        f"orbit: from {point.start}, {state}, branch {point.branch}, "
+        f"multipliers up to {float(sizes.max()):.3g}; rotor of {1e3 * mass:.6g} g; "
+        "errors are estimates"
+    )
+
+
+def _notes(point: OperatingPoint | CoupledPoint, resting: Mapping[str, set[str]]) -> list[str]:
     """What the figures alone do not say."""
     notes = ["", *(f"remark: {remark}" for remark in point.remarks)] if point.remarks else []
     motor = point.inputs.motor

@@ -6,6 +6,7 @@ A verdict is derived: a claim's check says in which readings it holds, and this 
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -95,6 +96,8 @@ class Claim:
 
 def judged(statement: Statement, finding: Finding) -> Claim:
     """The verdict that a finding gives."""
+    if finding.settings is not None:
+        return _apart(statement, finding, finding.settings)
     levels = tuple(range(len(COMBINATIONS))) if finding.levels is None else finding.levels
     shape = (*_SHAPE, len(COMBINATIONS))
     known, holds = np.zeros(shape, bool), np.zeros(shape, bool)
@@ -120,6 +123,16 @@ def judged(statement: Statement, finding: Finding) -> Claim:
         known,
         finding.rotor,
     )
+
+
+def _apart(statement: Statement, finding: Finding, settings: Mapping[str, bool]) -> Claim:
+    """The verdict on a claim that no reading decides, by the same rule over the settings that were compared."""
+    none = np.zeros((*_SHAPE, len(COMBINATIONS)), bool)
+    held = [setting for setting, holds in settings.items() if holds]
+    conditions = f"{'at ' + '; '.join(held) if held else 'at none'}; {len(held)} of {len(settings)} settings"
+    verdict = _verdict(np.array(list(settings.values())))
+    found = (statement.id, statement.place, statement.quote, finding.computed, conditions, verdict, statement.anchor)
+    return Claim(*found, none, none)
 
 
 def _verdict(holds: Truth, corners: Truth | None = None, possible: Truth | None = None) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
@@ -9,6 +10,7 @@ import numpy as np
 from trum_sym.errors import ParameterError
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
+from trum_sym.inputs.plausible import unquestioned
 from trum_sym.model.coupling import check_coupling, coupled_values, plain_waves
 from trum_sym.model.kernels import call
 from trum_sym.model.levels import Levels
@@ -59,7 +61,8 @@ def _asked(values: dict[str, float], amplitude: float) -> float:
 
 
 def coupled_tables(motor: Motor) -> tuple[Table, ...]:
-    """Two tables: the plain wave over the drive frequency, and under load; none for a motor without that level.
+    """Three tables: the plain wave over the drive frequency, and under load; Table 3's pulses; none for a motor without
+    that level.
 
     Parameters
     ----------
@@ -72,7 +75,7 @@ def coupled_tables(motor: Motor) -> tuple[Table, ...]:
             coupled_values(motor, _drive(0.0, 0.0), levels)
         except ParameterError:  # an amplitude under prepressure, no friction, no flange, ...
             return ()
-    return _by_frequency(motor), _under_load(motor)
+    return _by_frequency(motor), _under_load(motor), _in_pulses(motor)
 
 
 def _text(value: float, digits: str = ".3g") -> str:
@@ -166,4 +169,47 @@ def _under_load(motor: Motor) -> Table:
         ),
         tuple(rows),
         (0, 2, 3, 4, 5, 6),
+    )
+
+
+def _in_pulses(motor: Motor) -> Table:
+    """Table 3's point, its wave prescribed or coupled, without and with the bench's plate."""
+    plate = float(motor.bench["load_inertia"].value) if "load_inertia" in motor.bench else 0.0
+    with unquestioned():  # the limit of a light rotor, outside any range of a mass
+        masses = {"none": motor.with_values({"rotor_mass": 0.0})}
+    if motor.rotor_mass is not None:
+        masses[f"{1e3 * float(motor.rotor_mass.value):g} g"] = motor
+    rows = []
+    for levels, inertia in product(_LEVELS.values(), dict.fromkeys((0.0, plate))):
+        drive, compliance = Drive(load_inertia=inertia), levels.compliance
+        load = f"{inertia:.2g}" if inertia else "0"
+        prescribed = evaluate(motor, drive, compliance=compliance)
+        swing = float(prescribed.speed_volatility) * abs(float(prescribed.mean_speed))
+        of_none = (_text(float(prescribed.mean_speed)), _text(swing), _text(1e6 * float(prescribed.amplitude)))
+        rows.append((compliance, load, "prescribed", *of_none, "", ""))
+        for mass, machine in masses.items():
+            point = evaluate(machine, drive, compliance=compliance, coupling="contact")
+            swing = float(point.speed_volatility) * abs(float(point.mean_speed))
+            speeds = (_text(float(point.mean_speed)), _text(swing), _text(1e6 * float(point.highest_wave)))
+            state = f"from {point.start}, {point.branch}" if point.converged else str(point.reason)
+            rows.append((compliance, load, mass, *speeds, _text(float(point.input_power)), state))
+    return Table(
+        "coupling-pulses",
+        "Superimposed pulses",
+        "Table 3's point, with and without the inertia of the bench's plate. Prescribed: eq. 8's amplitude of a phase, "
+        "which no drive of this ceramic can give 3 kHz above the resonance. With coupling: the modal force of the "
+        "measured free amplitude, and the highest wave that it makes. Laps begin at rest and in both phases' steady "
+        "swing; the last column says from which the orbit is, and which it is of those that attract.",
+        (
+            "contact",
+            "load's inertia (kg m²)",
+            "rotor's mass, or prescribed",
+            "mean speed (rad/s)",
+            "standard deviation (rad/s)",
+            "amplitude, highest wave (µm)",
+            "input power (W)",
+            "orbit",
+        ),
+        tuple(rows),
+        (1, 3, 4, 5, 6),
     )

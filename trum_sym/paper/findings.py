@@ -98,6 +98,7 @@ class Finding:
     possible : where it holds with some load's inertia; ``holds`` if None
     undecidable : why the paper alone cannot decide it, whatever ``holds`` is
     rotor : the same for each load's inertia
+    settings : of a claim that is judged apart from the readings: what was compared, and whether it holds there
     """
 
     holds: Any
@@ -108,6 +109,7 @@ class Finding:
     possible: Truth | None = None
     undecidable: str | None = None
     rotor: ByInertia | None = None
+    settings: Mapping[str, bool] | None = None
 
 
 LOADS = f"without a load / with its inertia of {LOAD_INERTIA[1]:.1e} / {LOAD_INERTIA[2]:.1e} kg m^2"

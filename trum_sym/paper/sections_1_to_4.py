@@ -9,12 +9,14 @@ import numpy as np
 from trum_sym.inputs.checks import Array
 from trum_sym.inputs.drive import STARTS, Drive, Start
 from trum_sym.inputs.motor import Motor
+from trum_sym.inputs.units import ARCSEC
 from trum_sym.model.cycle import modal_values, response
 from trum_sym.model.kernels import call
 from trum_sym.model.levels import Levels
 from trum_sym.model.operating_point import prepare
 from trum_sym.model.rotor import history, solve_orbit, surface_and_contact
 from trum_sym.model.stator import solve_stator
+from trum_sym.paper import microstepping
 from trum_sym.paper.findings import LOADS, ByInertia, Check, Context, Finding, by_load, falls, of_rotor
 from trum_sym.paper.readings import (
     COMBINATIONS,
@@ -58,6 +60,23 @@ def _jitter(c: Context) -> Finding:
         f"swing of the speed in a cycle over its mean {LOADS}: {by_load(ratio[:, :, :, 0], '.2g')}; small is said up "
         f"to {share:.2f}, which Table 4 has for the encoder's readings",
         (DEFAULT,),
+    )
+
+
+def _steadier(c: Context) -> Finding:
+    """Pulses and bursts at the same mean speeds, where the wave feels the rotor: no reading has that."""
+    found = microstepping.compared(c.motor)
+    shown = [
+        f"{at.setting}: {at.pulses / ARCSEC:.2g} / {at.bursts / ARCSEC:.2g}"
+        for at in found
+        if at.holds or at.mean == microstepping.MEANS[1]
+    ]
+    return Finding(
+        False,
+        "standard deviations in arcsec/s of Table 3's pulses / bursts, with the rotor's reaction on the wave, its "
+        f"flange, no mass and no load, at means of {', '.join(f'{mean:g}' for mean in microstepping.MEANS)} arcsec/s; "
+        f"where the pulses are steadier, and all at {microstepping.MEANS[1]:g}: " + "; ".join(shown),
+        settings={at.setting: at.holds for at in found},
     )
 
 
@@ -431,6 +450,7 @@ def _rotor_alone(c: Context) -> Finding:
 
 CHECKS: Mapping[str, Check] = {
     "small-jitter": _jitter,
+    "steadier": _steadier,
     "teeth-amplitude": _teeth_amplitude,
     "teeth-stiffness": _teeth,
     "affects-resonance": _affects,

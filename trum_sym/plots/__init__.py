@@ -24,7 +24,7 @@ from trum_sym.plots.region import load_region
 from trum_sym.plots.speed import measured_speed, torque_speed
 from trum_sym.plots.style import blank, save, svg
 from trum_sym.plots.transfer import contact_zone, transfer_models
-from trum_sym.plots.transients import start_and_stop
+from trum_sym.plots.transients import driven, start_and_stop
 from trum_sym.plots.trends import cycles, multivariable, trends
 from trum_sym.plots.vibration import beat, power_off, resonance_levels
 
@@ -36,6 +36,7 @@ __all__ = [
     "contact_zone",
     "cycles",
     "determinant",
+    "driven",
     "ellipse",
     "forward_and_backward",
     "instantaneous_speed",

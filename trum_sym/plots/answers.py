@@ -19,7 +19,7 @@ from trum_sym.inputs.shown import full, quantity_of, readable
 from trum_sym.inputs.units import ARCSEC
 from trum_sym.model.histories import simulate
 from trum_sym.model.operating_point import OperatingPoint
-from trum_sym.model.sensitivities import PARAMETERS, Sensitivities
+from trum_sym.model.sensitivities import Sensitivities
 from trum_sym.plots.style import COLOURS, GRID, INK, figure_of, legend, panels, styled, write_picture
 from trum_sym.quantities import QUANTITIES, Quantity
 from trum_sym.studies.pareto import ParetoFront
@@ -31,6 +31,8 @@ from trum_sym.text import one_line
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
+
+    from trum_sym.model.coupled_point import CoupledPoint
 
 __all__ = [
     "SUFFIXES",
@@ -56,7 +58,7 @@ def _plain(text: str) -> str:
 
 
 @styled
-def point(found: OperatingPoint) -> Figure:
+def point(found: OperatingPoint | CoupledPoint) -> Figure:
     """The rotor's speed over two cycles of a single operating point, with its mean and its standard deviation."""
     inputs = found.inputs
     laps = simulate(inputs.motor, inputs.drive, cycles=2, tolerance=inputs.tolerance, **asdict(inputs.levels))
@@ -121,6 +123,7 @@ def histories(found: xr.Dataset) -> Figure:
 _OFF = ("A off", "B off")
 _SHADES = ("#e9edf1", "#f7f1e3")
 _SHOWN = ("mean_speed", "speed_volatility", "stall_torque", "q_average")  # of a sweep, where all are computed
+_SHOWN_COUPLED = ("mean_speed", "speed_volatility", "highest_wave", "input_power")
 
 
 def check_swept(dimensions: int) -> None:
@@ -139,7 +142,8 @@ def check_swept(dimensions: int) -> None:
 def swept(found: xr.Dataset) -> Figure:
     """Figures of a sweep over one axis as lines, over two as maps; at most four of them."""
     names = [str(name) for name in found.data_vars if name != "status"]
-    names = ([name for name in _SHOWN if name in names] or names)[:4]
+    chosen = _SHOWN_COUPLED if found.attrs.get("coupling") == "contact" else _SHOWN
+    names = ([name for name in chosen if name in names] or names)[:4]
     dimensions = [str(name) for name in found[names[0]].dims]
     check_swept(len(dimensions))
     missing = int(np.count_nonzero(found["status"].to_numpy()))
@@ -235,7 +239,7 @@ def slopes(found: Sensitivities) -> Figure:
         quantity = quantity_of(figure)
         changes = {
             name: readable(figure, float(found[figure][name]) * _SHARE * float(np.asarray(values[name])))
-            for name in PARAMETERS
+            for name in found.parameters
         }
         order = sorted(changes, key=lambda name, of=changes: abs(of[name]))  # type: ignore[misc]
         ax.barh([name.replace("_", " ") for name in order], [changes[name] for name in order], color=colour)

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from trum_sym.errors import MissingExtraError
+from trum_sym.inputs.shown import quantity_of
 from trum_sym.output.files import check_target, write_bytes
 from trum_sym.plots.style import without_tex
-from trum_sym.quantities import QUANTITIES
 from trum_sym.text import one_line
 from trum_sym.uncertainty.propagation import CONFIDENCE, Estimate, Indices
 from trum_sym.uncertainty.result import BALANCED, MISSED
@@ -93,7 +93,7 @@ def _title(study: Study, output: str) -> str:
 def _draw_distribution(axes: Axes, study: Study, output: str) -> None:
     drawn = study.propagation.values[output][:2].ravel()
     values = np.array([shown(output, value) for value in drawn[np.isfinite(drawn)]])
-    spread, unit = study.propagation.spread(output), QUANTITIES[output].shown
+    spread, unit = study.propagation.spread(output), quantity_of(output).shown
     # a few far values would squeeze all others into one bar
     low, high = np.quantile(values, (0.005, 0.995))
     beyond = int(((values < low) | (values > high)).sum())

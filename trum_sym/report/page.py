@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from importlib.metadata import version
 from importlib.resources import files
 from itertools import groupby
@@ -15,7 +16,7 @@ from trum_sym.output.progress import shown
 from trum_sym.paper.claims import PARTLY
 from trum_sym.paper.coupled import coupled_tables
 from trum_sym.paper.ledger import Record, load_ledger
-from trum_sym.paper.tables import tables
+from trum_sym.paper.tables import Table, tables
 from trum_sym.plots import svg
 from trum_sym.plots.style import COLOURS, GRID, INK
 from trum_sym.report.catalogue import PICTURES
@@ -56,7 +57,7 @@ def page(motor: Motor, *, progress: bool = False) -> str:
     folder = files("trum_sym.report") / "templates"
     drawn = _drawn(motor, progress)
     judged = judge(motor, progress)
-    records = load_ledger()
+    records, coupling = load_ledger(), coupled_tables(motor)
     return environment.get_template("page.html").render(
         motor=motor.name,
         version=version("trum-sym"),
@@ -68,10 +69,10 @@ def page(motor: Motor, *, progress: bool = False) -> str:
             for place, group in groupby(drawn, lambda item: item["picture"].place)
         ],
         tables=list(tables(motor)),
-        coupling=coupled_tables(motor),
+        coupling=coupling,
         interactive=fragment(motor),
         judged=judged,
-        labels=_labels(),
+        labels=_labels(coupling),
         ledger={"all": len(records), "erratum": sum(record["verdict"] == "erratum" for record in records)},
     )
 
@@ -133,9 +134,10 @@ def _drawn(motor: Motor, progress: bool) -> list[dict[str, Any]]:
     ]
 
 
-def _labels() -> dict[str, str]:
+def _labels(coupling: Iterable[Table]) -> dict[str, str]:
     """What an anchor of a claim is called."""
     named = {picture.anchor: picture.number or picture.title for picture in PICTURES}
+    named |= {table.anchor: f"{table.title}, with the rotor's reaction" for table in coupling}
     return named | {f"table-{number}": f"Table {number}" for number in range(1, 6)}
 
 

@@ -19,12 +19,14 @@ from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import SPECS, Motor
 from trum_sym.inputs.points import check_point, one_number, period_of
+from trum_sym.inputs.shown import quantity_of
+from trum_sym.model.coupled_point import COUPLED_FLAGS, check_present
 from trum_sym.model.cycle import lack_of_damping
 from trum_sym.model.levels import METHODS, Levels, Method
-from trum_sym.model.operating_point import OF_ORBIT, TOLERANCES
+from trum_sym.model.operating_point import TOLERANCES, Case
 from trum_sym.model.rotor import grid_is_tried
 from trum_sym.model.stator import warn_outside_fit
-from trum_sym.quantities import ERRORS, QUANTITIES
+from trum_sym.quantities import COUPLED, COUPLED_ERRORS, ERRORS, QUANTITIES
 from trum_sym.sweeps.grid import PARAMETERS, Grid, chunk_shape, read_ranges
 from trum_sym.sweeps.task import FLAGS, STATUS, Settings, Task, identity, sort_out
 from trum_sym.text import one_line, plain
@@ -35,8 +37,14 @@ _POINT_BYTES = 2048  # at most, while a point is evaluated
 _MEMORY_SHARE = 0.25  # of the machine's, for all chunks that are computed at a time
 _CHUNKS = 256  # at least, where that does not make them tiny
 _CHUNK_POINTS = {True: (1024, 16384), False: (8192, 65536)}  # by whether the rotor's orbit is asked for
+_COUPLED_POINTS = (8, 64)  # with coupling, whose orbits take some 0.1 s each
 _MAX_CHUNKS = 1_000_000
-_TRIAL = 4096
+_TRIAL, _COUPLED_TRIAL = 4096, 64
+_COUNTS = {
+    "cycles": "drive cycles after which the orbit repeats itself",
+    "largest_multiplier": "of a small disturbance after them",
+    "branches": "different orbits that attract, of those that the starts lead to",
+}
 _FIT = ("fit_prepressure_min", "fit_prepressure_max")
 
 
@@ -97,7 +105,9 @@ class Plan:
             return {"long_name": FLAGS[name]}
         if any(name in axis.values for axis in self.grid.axes):
             return {"units": PARAMETERS[name][1], "long_name": name.replace("_", " ")}
-        quantity = QUANTITIES[name] if name in QUANTITIES else ERRORS[name]
+        if name in _COUNTS:
+            return {"units": "1", "long_name": _COUNTS[name]}
+        quantity = quantity_of(name)
         return {"units": quantity.unit, "long_name": quantity.label}
 
     def attributes(self) -> dict[str, str | float]:
@@ -118,6 +128,7 @@ class Plan:
             "amplitude_level": levels.amplitude,
             "compliance": levels.compliance,
             "tangential": levels.tangential,
+            "coupling": levels.coupling,
             "tolerance": settings.tolerance,
             "method": settings.method,
             "outputs": " ".join(settings.outputs),
@@ -163,25 +174,30 @@ def make_plan(
         if np.ndim(value) and name not in swept:
             raise ParameterError(name, f"an array of shape {np.shape(value)}", f"one number, or {name}=... as a range")
     choice("method", method, METHODS)
-    figures = _outputs(outputs, swept, on_grid=grid_is_tried(method, tolerance))
+    figures = _outputs(outputs, swept, levels, on_grid=grid_is_tried(method, tolerance))
     settings = Settings(machine, numbers, drive.words(), levels, period, tolerance, figures, method)
     for axis in grid.axes:
         if axis.name in (*settings.outputs, "status"):
             raise ParameterError(f"dimension {axis.name}", axis.name, "a name that is not that of a figure")
-    plan = Plan(settings, grid, chunk_shape(grid.shape, _points(grid, settings.outputs, chunk)))
+    plan = Plan(settings, grid, chunk_shape(grid.shape, _points(grid, settings, chunk)))
     if math.prod(plan.chunks) > _MAX_CHUNKS:
         raise ParameterError("chunk", chunk, f"more points in a chunk: {math.prod(plan.chunks)} chunks are too many")
     _try(plan)
     return plan
 
 
-def _outputs(given: Sequence[str] | None, swept: set[str], *, on_grid: bool) -> tuple[str, ...]:
-    flags = [name for name in FLAGS if on_grid or name != "on_grid"]
-    known = [name for name in (*QUANTITIES, *ERRORS, *flags) if name not in swept]
+def _outputs(given: Sequence[str] | None, swept: set[str], levels: Levels, *, on_grid: bool) -> tuple[str, ...]:
+    if levels.coupling == "contact":
+        known = [name for name in (*COUPLED, *COUPLED_ERRORS, *_COUNTS, *COUPLED_FLAGS) if name not in swept]
+    else:
+        flags = [name for name in FLAGS if name not in COUPLED_FLAGS or name == "converged"]
+        flags = [name for name in flags if on_grid or name != "on_grid"]
+        known = [name for name in (*QUANTITIES, *ERRORS, *flags) if name not in swept]
     if given is None:
         return tuple(known)
     given = words("outputs", given, f"a list of figures: {', '.join(known)}")
     for name in given:
+        check_present("outputs", name, levels)
         if name in swept:
             raise ParameterError("outputs", name, "figures that are not swept themselves")
         choice("outputs", name, tuple(known))
@@ -190,11 +206,13 @@ def _outputs(given: Sequence[str] | None, swept: set[str], *, on_grid: bool) -> 
     return given
 
 
-def _points(grid: Grid, outputs: tuple[str, ...], chunk: float | None) -> int:
+def _points(grid: Grid, settings: Settings, chunk: float | None) -> int:
     """Points of a chunk: for the grid, what its points cost, and the memory of this machine."""
     if chunk is not None:
         return int(one_number("chunk", chunk, "1", Domain(low=1, low_open=False, integer=True)))
-    low, high = _CHUNK_POINTS[not OF_ORBIT.isdisjoint(outputs)]
+    low, high = _CHUNK_POINTS[settings.of_orbit]
+    if settings.coupled and settings.of_orbit:
+        low, high = _COUPLED_POINTS
     memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     room = int(_MEMORY_SHARE * memory / (_POINT_BYTES * (os.cpu_count() or 1)))
     return max(1, min(high, room, max(low, grid.size // _CHUNKS)))
@@ -202,7 +220,8 @@ def _points(grid: Grid, outputs: tuple[str, ...], chunk: float | None) -> int:
 
 def _try(plan: Plan) -> None:
     """Refuse what is wrong at every point; warn of what is measured at none."""
-    task, settings = plan.sample(_TRIAL), plan.settings
+    settings = plan.settings
+    task = plan.sample(_COUPLED_TRIAL if settings.coupled else _TRIAL)
     try:
         settings.case(task.values)
     except (ParameterError, ConvergenceError):
@@ -210,7 +229,8 @@ def _try(plan: Plan) -> None:
         if refusal is not None and not good.any():
             raise refusal from None
     swept = {name: values for axis in plan.grid.axes for name, values in axis.values.items()}
-    _warn_undamped(settings, task.values, swept)
+    if not settings.coupled:
+        _warn_undamped(settings, task.values, swept)
     if settings.motor.amplitude is None and swept.keys().isdisjoint(("amplitude", *_FIT)):
         force = swept.get("prepressure", np.array([settings.numbers["prepressure"]]))
         warn_outside_fit(settings.motor, Drive(prepressure=np.array([force.min(), force.max()])))
@@ -227,7 +247,8 @@ def _warn_undamped(settings: Settings, values: Mapping[str, Array], swept: Mappi
     for points in (values, first):
         good, _ = sort_out(settings, points)
         if good.any():
-            said = lack_of_damping(settings.case({name: value[good] for name, value in points.items()}).values)
+            case = settings.case({name: value[good] for name, value in points.items()})
+            said = lack_of_damping(case.values) if isinstance(case, Case) else None
             if said is not None:
                 warnings.warn(said, ValidityWarning, stacklevel=5)
                 return

@@ -36,7 +36,7 @@ __all__ = ["Summary", "Workload", "check_out", "estimate", "run", "sweep"]
 
 _SMALL = 2**30  # bytes of a result that is held in memory
 _SAMPLE_SECONDS = 2.0
-_SAMPLE_POINTS = 64  # a thread, at first
+_SAMPLE_POINTS, _COUPLED_SAMPLE = 64, 4  # a thread, at first; with coupling
 
 
 @dataclass(frozen=True)
@@ -290,7 +290,7 @@ def estimate(name: str, plan: Plan, target: Path | None, scheduler: str | None, 
     left = sum(int(np.prod(plan.task(tuple(index)).shape)) for index in np.argwhere(missing))
     with _pool(scheduler) as pool:
         threads = max(1, pool.threads())
-        count, seconds = _SAMPLE_POINTS, 0.0
+        count, seconds = _COUPLED_SAMPLE if plan.settings.coupled else _SAMPLE_POINTS, 0.0
         while True:
             tasks = [plan.sample(count, shift) for shift in range(threads)]
             begin = time.perf_counter()

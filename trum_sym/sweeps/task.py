@@ -22,6 +22,7 @@ from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import SPECS, Motor
 from trum_sym.inputs.plausible import unquestioned
 from trum_sym.model.batch import StoppedError, one_thread
+from trum_sym.model.coupled_point import COUPLED_FLAGS, FREE_OF_ORBIT, CoupledCase, coupled_results, prepare_coupled
 from trum_sym.model.levels import Levels, Method
 from trum_sym.model.operating_point import OF_ORBIT, Case, prepare, results
 
@@ -33,9 +34,10 @@ FLAGS = MappingProxyType(
     {
         "converged": "whether the bounds of the errors meet the tolerance",
         "on_grid": "whether the orbit was found on a grid of equal steps",
+        **{name: meaning for name, meaning in COUPLED_FLAGS.items() if name != "converged"},
     }
 )
-"""The outputs that are true or false, and what they say."""
+"""The outputs that are true or false, and what they say; the last two with coupling alone."""
 STORE = "1"
 """The layout of a sweep's store: which arrays and attributes it has, and what they mean."""
 _DONE, _RUNAWAY, _UNCONVERGED, _REFUSED, _SLACK = range(5)
@@ -77,7 +79,18 @@ class Settings:
     outputs: tuple[str, ...]
     method: Method = "auto"
 
-    def case(self, values: Mapping[str, Array]) -> Case:
+    @property
+    def coupled(self) -> bool:
+        """Whether the rotor acts back on the wave."""
+        return self.levels.coupling == "contact"
+
+    @property
+    def of_orbit(self) -> bool:
+        """Whether any output takes the rotor's orbit."""
+        plain = {"prepressure", "frequency_difference", *FREE_OF_ORBIT}
+        return not plain.issuperset(self.outputs) if self.coupled else not OF_ORBIT.isdisjoint(self.outputs)
+
+    def case(self, values: Mapping[str, Array]) -> Case | CoupledCase:
         """Check points and solve their stators; the values broadcast.
 
         Raises
@@ -91,6 +104,8 @@ class Settings:
             motor = self.motor.with_values(of_motor) if of_motor else self.motor
         drive = Drive(**of_drive, **self.words)  # type: ignore[arg-type]
         period = values.get("sampling_period", self.sampling_period)
+        if self.coupled:
+            return prepare_coupled(motor, drive, self.levels, self.tolerance, period, method=self.method)
         return prepare(motor, drive, self.levels, self.tolerance, period, warn=False, method=self.method)
 
 
@@ -148,14 +163,17 @@ def compute(task: Task, stopped: Callable[[], bool] = lambda: False) -> Found:
         return Found({name: values.reshape(task.shape) for name, values in found.items()}, str(refusal))
 
 
-def _evaluate(settings: Settings, case: Case, shape: tuple[int, ...]) -> dict[str, npt.NDArray[Any]]:
+def _evaluate(settings: Settings, case: Case | CoupledCase, shape: tuple[int, ...]) -> dict[str, npt.NDArray[Any]]:
     """The outputs and the status of points that can be evaluated."""
-    orbit = not OF_ORBIT.isdisjoint(settings.outputs)
-    flags = ("converged", "runaway", "slack") if orbit else ()
-    found = results(case, {*settings.outputs, *flags})
     status = np.full(shape, _DONE, np.uint8)
-    if orbit:
-        status[np.broadcast_to(found["slack"], shape)] = _SLACK
+    flags = ("converged", "runaway") if settings.of_orbit else ()
+    if isinstance(case, CoupledCase):
+        found = coupled_results(case, {*settings.outputs, *flags})
+    else:
+        found = results(case, {*settings.outputs, *flags, *(["slack"] if flags else [])})
+    if flags:
+        if "slack" in found:
+            status[np.broadcast_to(found["slack"], shape)] = _SLACK
         status[~np.broadcast_to(found["converged"], shape)] = _UNCONVERGED
         status[np.broadcast_to(found["runaway"], shape)] = _RUNAWAY
     return {**{name: np.broadcast_to(found[name], shape) for name in settings.outputs}, "status": status}

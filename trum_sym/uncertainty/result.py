@@ -13,8 +13,9 @@ from trum_sym.inputs.checks import Array
 from trum_sym.inputs.distributions import Distribution
 from trum_sym.inputs.drive import DRIVE_DOMAINS, Drive
 from trum_sym.inputs.motor import SPECS, Motor
+from trum_sym.model.coupled_point import CoupledPoint
 from trum_sym.model.operating_point import OperatingPoint
-from trum_sym.quantities import QUANTITIES
+from trum_sym.quantities import figures_at
 from trum_sym.text import one_line
 from trum_sym.uncertainty.propagation import Estimate, Propagation, share
 from trum_sym.values import Value
@@ -78,7 +79,7 @@ class Drawn(Value):
     seed: int
     outputs: tuple[str, ...]
     targets: tuple[Target, ...]
-    nominal: OperatingPoint
+    nominal: OperatingPoint | CoupledPoint
     propagation: Propagation
     settled: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
 
@@ -123,7 +124,7 @@ class Drawn(Value):
         variables: dict[str, Any] = {
             name: (dims, values, {"units": unit_of(name)}) for name, values in found.points.items()
         }
-        for name, output in QUANTITIES.items():
+        for name, output in figures_at(self.levels["coupling"] == "contact").items():
             # an uncertain amplitude is both, and the same
             variables[name] = (dims, found.values[name], {"units": output.unit, "long_name": output.label})
         variables["converged"] = (dims, self.settled, {"long_name": "the orbit met its tolerance"})

@@ -19,12 +19,14 @@ from trum_sym.inputs.motor import COUPLED, FLANGE, SPECS, Motor, Parameter, spec
 from trum_sym.inputs.motor_file import load_motor
 from trum_sym.inputs.plausible import unquestioned
 from trum_sym.inputs.points import check_point, check_single, numbers_of, period_of
+from trum_sym.inputs.shown import quantity_of
 from trum_sym.inputs.spreads import Spread, read_spread
 from trum_sym.inputs.units import parse_quantity
+from trum_sym.model.coupled_point import CoupledPoint, check_present
 from trum_sym.model.levels import LevelChoice, Levels
-from trum_sym.model.operating_point import evaluate
+from trum_sym.model.operating_point import OperatingPoint, evaluate
 from trum_sym.output.result import Result
-from trum_sym.quantities import QUANTITIES
+from trum_sym.quantities import figures_at
 from trum_sym.text import one_line
 from trum_sym.uncertainty.propagation import check_design, propagate
 from trum_sym.uncertainty.result import BALANCED, MISSED, Drawn, Target
@@ -34,6 +36,7 @@ __all__ = ["MOTOR_FILE", "Study", "spread"]
 
 MOTOR_FILE = "motor"  # stands for every parameter that the motor file gives a range or a distribution
 
+_PLAIN = Levels()
 _TARGET = re.compile(r"\s*(\w+)\s*(>=|<=|>|<)\s*(.+)", re.DOTALL)
 
 
@@ -92,7 +95,9 @@ def _spreads(parameters: Iterable[tuple[str, Parameter]]) -> dict[str, Distribut
 def _uncertain(motor: Motor, levels: Levels) -> dict[str, Distribution]:
     """What the motor file gives a range or a distribution, but for what the levels leave out."""
     counts = levels.compliance == "flange" and motor.contact_stiffness is None
-    left_out = COUPLED if counts else (*COUPLED, *FLANGE)
+    kept = ("rotor_mass", *(["phase_coverage"] if levels.amplitude == "forced" else []))
+    without = [name for name in COUPLED if levels.coupling != "contact" or name not in kept]
+    left_out = without if counts else (*without, *FLANGE)
     return _spreads((name, p) for name, p in motor.parameters() if name not in left_out)
 
 
@@ -125,21 +130,27 @@ def _chosen(
     return chosen
 
 
-def read_target(text: object) -> Target:
+def read_target(text: object, levels: Levels = _PLAIN) -> Target:
     found = _TARGET.fullmatch(text) if isinstance(text, str) else None
     if found is None:
         raise ParameterError("target", text, "OUTPUT >= NUMBER or <=, >, <, such as mean_speed >= 600 arcsec/s")
     output, relation, bound = found.groups()
-    _check_output("target", output)
-    value = parse_quantity(f"target, {output}", bound, QUANTITIES[output].unit)
+    _check_output("target", output, levels)
+    value = parse_quantity(f"target, {output}", bound, quantity_of(output).unit)
     if not np.isfinite(value):
         raise ParameterError(f"target, {output}", bound, "a finite number")
     return Target(" ".join(str(text).split()), output, relation, value)
 
 
-def _check_output(name: str, output: object) -> None:
-    if not isinstance(output, str) or output not in QUANTITIES:
-        raise ParameterError(name, output, f"one of {', '.join(QUANTITIES)}")
+def _figures(levels: Levels) -> tuple[str, ...]:
+    """That a point has at these levels."""
+    return tuple(figures_at(levels.coupling == "contact"))
+
+
+def _check_output(name: str, output: object, levels: Levels) -> None:
+    check_present(name, output, levels)
+    if not isinstance(output, str) or output not in _figures(levels):
+        raise ParameterError(name, output, f"one of {', '.join(_figures(levels))}")
 
 
 def _texts(name: str, given: object) -> tuple[str, ...]:
@@ -221,15 +232,17 @@ def spread(
     check_point(motor, drive)
     period = period_of(sampling_period)
     check_single(numbers_of(motor, drive, period), "one number: a study is of one point")
-    outputs = _texts("outputs", outputs)
+    outputs, chosen = _texts("outputs", outputs), Levels(**levels)
     for output in outputs:
-        _check_output("outputs", output)
+        _check_output("outputs", output, chosen)
     if not outputs:
-        raise ParameterError("outputs", "none", f"at least one of {', '.join(QUANTITIES)}")
-    targets = tuple(map(read_target, _texts("target", target)))
-    distributions = _chosen(motor, drive, spreads, Levels(**levels))
+        raise ParameterError("outputs", "none", f"at least one of {', '.join(_figures(chosen))}")
+    targets = tuple(read_target(text, chosen) for text in _texts("target", target))
+    distributions = _chosen(motor, drive, spreads, chosen)
     sampled = {name: checked(name, given, _spec_of(name)) for name, given in distributions.items()}
-    nominal = evaluate(motor, drive, tolerance=tolerance, sampling_period=period, **levels)
+    nominal: OperatingPoint | CoupledPoint = evaluate(
+        motor, drive, tolerance=tolerance, sampling_period=period, **levels
+    )
     settled = []
 
     def figures(point: Mapping[str, Array]) -> dict[str, ArrayLike]:
@@ -237,7 +250,7 @@ def spread(
         of_motor = {name: value for name, value in point.items() if name not in DRIVE_DOMAINS}
         with unquestioned():
             machine = motor.with_values(of_motor)
-        found = evaluate(
+        found: OperatingPoint | CoupledPoint = evaluate(
             machine,
             replace(drive, **of_drive),  # type: ignore[arg-type]
             tolerance=tolerance,
@@ -245,7 +258,7 @@ def spread(
             sampling_period=period,
             **levels,
         )
-        values: dict[str, ArrayLike] = {name: np.asarray(getattr(found, name)) for name in QUANTITIES}
+        values: dict[str, ArrayLike] = {name: np.asarray(getattr(found, name)) for name in _figures(chosen)}
         settled.append(np.asarray(found.converged))
         values[BALANCED] = np.isfinite(values["mean_speed"]).astype(float)
         if targets:

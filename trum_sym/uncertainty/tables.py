@@ -7,10 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from trum_sym.inputs.shown import full, readable
+from trum_sym.inputs.shown import full, quantity_of, readable
 from trum_sym.model.inputs import units_of
 from trum_sym.output.text_table import text_table
-from trum_sym.quantities import QUANTITIES
 from trum_sym.text import one_line
 from trum_sym.uncertainty.propagation import CONFIDENCE, Estimate, Indices
 from trum_sym.uncertainty.result import BALANCED, MISSED, Drawn, unit_of
@@ -79,7 +78,7 @@ def _parameters(study: Drawn) -> list[str]:
 def _spreads(study: Drawn) -> list[str]:
     rows = []
     for output in study.outputs:
-        spread, unit = study.propagation.spread(output), QUANTITIES[output].shown
+        spread, unit = study.propagation.spread(output), quantity_of(output).shown
         median = spread.quantiles[0.5]
         values = [getattr(study.nominal, output), spread.mean, spread.standard_deviation]
         values += [spread.quantiles[level].value for level in (0.05, 0.5, 0.95)]
@@ -203,7 +202,7 @@ def as_dict(study: Drawn) -> dict[str, Any]:
 def _output_record(study: Drawn, output: str) -> dict[str, object]:
     spread, nominal = study.propagation.spread(output), getattr(study.nominal, output)
     return {
-        "unit": QUANTITIES[output].unit,
+        "unit": quantity_of(output).unit,
         "nominal": nominal,
         "mean": spread.mean,
         "standard_deviation": spread.standard_deviation,
