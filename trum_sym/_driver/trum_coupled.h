@@ -6,6 +6,8 @@
  * A step is as long as its estimated error allows.  Steps end with drive periods, where phases are switched.  Where contact
  * or friction has a kink the rule is of a lower order, and steps become short by themselves until they may pass it.
  *
+ * A phase that is off has short terminals, or open ones whose charge makes a force (derivations/port.py).
+ *
  * With both phases off, friction stops wave and rotor in a finite time.  Once no more is left than it holds, both rest until
  * a phase is driven again.
  *
@@ -180,10 +182,12 @@ static inline void trum_coupled_begin(trum_coupled_point* p, const trum_coupled_
   const trum_real start[] = {in->w_A, in->v_A, in->w_B, in->v_B, in->height, in->climb, in->v};
   int g, i, k;
   p->in = in, p->v = in->v, p->resting = 0, p->groups = beside ? trum_coupled_groups : 1;
+  p->gates.g_A = in->driven_A, p->gates.g_B = in->driven_B;
   p->place.D = in->D, p->place.F_c = in->F_c, p->place.k_N = in->k_N, p->place.k_c = in->k_c, p->place.mu = in->mu;
   p->place.n_j = in->n_j;
   trum_lanes_engagement(&p->place, &p->carried);
   p->mode.omega_n0 = in->omega_n0, p->mode.xi = in->xi;
+  for (g = 0; g < trum_coupled_groups; ++g) p->pull[g].A = real(in->pull_A), p->pull[g].B = real(in->pull_B);
   for (k = 0; k < trum_coupled_size; ++k) {
     p->sizes[k] = sizes[k];
     for (g = 0; g < trum_coupled_groups; ++g) {
@@ -210,7 +214,9 @@ static void trum_coupled_lap(const trum_coupled_lap_in* in, trum_coupled_lap_out
     for (k = 0; k < trum_coupled_sums; ++k) sums[g].of[k] = 0;
   out->evaluations = out->highest = 0, out->low = out->high = in->v;
   for (period = 0; (trum_real)period < in->m && done; ++period) {
+    const trum_gates before = p.gates;
     p.gates = trum_coupled_gates(in, period);
+    if (in->K_o > 0) trum_coupled_charge(&p, before, s.to);
     p.resting = p.resting && p.gates.g_A == 0 && p.gates.g_B == 0;
     done = trum_coupled_period(&p, &s, &h, trum_fmin(1, in->m - (trum_real)period), sums, out);
   }
@@ -218,6 +224,7 @@ static void trum_coupled_lap(const trum_coupled_lap_in* in, trum_coupled_lap_out
     for (g = 0; g < p.groups; ++g)
       s.to[g].y[4] = trum_coupled_height(&p, trum_sqrt(s.to[g].y[0] * s.to[g].y[0] + s.to[g].y[2] * s.to[g].y[2]));
   for (k = 0; k < trum_coupled_size; ++k) *state[k] = done ? lane_value(&s.to[0].y[k], 0) : TRUM_NAN;
+  out->pull_A = lane_value(&p.pull[0].A, 0), out->pull_B = lane_value(&p.pull[0].B, 0);
   out->mean = lane_value(&sums[0].of[0], 0) / cycle, out->variance = lane_value(&sums[0].of[1], 0) / cycle;
   out->variance -= out->mean * out->mean, out->mean += in->v, out->square = out->variance + out->mean * out->mean;
   out->input = lane_value(&sums[0].of[2], 0) / cycle, out->touching = lane_value(&sums[0].of[3], 0) / cycle / pi;

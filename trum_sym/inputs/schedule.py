@@ -16,10 +16,12 @@ from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.points import one_number
 from trum_sym.values import Value
 
-__all__ = ["SCHEDULES", "Schedule"]
+__all__ = ["SCHEDULES", "TERMINALS", "Schedule", "Terminals"]
 
 Kind = Literal["pulses", "burst", "single", "continuous"]
 SCHEDULES: tuple[Kind, ...] = get_args(Kind)
+Terminals = Literal["short", "open"]
+TERMINALS: tuple[Terminals, ...] = get_args(Terminals)
 
 _COUNT = Domain(low=1, low_open=False, high=1e8, integer=True)
 _QUARTER = math.pi / 2
@@ -34,8 +36,7 @@ _NUMBERS = {
 class Schedule(Value):
     """Which phase is driven in which drive period of a cycle, how far apart both are, and by what voltage.
 
-    Both phases are driven at one frequency.  A phase that is off has its terminals shorted: no modal force, and no
-    stiffness of charges that stay.
+    Both phases are driven at one frequency.
 
     Parameters
     ----------
@@ -50,6 +51,10 @@ class Schedule(Value):
         Of A, over the voltage that the level ``amplitude`` is of.
     ratio : float
         Voltage of B over that of A.
+    off_terminals : {"short", "open"}
+        Of a phase that is off.  Short, it has no modal force; open, it keeps the charge that voltage and displacement
+        leave at that instant, or none where it is never driven, which stiffens it and holds it aside.  A burst's are
+        short: what comes to rest then is a wave that nothing holds aside.
 
     Raises
     ------
@@ -73,10 +78,15 @@ class Schedule(Value):
     phase_difference: float = _QUARTER
     voltage: float = 1.0
     ratio: float = 1.0
+    off_terminals: Terminals = TERMINALS[0]
 
     def __post_init__(self) -> None:
         """Checks and stores every number as a float."""
         choice("kind", self.kind, SCHEDULES)
+        choice("off_terminals", self.off_terminals, TERMINALS)
+        if self.off_terminals == "open" and self.kind in ("burst", "continuous"):
+            why = "no phase is off" if self.kind == "continuous" else "a charge would hold the wave aside at rest"
+            raise ParameterError("off_terminals", "open", f"short where the schedule is {self.kind}: {why}")
         for name, (unit, domain) in _NUMBERS.items():
             object.__setattr__(self, name, one_number(name, getattr(self, name), unit, domain))
         for name in ("periods", "on_periods"):
@@ -144,6 +154,11 @@ class Schedule(Value):
         return {
             "m": float(m),
             **dict(zip(("off_A", "on_A", "off_B", "on_B"), map(float, off), strict=True)),
+            # at the cycle's end, where what is off does not come back to it holds no charge
+            "driven_A": float(not off[0] < m <= off[1]),
+            "driven_B": float(not off[2] < m <= off[3]),
+            "pull_A": 0.0,
+            "pull_B": 0.0,
             "force_A": self.voltage,
             "force_B_along": 0.0 if quarter else of_B * math.cos(self.phase_difference),
             "force_B_ahead": lead * of_B * (1.0 if quarter else math.sin(self.phase_difference)),
