@@ -8,8 +8,6 @@ import numpy as np
 import pytest
 
 import trum_sym as ts
-from studies.coupling import draw, guessed
-from studies.orbit_certificate import branch, checked
 from trum_sym.model.coupled_orbit import LapSystem, lap_values, orbit_from, start_of
 from trum_sym.model.coupling import coupled_values, plain_waves
 from trum_sym.model.levels import Levels
@@ -25,6 +23,8 @@ def pulsed():
 @pytest.mark.parametrize("mass", [0.0, 0.02])
 def test_a_plain_wave_in_closed_form_lies_within_what_is_stated(mass):
     """Its height, lead, speed and contact are roots of a balance of numbers, without any step in time."""
+    from studies.coupling import guessed
+
     drive, levels = ts.Drive(periods=1, on_periods=1, frequency_difference=500.0), Levels(compliance="flange")
     values = lap_values(ts.load_motor(), drive, levels, rotor_mass=mass)
     orbit = orbit_from(values, start_of("steady", values), "steady")
@@ -44,6 +44,8 @@ def test_a_plain_wave_in_closed_form_lies_within_what_is_stated(mass):
 @pytest.mark.parametrize("seed", [3, 31])
 def test_what_is_stated_holds_beside_the_finest_steps(seed):
     """A sample; `python -m studies.orbit_certificate 200` checks more."""
+    from studies.orbit_certificate import checked
+
     found = checked(seed)
     assert found["certified"]
     assert found["state"] < 1
@@ -77,6 +79,8 @@ def test_a_lap_that_cannot_be_stepped_is_refused(pulsed):
 
 def _plain(seed: int, share: float) -> tuple[dict[str, float], list[np.ndarray]]:
     """Laps of a random plain wave, at a share of its modal force, and all states (7,) in which it stands, by height."""
+    from studies.coupling import draw, guessed
+
     at, drive = draw(seed), ts.Drive(periods=1, on_periods=1)
     values = lap_values(ts.load_motor(), drive, Levels()) | at
     values |= {"F_q": share * at["F_q"], "force_phase": 0.0, "held": 0.0}
@@ -110,7 +114,7 @@ def test_a_box_in_which_an_orbit_is_alone_does_not_reach_the_neighbour_and_past_
 @pytest.mark.slow
 def test_past_a_fold_nothing_is_certified():
     """Where the upper branch of a rotor of 0.1 kg ends."""
-    from studies.orbit_certificate import _at
+    from studies.orbit_certificate import _at, branch
 
     hertz, last = branch()[-1]
     for off in (0.01, 1.0):
