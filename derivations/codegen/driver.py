@@ -440,7 +440,7 @@ def headers(kernels: Iterable[Kernel], note: str) -> dict[str, str]:
         ),
         "trum_coupled_calls.h": _calls(
             *("TRUM_COUPLED_CALLS_H", lanes, _COUPLED_STRUCTS, _COUPLED_CALLS, known),
-            *("trum_lanes_", "real", "TRUM_KERNEL({})"),
+            *("trum_coupled_call_", "real", "TRUM_KERNEL({})"),
         ),
         "trum_plain_calls.h": _calls(
             "TRUM_PLAIN_CALLS_H", plain, _PLAIN_STRUCTS, _PLAIN_CALLS, known, "trum_plain_", "trum_real", "{}"
