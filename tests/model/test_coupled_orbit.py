@@ -238,7 +238,7 @@ def _alone(motor, **words):
 
 def test_an_open_phase_swings_about_where_its_charge_holds_it(motor):
     """Without a rotor: a damped oscillator in closed form, at the port's open resonance but for the damping."""
-    values = _alone(motor, reaction=False) | {"force_phase": 0.4}
+    values = _alone(motor, reaction=False, rotor_mass=0.0) | {"force_phase": 0.4}
     port = port_of(coupled_values(motor, ts.Drive(on_periods=20), Levels(coupling="contact")))
     start = np.array([1e-6, 0.3, 0.0, 0.0, 0.0, 0.0, 0.0])
     end, found = laps(values, start[:, np.newaxis])

@@ -82,7 +82,7 @@ def _plain(seed: int, share: float) -> tuple[dict[str, float], list[np.ndarray]]
     from studies.coupling import draw, guessed
 
     at, drive = draw(seed), ts.Drive(periods=1, on_periods=1)
-    values = lap_values(ts.load_motor(), drive, Levels()) | at
+    values = lap_values(ts.load_motor(), drive, Levels(), rotor_mass=0.0) | at
     values |= {"F_q": share * at["F_q"], "force_phase": 0.0, "held": 0.0}
     values["size"] = values["F_q"] / values["M_q"] / (2 * values["xi"] * values["omega_n0"] ** 2)
     waves = plain_waves({**at, "F_q": values["F_q"]})
