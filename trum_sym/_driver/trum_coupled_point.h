@@ -27,7 +27,6 @@ static inline int trum_uncoupled_field(const struct trum_motor* motor, const str
 /* The own frequency without a rotor; where the one under prepressure was measured, less what the contact adds to it. */
 static inline int trum_free_resonance(const struct trum_motor* motor, const struct trum_drive* drive, trum_real* v) {
   static const int resonances[] = {trum_at_quartic, trum_at_eq6, trum_at_printed, trum_at_euler};
-  const trum_real half = TRUM_C(1.57079632679489661923);
   trum_real square;
   v[trum_at_k_f] = v[trum_at_k_dx] = 0;
   trum_call_resonance(v);
@@ -39,8 +38,7 @@ static inline int trum_free_resonance(const struct trum_motor* motor, const stru
   trum_call_filling(v);
   v[trum_at_fullness_root] = trum_cbrt(v[trum_at_fullness]);
   trum_call_contact_winkler(v);
-  v[trum_at_alpha] = v[trum_at_theta] < half ? v[trum_at_theta] : half;
-  trum_call_plain_reaction(v);
+  trum_call_plain_reaction(v); /* its central part does not depend on where the surface is faster */
   square = v[trum_at_omega_n] * v[trum_at_omega_n] - v[trum_at_central] / (v[trum_at_M_q] * v[trum_at_W]);
   v[trum_at_omega_n0] = trum_sqrt(square);
   return trum_is_size(square);
