@@ -134,6 +134,8 @@ def _print(records: list[dict[str, Any]]) -> int:
         f"where laps do not close: {len(records) - len(closed)}, certified: {len(wrong)}"
         + (f" {wrong}" if wrong else "")
     )
+    if wrong or not certified:
+        return 1
     refused = [f"  seed {r['seed']}, refused: {r['reason']}" for r in closed if not r["certified"]]
     print("\n".join(refused), end="\n" * bool(refused))
     print("of {1} certified that attract, {0} are stable beyond their discs".format(*_counts(certified)))
@@ -145,7 +147,7 @@ def _print(records: list[dict[str, Any]]) -> int:
         print(f"{name:<7} 5, 50, 95 %: {low:.1e} {middle:.1e} {high:.1e}")
     cost, laps = np.median([r["cost"] for r in closed]), np.median([r["laps"] for r in closed])
     print(f"time over that of the orbit, where laps close: median {cost:.2g}, of {laps:.0f} laps")
-    return int(bool(wrong) or back < _STARTS * len(certified) or missed > 0)
+    return int(back < _STARTS * len(certified) or missed > 0)
 
 
 def _counts(certified: list[dict[str, Any]]) -> list[int]:
