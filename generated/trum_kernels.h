@@ -9,7 +9,7 @@
 #include "trum_math.h"
 
 /* SHA-256 of the expressions that the kernels are written from */
-#define TRUM_DERIVATIONS "c9d56794e10efe82e2729dd89941b9c0537467e89f9ff7fbb3378fe673f9e4ed"
+#define TRUM_DERIVATIONS "dd0b9accabd202aca3629216fb1eaf89859f61bf03fb44381d8edbe34967247d"
 
 #ifdef __cplusplus
 extern "C" {
@@ -144,6 +144,11 @@ enum { trum_port_out_Theta_q, trum_port_out_C_0, trum_port_n_res };
 int trum_port_circuit(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_port_circuit_in_C_0, trum_port_circuit_in_M_q, trum_port_circuit_in_Theta_q, trum_port_circuit_in_omega_n0, trum_port_circuit_in_xi, trum_port_circuit_n_arg };
 enum { trum_port_circuit_out_L_m, trum_port_circuit_out_C_m, trum_port_circuit_out_R_m, trum_port_circuit_out_omega_open, trum_port_circuit_out_k_eff_square, trum_port_circuit_n_res };
+
+/* Stiffness of a phase by the charge that open electrodes hold */
+int trum_port_open(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_port_open_in_C_0, trum_port_open_in_Theta_q, trum_port_open_n_arg };
+enum { trum_port_open_out_K_o, trum_port_open_n_res };
 
 /* Admittance of a phase without a rotor */
 int trum_free_admittance(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
@@ -328,6 +333,7 @@ enum { trum_interface_out_v_x, trum_interface_out_v_x_slope, trum_interface_out_
   X(trum_coupled_forces, 16, 4, "D F_c R_v cos_crest cos_phi cos_theta engagement k_c mu phi share sin_crest sin_phi sin_theta theta v", "F_z F_x Q_A Q_B") \
   X(trum_port, 10, 2, "F_q U_s b_p c_p d_31 eps_33T h_p k_c n_j s_11E", "Theta_q C_0") \
   X(trum_port_circuit, 5, 5, "C_0 M_q Theta_q omega_n0 xi", "L_m C_m R_m omega_open k_eff_square") \
+  X(trum_port_open, 2, 1, "C_0 Theta_q", "K_o") \
   X(trum_free_admittance, 7, 2, "C_0 M_q Theta_q omega_n0 omega_q tan_delta xi", "conductance susceptance") \
   X(trum_plain_port, 7, 7, "C_0 Theta_q U_s W lead omega_q tan_delta", "conductance susceptance current P_electric P_dielectric P_reactive power_factor") \
   X(trum_drive, 3, 2, "Delta_omega m omega_n", "omega_q T") \

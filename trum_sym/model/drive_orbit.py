@@ -75,7 +75,8 @@ def history_of(values: Mapping[str, float], state: Array, gates: Array, samples:
     Parameters
     ----------
     values : mapping
-        From :func:`trum_sym.model.coupled_orbit.lap_values`; its own gates do not count.
+        From :func:`trum_sym.model.coupled_orbit.lap_values`; of its own gates only what they are at the cycle's end
+        counts, before the motion.
     state : (7,) array
         At the start.
     gates : (m, 2) array
@@ -86,6 +87,7 @@ def history_of(values: Mapping[str, float], state: Array, gates: Array, samples:
     span = 2 * np.pi / values["omega_q"]
     always = {"off_A": 0.0, "off_B": 0.0}
     ends, times, paths, powers, driven = [state], [0.0], [0.0], [], []
+    before = {name: values[name] for name in ("driven_A", "driven_B", "pull_A", "pull_B")}
     changes = np.flatnonzero(np.any(np.diff(gates, axis=0) != 0, axis=1)) + 1
     period = 0
     while period < len(gates):
@@ -97,8 +99,10 @@ def history_of(values: Mapping[str, float], state: Array, gates: Array, samples:
             gate = {"on_A": parts[0], "on_B": parts[0]}
         for k, part in enumerate(parts):
             turned = values["force_phase"] + 2 * np.pi * k / samples
-            now = {**values, **always, **gate, "m": float(part), "force_phase": turned}
+            now = {**values, **always, **gate, **before, "m": float(part), "force_phase": turned}
             end, lap = laps(now, ends[-1][:, np.newaxis])
+            before = {"driven_A": gates[period, 0], "driven_B": gates[period, 1]}
+            before |= {name: float(lap[name][0]) for name in ("pull_A", "pull_B")}
             ends.append(end[:, 0])
             times.append(period + float(parts[: k + 1].sum()))
             paths.append(paths[-1] + float(lap["mean"][0]) * float(part) * span)
@@ -396,7 +400,7 @@ def drive_history(
     cycles : whole number
         Of the schedule, from rest.
     pause : whole number
-        Drive periods after them with both phases off.
+        Drive periods after them with both phases off; none where their terminals are open.
     samples_per_period : whole number
         Of each drive period in which anything moves.
     contact, resonance, foundation, amplitude, compliance, tangential, coupling
@@ -428,5 +432,8 @@ def drive_history(
     repeats = int(one_number("cycles", cycles, "1", _COUNT))
     still = int(one_number("pause", pause, "1", _PAUSE))
     chosen, values = _values(motor, drive, schedule, chosen_levels, rotor_mass, tolerance)
+    if still and chosen.off_terminals == "open":
+        raise ParameterError("pause", pause, "0 where off_terminals is open: charges would hold the wave aside at rest")
     gates = np.concatenate([np.tile(chosen.gates(drive), (repeats, 1)), np.zeros((still, 2))])
+    values |= {"driven_A": 0.0, "driven_B": 0.0}  # nothing was before: no charge is held
     return history_of(values, start_of("rest", values), gates, samples)
