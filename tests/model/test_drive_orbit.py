@@ -12,6 +12,7 @@ from trum_sym.model.coupled_orbit import STATE, lap_values, laps, orbit_from, st
 from trum_sym.model.coupling import coupled_values, plain_waves
 from trum_sym.model.drive_orbit import drive_history, drive_orbit, history_of, read_by_encoder
 from trum_sym.model.levels import Levels
+from trum_sym.model.orbit_certificate import certificate_of
 from trum_sym.model.rotor import encoder_readings
 
 FLANGE = Levels(compliance="flange")
@@ -356,3 +357,23 @@ def test_a_schedule_that_is_none_is_refused(words, naming):
 def test_what_no_orbit_can_be_found_of_is_refused(words, naming):
     with pytest.raises(ts.ParameterError, match=naming):
         drive_orbit(**words)
+
+
+def test_a_drive_s_orbit_is_certified_where_it_is_asked_for(motor):
+    found = drive_orbit(motor, ts.Drive(), ts.Schedule(), certify=True, **QUICK)
+    assert found.certificate is not None
+    assert found.certificate.certified
+    values = lap_values(motor, ts.Drive(), Levels(compliance="flange"), rotor_mass=0.0, tolerance=1e-4)
+    own = certificate_of(values, found.orbit)
+    assert found.certificate.radius == own.radius
+    assert "certified: begins within" in found.to_text()
+    assert "stable for certain" in found.to_text()
+    record = found.to_dict()["certificate"]
+    assert record["radius"] == own.radius
+    assert record["largest_multiplier_error"] == max(own.multiplier_error)
+    plain = drive_orbit(motor, ts.Drive(), ts.Schedule(), **QUICK)
+    assert plain.certificate is None
+    assert "certified" not in plain.to_text()
+    assert "certificate" not in plain.to_dict()
+    lost = drive_orbit(motor, ts.Drive(), ts.Schedule(), certify=True, rotor_mass=0.02, tolerance=1e-4, start="rest")
+    assert "not certified: Newton" in lost.to_text()
