@@ -18,7 +18,7 @@ import sympy as sp
 from derivations import amplitude, coupling
 from derivations.nomenclature import sym
 
-__all__ = ["PortError", "admittance", "charge", "circuit", "driven", "ring"]
+__all__ = ["PortError", "admittance", "charge", "circuit", "driven", "opened", "ring"]
 
 M_q, F_q, Theta_q, C_0, omega_n0, omega_q, xi, W, lead = sym("M_q F_q Theta_q C_0 omega_n0 omega_q xi W lead")
 n_j, k_c, beta, D, h_e, h_p, b_p, c_p = sym("n_j k_c beta D h_e h_p b_p c_p")
@@ -100,6 +100,32 @@ def circuit() -> dict[str, sp.Expr]:
         "omega_open": open_,
         "k_eff_square": coupled,
     }
+
+
+@cache
+def opened() -> dict[str, sp.Expr]:
+    """What the charge does that open electrodes hold: the stiffness K_o that its voltage adds to a phase.
+
+    Terminals that open at a displacement and a voltage keep the charge Theta_q w + C_0 V of that instant.  From then on
+    the modal force Theta_q V is that of the instant less K_o times the way since: an infinite capacitance keeps the
+    voltage, and with no voltage at that instant it is a short.
+
+    Raises
+    ------
+    PortError
+        If that is not the force, if it does another work than the capacitance's energy loses, or if the phase does not
+        swing about its new rest as :func:`circuit` says.
+    """
+    w, voltage, w_off, V_off = sp.symbols("w_s V_s w_o V_o", real=True)
+    held = sp.Eq(Theta_q * w + C_0 * voltage, Theta_q * w_off + C_0 * V_off)
+    then = sp.solve(held, voltage)[0]
+    stiffness = Theta_q**2 / C_0
+    force = Theta_q * then
+    _zero(force - (Theta_q * V_off - stiffness * (w - w_off)), "the force of the charge")
+    _zero(sp.integrate(force, (w, w_off, w)) - C_0 / 2 * (V_off**2 - then**2), "the energy of the charge")
+    swing = (M_q * omega_n0**2 - force.diff(w)) / M_q
+    _zero(swing - circuit()["omega_open"] ** 2, "the open phase's swing")
+    return {"K_o": stiffness}
 
 
 @cache

@@ -39,35 +39,35 @@ typedef struct {
 } trum_carried;
 
 /* Free motion of a phase: displacement and velocity after a time, of each */
-static inline void trum_lanes_mode_flow(const trum_mode* mode, trum_flow* flow, real tau) {
+static inline void trum_coupled_call_mode_flow(const trum_mode* mode, trum_flow* flow, real tau) {
   const real* arg[trum_mode_flow_n_arg] = {&mode->omega_n0, &tau, &mode->xi};
   real* res[trum_mode_flow_n_res] = {&flow->w_w, &flow->w_v, &flow->v_w, &flow->v_v};
   (void)TRUM_KERNEL(trum_mode_flow)(arg, res, 0, 0, 0);
 }
 
 /* The layer's force at full wave over the prepressure, per height of the wave */
-static inline void trum_lanes_engagement(const trum_coupled_place* place, trum_carried* carried) {
+static inline void trum_coupled_call_engagement(const trum_coupled_place* place, trum_carried* carried) {
   const real* arg[trum_engagement_n_arg] = {&place->F_c, &place->k_N, &place->k_c, &place->n_j};
   real* res[trum_engagement_n_res] = {&carried->engagement_per_height};
   (void)TRUM_KERNEL(trum_engagement)(arg, res, 0, 0, 0);
 }
 
 /* How far the layer is engaged (eq. 31) */
-static inline void trum_lanes_filling(trum_carried* carried) {
+static inline void trum_coupled_call_filling(trum_carried* carried) {
   const real* arg[trum_filling_n_arg] = {&carried->W_c, &carried->engagement_per_height};
   real* res[trum_filling_n_res] = {&carried->engagement, &carried->fullness};
   (void)TRUM_KERNEL(trum_filling)(arg, res, 0, 0, 0);
 }
 
 /* Contact of the Winkler layer (eqs. 30, 31) */
-static inline void trum_lanes_contact_winkler(trum_carried* carried) {
+static inline void trum_coupled_call_contact_winkler(trum_carried* carried) {
   const real* arg[trum_contact_winkler_n_arg] = {&carried->fullness, &carried->fullness_root};
   real* res[trum_contact_winkler_n_res] = {&carried->theta, &carried->sin_theta, &carried->share};
   (void)TRUM_KERNEL(trum_contact_winkler)(arg, res, 0, 0, 0);
 }
 
 /* Wave, surface speed and contact of two phases at any instant */
-static inline void trum_lanes_coupled_instant(const trum_coupled_place* place, const trum_coupled_state* state,
+static inline void trum_coupled_call_coupled_instant(const trum_coupled_place* place, const trum_coupled_state* state,
     trum_coupled_surface* surface) {
   const real* arg[trum_coupled_instant_n_arg] = {&place->D, &place->F_c, &state->height, &place->k_N, &place->k_c,
       &place->n_j, &state->v_A, &state->v_B, &state->w_A, &state->w_B};
@@ -78,8 +78,8 @@ static inline void trum_lanes_coupled_instant(const trum_coupled_place* place, c
 }
 
 /* What the contact does to rotor and both phases at any instant */
-static inline void trum_lanes_coupled_forces(const trum_coupled_place* place, const trum_coupled_state* state, const
-    trum_coupled_surface* surface, trum_coupled_acting* acting) {
+static inline void trum_coupled_call_coupled_forces(const trum_coupled_place* place, const trum_coupled_state* state,
+    const trum_coupled_surface* surface, trum_coupled_acting* acting) {
   const real* arg[trum_coupled_forces_n_arg] = {&place->D, &place->F_c, &surface->R_v, &surface->cos_crest,
       &surface->cos_phi, &surface->cos_theta, &surface->engagement, &place->k_c, &place->mu, &surface->phi,
       &surface->share, &surface->sin_crest, &surface->sin_phi, &surface->sin_theta, &surface->theta, &state->v};

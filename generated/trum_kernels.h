@@ -9,7 +9,7 @@
 #include "trum_math.h"
 
 /* SHA-256 of the expressions that the kernels are written from */
-#define TRUM_DERIVATIONS "24f9d4b0e13762fd55d0f8a5be0f544eb1fa292115ad2bea84f0a37ad6d3dd12"
+#define TRUM_DERIVATIONS "fc253283d91d5e10cb68e0665c85c189d3980454784a2ed7436db30def7d3661"
 
 #ifdef __cplusplus
 extern "C" {
@@ -184,6 +184,11 @@ enum { trum_port_out_Theta_q, trum_port_out_C_0, trum_port_n_res };
 int trum_port_circuit(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_port_circuit_in_C_0, trum_port_circuit_in_M_q, trum_port_circuit_in_Theta_q, trum_port_circuit_in_omega_n0, trum_port_circuit_in_xi, trum_port_circuit_n_arg };
 enum { trum_port_circuit_out_L_m, trum_port_circuit_out_C_m, trum_port_circuit_out_R_m, trum_port_circuit_out_omega_open, trum_port_circuit_out_k_eff_square, trum_port_circuit_n_res };
+
+/* Stiffness of a phase by the charge that open electrodes hold */
+int trum_port_open(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_port_open_in_C_0, trum_port_open_in_Theta_q, trum_port_open_n_arg };
+enum { trum_port_open_out_K_o, trum_port_open_n_res };
 
 /* Admittance of a phase without a rotor */
 int trum_free_admittance(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
@@ -376,6 +381,7 @@ enum { trum_interface_out_v_x, trum_interface_out_v_x_slope, trum_interface_out_
   X(trum_stuck_layer, 6, 3, "F_c f grip k_N k_c n_j", "W_stick sheared_sin ratio_most") \
   X(trum_port, 10, 2, "F_q U_s b_p c_p d_31 eps_33T h_p k_c n_j s_11E", "Theta_q C_0") \
   X(trum_port_circuit, 5, 5, "C_0 M_q Theta_q omega_n0 xi", "L_m C_m R_m omega_open k_eff_square") \
+  X(trum_port_open, 2, 1, "C_0 Theta_q", "K_o") \
   X(trum_free_admittance, 7, 2, "C_0 M_q Theta_q omega_n0 omega_q tan_delta xi", "conductance susceptance") \
   X(trum_plain_port, 7, 7, "C_0 Theta_q U_s W lead omega_q tan_delta", "conductance susceptance current P_electric P_dielectric P_reactive power_factor") \
   X(trum_drive, 3, 2, "Delta_omega m omega_n", "omega_q T") \

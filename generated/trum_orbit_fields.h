@@ -78,6 +78,11 @@
   X(force_B_along, "1") \
   X(force_B_ahead, "1") \
   X(force_phase, "rad") \
+  X(K_o, "N/m") \
+  X(driven_A, "1") \
+  X(driven_B, "1") \
+  X(pull_A, "N") \
+  X(pull_B, "N") \
   X(held, "m") \
   X(mass, "kg") \
   X(reaction, "1") \
@@ -101,6 +106,8 @@
   X(input, "kg*m^2/s^3") \
   X(touching, "1") \
   X(highest, "m") \
+  X(pull_A, "N") \
+  X(pull_B, "N") \
   X(evaluations, "1")
 
 /* what the determinant's sums over a cycle need */
@@ -276,6 +283,11 @@ typedef struct {
   trum_real force_B_along; /* 1: the part of B's over F_q that is in phase with A's */
   trum_real force_B_ahead; /* 1: the part of it that is a quarter period ahead of A's */
   trum_real force_phase; /* rad: phase of A's modal force at the start of the cycle */
+  trum_real K_o; /* N/m: stiffness of a phase that is off by the charge that it holds; 0: its terminals are short */
+  trum_real driven_A; /* 1: whether A is driven until the lap begins, 1 or 0 */
+  trum_real driven_B; /* 1: whether B is */
+  trum_real pull_A; /* N: A's modal force at no displacement by the charge held, where it is off before the lap */
+  trum_real pull_B; /* N: B's */
   trum_real held; /* m: height of a wave that friction holds still, 0 if none */
   trum_real mass; /* kg: of the rotor that goes up and down; 0: it follows the wave */
   trum_real reaction; /* 1: share of the contact's forces that acts on the phases, 1 or 0 */
@@ -297,9 +309,11 @@ typedef struct {
   trum_real variance; /* m^2/s^2: mean of the square of its difference from the mean */
   trum_real low; /* m/s: its lowest */
   trum_real high; /* m/s: its highest */
-  trum_real input; /* kg*m^2/s^3: mean power of the modal forces */
+  trum_real input; /* kg*m^2/s^3: mean power of the modal forces, those of charges held with them */
   trum_real touching; /* 1: mean of theta/pi */
   trum_real highest; /* m: the highest wave */
+  trum_real pull_A; /* N: A's modal force at no displacement by the charge that it held last, 0 if none */
+  trum_real pull_B; /* N: B's */
   trum_real evaluations; /* 1: of the rates */
 } trum_coupled_lap_out;
 

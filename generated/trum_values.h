@@ -35,6 +35,7 @@ enum {
   trum_at_J,
   trum_at_J_load,
   trum_at_J_total,
+  trum_at_K_o,
   trum_at_L_m,
   trum_at_M_q,
   trum_at_P_contact,
@@ -543,6 +544,12 @@ static inline void trum_call_port_circuit(trum_real* v) {
   const trum_real* arg[trum_port_circuit_n_arg] = {v + trum_at_C_0, v + trum_at_M_q, v + trum_at_Theta_q, v + trum_at_omega_n0, v + trum_at_xi};
   trum_real* res[trum_port_circuit_n_res] = {v + trum_at_L_m, v + trum_at_C_m, v + trum_at_R_m, v + trum_at_omega_open, v + trum_at_k_eff_square};
   (void)trum_port_circuit(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_port_open(trum_real* v) {
+  const trum_real* arg[trum_port_open_n_arg] = {v + trum_at_C_0, v + trum_at_Theta_q};
+  trum_real* res[trum_port_open_n_res] = {v + trum_at_K_o};
+  (void)trum_port_open(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_free_admittance(trum_real* v) {

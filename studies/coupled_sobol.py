@@ -1,17 +1,20 @@
 """Which assumption carries Table 2's amplitudes and the resonance under prepressure: Sobol indices of the coupled wave.
 
-    python -m studies.coupled_sobol table-2 64
+    python -m studies.coupled_sobol table-2 64 sobol.jsonl
     python -m studies.coupled_sobol resonance 64
 
 The design and its estimators are those of ``trum-sym spread`` (:mod:`trum_sym.uncertainty.propagation`); the number is
-that of its rows, a power of two from 64 on.  docs/coupling.md has what they print.
+that of its rows, a power of two from 64 on.  A file keeps what Table 2's points come to, a line a point; a run takes up
+where it ends, and one of more rows keeps those of fewer.  docs/coupling.md has what they print.
 """
 
 from __future__ import annotations
 
+import json
 import math
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from pathlib import Path
 
 import numpy as np
 from tabulate import tabulate
@@ -22,9 +25,11 @@ from trum_sym.inputs.plausible import unquestioned
 from trum_sym.model.coupled_orbit import one_phase
 from trum_sym.model.coupling import coupled_values, wave_at
 from trum_sym.model.levels import Levels
+from trum_sym.output.progress import shown
+from trum_sym.paper.published import TABLE_2
 from trum_sym.uncertainty.propagation import Propagation, propagate
 
-__all__ = ["main", "own_resonance", "spans"]
+__all__ = ["amplitudes", "main", "own_resonance", "spans"]
 
 _TURN = 2 * math.pi
 _CONTACT = Levels(coupling="contact")
@@ -58,21 +63,31 @@ def _free(values: Mapping[str, float]) -> float:
     return (float(values["omega_n0"]) - float(values["omega_n"])) / _TURN
 
 
-def _amplitudes(forces: tuple[float, ...], draws: Mapping[str, Array]) -> dict[str, Array]:
-    """Phase A alone at the free resonance or off it, um."""
-    motor = ts.load_motor()
-    rows = next(iter(draws.values())).size
-    found = {f"{force:g} N": np.full(rows, np.nan) for force in forces}
-    for k in range(rows):
-        at = {name: float(draws[name][k]) for name in draws}
-        machine = motor.with_values({n: at[n] for n in ("contact_stiffness", "friction_coefficient", "damping_ratio")})
-        for force in forces:
-            plain = ts.Drive(prepressure=force, on_periods=20, frequency_difference=0.0)
-            off = _free(coupled_values(machine, plain, _CONTACT)) + at["offset"]
-            drive = ts.Drive(prepressure=force, frequency_difference=off)
-            orbit = one_phase(machine, drive, Levels(), at["rotor_mass"], tolerance=_TOLERANCE)
-            found[f"{force:g} N"][k] = 1e6 * orbit.highest_wave
-    return found
+def _amplitude(at: Mapping[str, float], force: float) -> float:
+    """Of phase A alone at the free resonance or off it, um."""
+    named = ("contact_stiffness", "friction_coefficient", "damping_ratio")
+    machine = ts.load_motor().with_values({name: at[name] for name in named})
+    plain = ts.Drive(prepressure=force, on_periods=20, frequency_difference=0.0)
+    off = _free(coupled_values(machine, plain, _CONTACT)) + at["offset"]
+    drive = ts.Drive(prepressure=force, frequency_difference=off)
+    return 1e6 * one_phase(machine, drive, Levels(), at["rotor_mass"], tolerance=_TOLERANCE).highest_wave
+
+
+def amplitudes(forces: tuple[float, ...], draws: Mapping[str, Array], file: Path | None = None) -> dict[str, Array]:
+    """Phase A's amplitude in um at each draw, by prepressure in N; what a file has is taken from there."""
+    rows = [dict(zip(draws, map(float, row), strict=True)) for row in zip(*draws.values(), strict=True)]
+    known: dict[str, list[float]] = {}
+    if file is not None and file.exists():
+        lines = file.read_text(encoding="utf-8").splitlines()
+        known = {json.dumps([line["at"], line["forces"]]): line["um"] for line in map(json.loads, lines)}
+    for at in shown([at for at in rows if json.dumps([at, list(forces)]) not in known], "table-2"):
+        found = [_amplitude(at, force) for force in forces]
+        known[json.dumps([at, list(forces)])] = found
+        if file is not None:
+            with file.open("a", encoding="utf-8") as stream:
+                stream.write(json.dumps({"at": at, "forces": list(forces), "um": found}) + "\n")
+    table = np.array([known[json.dumps([at, list(forces)])] for at in rows])
+    return {f"{force:g} N": table[:, k] for k, force in enumerate(forces)}
 
 
 def own_resonance(values: Mapping[str, float]) -> float:
@@ -130,21 +145,20 @@ def _printed(found: Propagation, unit: str, names: Mapping[str, object]) -> str:
 
 def main(arguments: list[str]) -> int:
     """Print one of the studies."""
-    studies = {
-        "table-2": (True, (100.0, 180.0, 220.0), _amplitudes, "um"),
-        "resonance": (False, (160.0, 180.0, 210.0), _shifts, "Hz above the free one"),
+    file = Path(arguments[2]) if len(arguments) == 3 and arguments[0] == "table-2" else None
+    studies: dict[str, tuple[bool, Callable[[Mapping[str, Array]], Mapping[str, Array]], str]] = {
+        "table-2": (True, lambda draws: amplitudes(tuple(map(float, TABLE_2)), draws, file), "um"),
+        "resonance": (False, lambda draws: _shifts((160.0, 180.0, 210.0), draws), "Hz above the free one"),
     }
-    if len(arguments) != 2 or arguments[0] not in studies or not arguments[1].isdecimal():
-        print(f"{' or '.join(studies)}, and the design's rows, a power of two from 64 on", file=sys.stderr)
+    if len(arguments) != 2 + (file is not None) or arguments[0] not in studies or not arguments[1].isdecimal():
+        print(
+            f"{' or '.join(studies)}, the design's rows, a power of two from 64 on, and table-2's file", file=sys.stderr
+        )
         return 2
-    one, forces, function, unit = studies[arguments[0]]
+    one, function, unit = studies[arguments[0]]
     chosen = spans(one=one)
     with unquestioned():  # samples go beyond what the motor file states
-        found = propagate(
-            lambda draws: function(forces, draws),
-            _quantiles(chosen),  # type: ignore[arg-type]
-            samples=int(arguments[1]),
-        )
+        found = propagate(function, _quantiles(chosen), samples=int(arguments[1]))  # type: ignore[arg-type]
     print(_printed(found, unit, chosen))
     return 0
 

@@ -5,6 +5,7 @@ Nothing is fitted; docs/coupling.md has what they print.
     python -m studies.coupled_tables table-2
     python -m studies.coupled_tables resonance
     python -m studies.coupled_tables table-3
+    python -m studies.coupled_tables open
     python -m studies.coupled_tables branches
     python -m studies.coupled_tables starts 40
     python -m studies.coupled_tables spread 32
@@ -21,6 +22,7 @@ from scipy.stats import qmc
 from tabulate import tabulate
 
 import trum_sym as ts
+from trum_sym.inputs.schedule import TERMINALS, Schedule
 from trum_sym.model.coupled_orbit import (
     CoupledOrbit,
     coupled_orbits,
@@ -30,6 +32,7 @@ from trum_sym.model.coupled_orbit import (
     orbit_from,
     random_start,
     same_orbit,
+    start_of,
 )
 from trum_sym.model.coupling import coupled_values, plain_waves, standing
 from trum_sym.model.levels import Levels
@@ -162,6 +165,25 @@ def table_3() -> None:
     print(tabulate(rows, head, floatfmt=("", "g", "", "", ".2f", ".3f", ".2f", "", "", "")))
 
 
+def open_terminals() -> None:
+    """Table 3's point with a phase that is off short and open, by contact, rotor's mass and modal force."""
+    motor, rows = ts.load_motor(), []
+    for label, (machine, levels) in _contacts(motor).items():
+        for amplitude in ("measured", "forced"):
+            for mass in _MASSES:
+                both = Levels(compliance=levels.compliance, amplitude=amplitude)
+                row: list[str] = [label, amplitude, f"{mass:g}"]
+                for terminals in TERMINALS:
+                    schedule = Schedule(off_terminals=terminals)
+                    values = lap_values(machine, ts.Drive(), both, schedule, rotor_mass=mass)
+                    orbit = orbit_from(values, start_of("steady", values), "steady")
+                    row += [_marked(f"{orbit.mean_speed:.2f}", orbit), f"{orbit.deviation:.2f}", _shown(orbit)]
+                rows.append(row)
+    figures = ("mean, rad/s", "deviation", "wave, um")
+    head = ("contact", "force", "rotor, kg", *(f"{of} {name}" for of in TERMINALS for name in figures))
+    print(tabulate(rows, head, disable_numparse=True))
+
+
 def branches() -> None:
     """Mean speed at Table 3's point while the frequency rises and falls.
 
@@ -274,7 +296,9 @@ def layers() -> None:
 
 def main(arguments: list[str]) -> int:
     """Print one of the tables."""
-    tables = {"table-2": table_2, "resonance": resonance, "table-3": table_3, "branches": branches, "layers": layers}
+    tables = {"table-2": table_2, "resonance": resonance, "table-3": table_3, "open": open_terminals}
+    tables["branches"] = branches
+    tables["layers"] = layers
     counted = {"spread": (spread, 32), "starts": (starts, 40)}
     if arguments and arguments[0] in counted:
         run, usual = counted[arguments[0]]

@@ -4,10 +4,12 @@ Both phases are integrated as they are, with the drive's own oscillation, and so
 and round with its load: no turning frame, no averaging, none of the package's formulas.  The layer is cut into elements
 between the places where it touches and where slip turns round; each has 16 Gauss points at which pressure and friction
 act on the surface.  A steady state is what repeats itself every drive period, by Newton on the map of one period.
-Pulses are followed through a drive cycle from the state in which the package's orbit begins.
+Pulses are followed through a drive cycle from the state in which the package's orbit begins.  Where terminals of a
+phase that is off are open, its voltage is one more number of the state, which moves as no current has it.
 
     python -m studies.coupling 100
     python -m studies.coupling pulses 100
+    python -m studies.coupling open 100
     python -m studies.coupling errors 100
 """
 
@@ -23,6 +25,7 @@ from scipy.integrate import solve_ivp
 
 import trum_sym as ts
 from trum_sym.inputs.checks import Array
+from trum_sym.inputs.schedule import Schedule, Terminals
 from trum_sym.model.coupled_orbit import CoupledOrbit, lap_values, orbit_from, start_of
 from trum_sym.model.coupling import coupled_values, plain_waves
 from trum_sym.model.levels import Levels
@@ -48,6 +51,8 @@ _PERIOD = 7  # of the state's numbers repeat: w_A, v_A, w_B, v_B, the rotor's he
 _SIZES = np.array([1e-6, 0.3, 1e-6, 0.3, 1e-6, 0.3, 0.3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-5])
 """Of the state; then work in J, put in, lost in the stator, by slip, taken by the load, and the rim's way in m."""
 _NUMBERS = _SIZES.size
+_VOLTAGES = np.array([100.0, 100.0])
+"""Sizes of A's and B's voltage, which follow where terminals open."""
 
 
 def _places(a: Array, b: Array, c: Array) -> Array:
@@ -105,8 +110,16 @@ def _rates(t: float, y: Array, p: Mapping[str, float]) -> Array:
         y = np.concatenate([y[:4], _carried(y, p)[np.newaxis], np.zeros((1, y.shape[1])), y[6:]])
     forces = _contact(y, p)
     turn = p["omega_q"] * t + p["phase"]
-    on_A = p["g_A"] * p["F_q"] * math.cos(turn)
-    on_B = -p["g_B"] * p["F_q"] * math.sin(turn)  # a quarter period ahead
+    if p["open"]:
+        on_A, on_B = (
+            p["factor"] * (p["U_s"] * swing if p[gate] else voltage)
+            for gate, swing, voltage in zip(
+                ("g_A", "g_B"), (math.cos(turn), -math.sin(turn)), y[_NUMBERS:], strict=True
+            )
+        )
+    else:
+        on_A = p["g_A"] * p["F_q"] * math.cos(turn)
+        on_B = -p["g_B"] * p["F_q"] * math.sin(turn)  # a quarter period ahead
     damping, own, mass = 2 * p["xi"] * p["omega_n0"], p["omega_n0"] ** 2, p["M_q"]
     return np.array(
         [
@@ -122,8 +135,18 @@ def _rates(t: float, y: Array, p: Mapping[str, float]) -> Array:
             forces[4],
             p["T_load"] / p["r_c"] * y[6],
             y[6],
+            # no current: what the motion's charge takes the capacitance gives
+            *(-p["factor"] / p["held_still"] * rate for rate in (y[1], y[3]) if p["open"]),
         ]
     )
+
+
+def _port(values: Mapping[str, float]) -> tuple[float, float]:
+    """Force per volt, and capacitance of a phase that is held still: a plate of ceramic that cannot strain."""
+    field = 1 / values["h_p"]
+    density = values["eps_33T"] * field - values["d_31"] * (values["d_31"] * field / values["s_11E"])
+    area = values["b_p"] * 2 * math.pi / values["k_c"] * values["n_j"] * values["c_p"]
+    return values["F_q"] / values["U_s"], density * area
 
 
 def after(
@@ -134,6 +157,7 @@ def after(
     tolerance: float = 1e-10,
     gates: tuple[float, float] = (1.0, 1.0),
     phase: float = 0.0,
+    voltages: tuple[float, float] | None = None,
 ) -> Array:
     """States (12, n) after some drive periods, from states (7, n) at a phase of the drive.
 
@@ -152,19 +176,25 @@ def after(
         1 for a phase, A and B, that is driven, 0 for one that is off.
     phase : float, rad
         Of A's force at the start.
+    voltages : (float, float), V
+        Of A and B at the start, where terminals of a phase that is off are open; the states have them behind.
     """
-    p = {**values, "mass": mass, "g_A": gates[0], "g_B": gates[1], "phase": phase}
-    count = start.shape[1]
+    p = {**values, "mass": mass, "g_A": gates[0], "g_B": gates[1], "phase": phase, "open": voltages is not None}
+    count, sizes = start.shape[1], _SIZES
     full = np.concatenate([start, np.zeros((_NUMBERS - _PERIOD, count))])
+    if voltages is not None:
+        p["factor"], p["held_still"] = _port(values)
+        sizes = np.concatenate([sizes, _VOLTAGES])
+        full = np.concatenate([full, np.repeat(np.array(voltages)[:, np.newaxis], count, axis=1)])
     found = solve_ivp(
-        lambda t, y: _rates(t, y.reshape(_NUMBERS, count), p).ravel(),
+        lambda t, y: _rates(t, y.reshape(sizes.size, count), p).ravel(),
         (0.0, periods * 2 * math.pi / p["omega_q"]),
         full.ravel(),
         method="DOP853",
         rtol=tolerance,
-        atol=np.repeat(1e-3 * tolerance * _SIZES, count),
+        atol=np.repeat(1e-3 * tolerance * sizes, count),
     )
-    return np.asarray(found.y[:, -1].reshape(_NUMBERS, count))
+    return np.asarray(found.y[:, -1].reshape(sizes.size, count))
 
 
 @dataclass(frozen=True)
@@ -229,12 +259,16 @@ def energy_residual(values: Mapping[str, float], start: Array, periods: int, mas
 
 def cycle(values: Mapping[str, float], start: Array, tolerance: float = 1e-10) -> Array:
     """The state (12,) after a drive cycle of pulses: A is off first, then B is for as long, then neither."""
-    periods = int(values["m"])
+    periods, phase = int(values["m"]), values["force_phase"]
     mass, state, sums = values["mass"], start, np.zeros(_NUMBERS - _PERIOD)
+    driven = values.get("U_s", 0.0) * np.array([math.cos(phase), -math.sin(phase)])  # where periods end
+    voltages = driven
     for period in range(periods):
         gates = tuple(float(not values[f"off_{name}"] <= period < values[f"on_{name}"]) for name in "AB")
-        end = after(values, state[:, np.newaxis], 1, mass, tolerance, gates, values["force_phase"])[:, 0]
-        state, sums = end[:_PERIOD], sums + end[_PERIOD:]
+        held = (float(voltages[0]), float(voltages[1])) if values.get("K_o", 0.0) > 0 else None
+        end = after(values, state[:, np.newaxis], 1, mass, tolerance, gates, phase, held)[:, 0]
+        state, sums = end[:_PERIOD], sums + end[_PERIOD:_NUMBERS]
+        voltages = np.where(gates, driven, end[_NUMBERS:]) if held else driven
     if not mass > 0:
         state = state.copy()
         state[4] = _carried(state[:, np.newaxis], values)[0]
@@ -295,7 +329,7 @@ def differences(seed: int) -> list[tuple[float, float, float, float]]:
     return found
 
 
-def draw_pulses(seed: int) -> dict[str, float]:
+def draw_pulses(seed: int, off_terminals: Terminals = "short") -> dict[str, float]:
     """As :func:`draw`, pulsed: a rotor's mass or none, the bench's plate or none, cycles of 2 to 7 periods."""
     at = np.random.default_rng(seed)
     motor = ts.load_motor().with_values(
@@ -313,18 +347,19 @@ def draw_pulses(seed: int) -> dict[str, float]:
         load_inertia=float(at.choice([0.0, 2.7e-4])),
     )
     mass = float(at.choice([0.0, 10 ** at.uniform(-2, -1)]))
-    values = lap_values(motor, drive, Levels(), rotor_mass=mass)
+    values = lap_values(motor, drive, Levels(), Schedule(off_terminals=off_terminals), rotor_mass=mass)
     share = float(at.uniform(0.4, 1.2))
-    return {**values, "F_q": values["F_q"] * share, "size": values["size"] * share}
+    scaled = {"F_q": values["F_q"] * share, "size": values["size"] * share, "K_o": values["K_o"] * share**2}
+    return {**values, **scaled}
 
 
-def pulse_differences(seed: int) -> tuple[CoupledOrbit, Array] | None:
+def pulse_differences(seed: int, off_terminals: Terminals = "short") -> tuple[CoupledOrbit, Array] | None:
     """The orbit at a random pulsed point, and how far the witness's cycle is off where that begins; None without one.
 
     By the largest of displacements and of velocities, of speed and mean speed by the rotor's largest speed, of input
     power; friction's mean torque by the largest; the energy left over of the input.
     """
-    values = draw_pulses(seed)
+    values = draw_pulses(seed, off_terminals)
     orbit = orbit_from({**values, "wanted": 1e-8}, start_of("steady", values), "steady")
     if not (orbit.closed and orbit.cycles == 1):
         return None
@@ -363,10 +398,10 @@ _GAPS = ("displacements", "velocities", "speed", "mean speed", "torque", "input 
 _ALLOWED = np.array([1e-6] * 6 + [1e-8])
 
 
-def _pulses(count: int) -> int:
+def _pulses(count: int, off_terminals: Terminals = "short") -> int:
     worst, orbits, stable = np.zeros(len(_GAPS)), 0, 0
     for seed in range(count):
-        found = pulse_differences(seed)
+        found = pulse_differences(seed, off_terminals)
         if found is None:
             print(f"seed {seed}: no orbit of one cycle")
             continue
@@ -395,9 +430,11 @@ def main(arguments: list[str]) -> int:
 
     ``errors``: 1 if more than one in a hundred errors is larger than stated.
     """
-    if arguments and arguments[0] in ("pulses", "errors"):
+    if arguments and arguments[0] in ("pulses", "open", "errors"):
         of = int(arguments[1]) if len(arguments) > 1 else 100
-        return _pulses(of) if arguments[0] == "pulses" else _errors(of)
+        if arguments[0] == "errors":
+            return _errors(of)
+        return _pulses(of, "open" if arguments[0] == "open" else "short")
     count = int(arguments[0]) if arguments else 100
     worst, states = np.zeros(4), 0
     for seed in range(count):

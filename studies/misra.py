@@ -51,7 +51,7 @@ def main() -> int:
         return 0
     with tempfile.TemporaryDirectory() as folder:
         driver = Path(folder) / "library.c"
-        driver.write_text('#define TRUM_IMPLEMENTATION\n#include "trum.h"\n')
+        driver.write_text('#define TRUM_COUPLED\n#define TRUM_IMPLEMENTATION\n#include "trum.h"\n')
         parts = {"generated": findings(sorted((ROOT / "generated").glob("trum_*.c"))), "driver": findings([driver])}
     for part, counts in parts.items():
         print(f"{part}: " + ", ".join(f"{rule} {count}" for rule, count in counts.most_common()))

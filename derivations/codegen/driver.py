@@ -333,6 +333,11 @@ _COUPLED_IN = (
     Field("force_B_along", "1", "the part of B's over F_q that is in phase with A's"),
     Field("force_B_ahead", "1", "the part of it that is a quarter period ahead of A's"),
     Field("force_phase", "rad", "phase of A's modal force at the start of the cycle"),
+    Field("K_o", "N/m", "stiffness of a phase that is off by the charge that it holds; 0: its terminals are short"),
+    Field("driven_A", "1", "whether A is driven until the lap begins, 1 or 0"),
+    Field("driven_B", "1", "whether B is"),
+    Field("pull_A", "N", "A's modal force at no displacement by the charge held, where it is off before the lap"),
+    Field("pull_B", "N", "B's"),
     Field("held", "m", "height of a wave that friction holds still, 0 if none"),
     Field("mass", "kg", "of the rotor that goes up and down; 0: it follows the wave"),
     Field("reaction", "1", "share of the contact's forces that acts on the phases, 1 or 0"),
@@ -346,9 +351,11 @@ _COUPLED_OUT = (
     Field("variance", "m^2/s^2", "mean of the square of its difference from the mean"),
     Field("low", "m/s", "its lowest"),
     Field("high", "m/s", "its highest"),
-    Field("input", "kg*m^2/s^3", "mean power of the modal forces"),
+    Field("input", "kg*m^2/s^3", "mean power of the modal forces, those of charges held with them"),
     Field("touching", "1", "mean of theta/pi"),
     Field("highest", "m", "the highest wave"),
+    Field("pull_A", "N", "A's modal force at no displacement by the charge that it held last, 0 if none"),
+    Field("pull_B", "N", "B's"),
     Field("evaluations", "1", "of the rates"),
 )
 _LISTS = {
@@ -433,7 +440,7 @@ def headers(kernels: Iterable[Kernel], note: str) -> dict[str, str]:
         ),
         "trum_coupled_calls.h": _calls(
             *("TRUM_COUPLED_CALLS_H", lanes, _COUPLED_STRUCTS, _COUPLED_CALLS, known),
-            *("trum_lanes_", "real", "TRUM_KERNEL({})"),
+            *("trum_coupled_call_", "real", "TRUM_KERNEL({})"),
         ),
         "trum_plain_calls.h": _calls(
             "TRUM_PLAIN_CALLS_H", plain, _PLAIN_STRUCTS, _PLAIN_CALLS, known, "trum_plain_", "trum_real", "{}"

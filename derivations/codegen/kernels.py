@@ -251,7 +251,7 @@ def _port() -> list[Kernel]:
         **{"Theta_q": "N/V", "C_0": "F", "L_m": "H", "C_m": "F", "R_m": "ohm", "omega_open": "rad/s"},
         **dict.fromkeys(("conductance", "susceptance"), "S"),
         **dict.fromkeys(("P_electric", "P_dielectric", "P_reactive"), "W"),
-        **{"k_eff_square": "1", "current": "A", "power_factor": "1"},
+        **{"k_eff_square": "1", "current": "A", "power_factor": "1", "K_o": "N/m"},
     }
     made = (
         (
@@ -260,6 +260,7 @@ def _port() -> list[Kernel]:
             {"Theta_q": port.F_q / port.U_s, "C_0": port.charge()["C_0"]},
         ),
         ("trum_port_circuit", "A phase without a rotor as a circuit, and with open electrodes", port.circuit()),
+        ("trum_port_open", "Stiffness of a phase by the charge that open electrodes hold", port.opened()),
         ("trum_free_admittance", "Admittance of a phase without a rotor", port.admittance()),
         ("trum_plain_port", "What the phases of a plain wave draw", port.driven()),
     )

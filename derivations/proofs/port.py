@@ -40,6 +40,15 @@ def _circuit(p: Point, m: Maths) -> Found:
     }
 
 
+def _opened(p: Point, m: Maths) -> Found:
+    """Slope of the force that is the slope of the energy of a capacitance whose charge stays."""
+
+    def force(w: Number) -> Number:
+        return -m.derivative(lambda at: (p.C_0 - p.Theta_q * at) ** 2 / (2 * p.C_0), w)  # of the charge of one volt
+
+    return {"K_o": -m.derivative(force, 0 * p.C_0)}
+
+
 def _free(p: Point, m: Maths) -> Found:  # noqa: ARG001
     """Motional and held charge as complex numbers, times i omega_q."""
     mode = p.M_q * mp.mpc(p.omega_n0**2 - p.omega_q**2, 2 * p.xi * p.omega_n0 * p.omega_q)
@@ -97,6 +106,15 @@ PROOFS = (
         "energies of the mode at a current; stiffness of a phase that keeps its charge; energy stored at rest",
         _circuit,
         grid("C_0 M_q Theta_q omega_n0 xi"),
+        "random points around TRUM-60",
+    ),
+    Proof(
+        "trum_port_open",
+        "K_o",
+        _RESTS,
+        "curvature of the energy of a capacitance whose charge stays",
+        _opened,
+        grid("C_0 Theta_q"),
         "random points around TRUM-60",
     ),
     Proof(

@@ -17,7 +17,7 @@ def _comment(text: str) -> str:
 def _declarations(header: str) -> str:
     parts = []
     text = header[header.index("#define TRUM_CHOICE_FIELD") :]
-    for found in re.finditer(r"^(?:struct|enum|const|trum)[^;{]*(?:\{.*?^\})?;", text, re.MULTILINE | re.DOTALL):
+    for found in re.finditer(r"^(?:struct|enum|const|int|trum)[^;{]*(?:\{.*?^\})?;", text, re.MULTILINE | re.DOTALL):
         before = re.search(r"/\*((?:[^*]|\*(?!/))*)\*/\n\Z", text[: found.start()])
         name = re.search(r"(trum_\w+)(?:\(| \{)", found[0])
         if name is None:

@@ -3,8 +3,8 @@
 python tests/driver/c_coverage.py          prints a table, and every branch of the drivers that nothing takes
 
 Every kernel is called with random arguments, with null arguments and results, and asked for its names; the drivers run
-through operating points at every level and edge.  ``tests/derivations/test_generated.py`` compares the same kernels
-with 50 digits, ``tests/driver/test_c_library.py`` with these.
+through operating points at every level and edge, and through coupled laps.  ``tests/derivations/test_generated.py``
+compares the same kernels with 50 digits, ``tests/driver/test_c_library.py`` with these.
 """
 
 from __future__ import annotations
@@ -35,6 +35,13 @@ NEVER = {
         "} else if (error <= drive->tolerance)": "rounding alone has met every tolerance that was tried",
         "return A > 10 || B > 10;": "free motion that lasts is much the same in both phases",
     },
+    "trum_coupled.h": {
+        "if (!(x >= 0 && x <= 1)) x = ": "no cubic that was tried has its extreme at another root",
+        "if (!(s.h > 0)) break;": "rounding of an extreme where a step begins",
+        "for (count = 0; count < trum_coupled_most": "no period that was tried takes two million steps",
+        "if (count == trum_coupled_most) return 0;": "no period that was tried takes two million steps",
+    },
+    "trum_coupled_step.h": {"for (i = 0; i < TRUM_LANES && g * TRUM_LANES": ONE_LANE},
     "trum_brush.h": {"for (k = 0; k < 16": "a bristle sticks and slides three times at most"},
     "trum_cycle.h": {
         "for (i = 0; i < 200": "a bracket halved this often is closed before",
@@ -261,9 +268,32 @@ def script() -> str:
     return "\n".join(lines) + "\n"
 
 
-def build(folder: Path, flags: Iterable[str] = ()) -> Path:
-    """Compile the harness with the kernels."""
-    sources = [ROOT / "tests" / "driver" / "c_coverage.c", *sorted((ROOT / "generated").glob("trum_*.c"))]
+def laps() -> str:
+    """What the harness of coupled laps is told to do."""
+    coarse, moved = "lap.tolerance=1e-6", "lap.w_A=1e-6 lap.v_A=0.2 lap.w_B=-5e-7 lap.v_B=0.3 lap.v=0.05"
+    burst = f"{coarse} {moved} lap.off_A=2 lap.off_B=2 compliance=flange load_torque=0 frequency_difference=500"
+    refused = ("start=steady", "contact=hertz", "on_periods=20 tangential=brush", "amplitude=5e-6", "prepressure=-1")
+    lines = [
+        *(f"{mass} 1 {coarse} {more}" for mass in (0, 0.02) for more in ("", moved, f"{moved} compliance=flange")),
+        *(f"{mass} 1 {coarse} {moved} lap.K_o=9e7 {more}" for mass in (0, 0.02) for more in ("", "lap.driven_B=0")),
+        *(f"0.02 1 {coarse} resonance_frequency=39703 {more}" for more in ("", "amplitude=forced foundation=none")),
+        f"0.1 0.4 amplitude=forced {coarse}",
+        *(f"0 1 {coarse} {more}" for more in ("load_torque=1.5", "on_periods=10", "on_periods=20")),
+        *(f"{mass} 1 {burst} lap.m=300 lap.on_A=299 lap.on_B=300" for mass in (0, 0.02)),
+        f"0 1 {burst} lap.m=300 lap.on_A=300 lap.on_B=299",
+        "0 1 lap.m=2.5",
+        "0.02 1 lap.w_A=nan",
+        "0.02 1 lap.tolerance=0 lap.m=1",
+        f"0.02 1 lap.tolerance=1e-14 lap.m=1 {moved}",
+        *(f"0.02 1 {word}" for word in (*refused, "friction_coefficient=0", "damping_ratio=0", "beam_density=1e300")),
+        *("-1 1", "0.02 2", "0.02 1 resonance_frequency=1 frequency_difference=0"),
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def build(folder: Path, flags: Iterable[str] = (), name: str = "coverage") -> Path:
+    """Compile a harness with the kernels."""
+    sources = [ROOT / "tests" / "driver" / f"c_{name}.c", *sorted((ROOT / "generated").glob("trum_*.c"))]
     command = ["cc", *FLAGS, *flags, *(f"-I{path}" for path in FOLDERS), *map(str, sources), "-lm", "-o", "harness"]
     subprocess.run(command, cwd=folder, check=True)
     return folder / "harness"
@@ -295,13 +325,18 @@ def measured(folder: Path) -> Mapping[str, Mapping[Branch, int]]:
     return counts
 
 
+def ran(name: str, told: str) -> Mapping[str, Mapping[Branch, int]]:
+    """How often each branch was taken by a harness that was told something."""
+    with tempfile.TemporaryDirectory() as place:
+        folder = Path(place)
+        harness = build(folder, ["-O0", "--coverage"], name)
+        subprocess.run([harness], input=told, text=True, check=True, cwd=folder, capture_output=True)
+        return measured(folder)
+
+
 def main() -> int:
     """Print the table; 1 if a branch of the generated C is never taken, or one of the drivers without a reason."""
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        harness = build(folder, ["-O0", "--coverage"])
-        subprocess.run([harness], input=script(), text=True, check=True, cwd=folder, capture_output=True)
-        counts = measured(folder)
+    counts = {**ran("coupled", laps()), **ran("coverage", script())}  # what is in both counts by the second
     print(f"{'file':32}{'branches':>10}{'taken':>8}{'share':>9}")
     missing = 0
     for file, branches in sorted(counts.items()):
@@ -309,7 +344,7 @@ def main() -> int:
         share = 100.0 * taken / len(branches) if branches else 100.0
         print(f"{file:32}{len(branches):10}{taken:8}{share:8.2f}%")
     for file, branches in sorted(counts.items()):
-        if file in ("c_coverage.c", "main.c"):  # their untaken branches are failures that did not happen
+        if file in ("c_coverage.c", "c_coupled.c", "main.c"):  # their untaken branches are failures that did not happen
             continue
         path = next(folder / file for folder in (*FOLDERS, DRIVER / "orbit") if (folder / file).exists())
         text = path.read_text().splitlines()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -21,6 +22,7 @@ from trum_sym.model.coupled_orbit import (
 from trum_sym.model.coupling import coupled_values, plain_waves
 from trum_sym.model.kernels import call
 from trum_sym.model.levels import Levels
+from trum_sym.model.port import port_of
 
 
 @pytest.fixture(scope="module")
@@ -67,9 +69,10 @@ def test_a_lap_is_the_same_on_every_instruction_set(motor):
         assert slopes == pytest.approx(found[0][1], rel=1e-4, abs=1e-6 * np.abs(slopes).max())
 
 
-@pytest.mark.parametrize("mass", [0.0, 0.02])
-def test_slopes_of_a_lap_are_differences_of_laps(motor, mass):
-    values = lap_values(motor, ts.Drive(periods=3, on_periods=2), Levels(compliance="flange"), rotor_mass=mass)
+@pytest.mark.parametrize(("mass", "off_terminals"), [(0.0, "short"), (0.02, "short"), (0.0, "open"), (0.02, "open")])
+def test_slopes_of_a_lap_are_differences_of_laps(motor, mass, off_terminals):
+    drive, schedule = ts.Drive(periods=3, on_periods=2), ts.Schedule(off_terminals=off_terminals)
+    values = lap_values(motor, drive, Levels(compliance="flange"), schedule, rotor_mass=mass)
     values |= {"tolerance": 1e-11}
     start = laps(values, start_of("steady", values)[:, np.newaxis])[0][:, 0]
     slopes = np.asarray(call("coupled_slopes", {**values, **dict(zip(STATE, start, strict=True))})["slopes"])
@@ -137,12 +140,12 @@ def test_both_phases_always_on_come_to_the_plain_wave(motor, mass):
     assert orbit.contact_fraction == pytest.approx(plain.half_angle[-1] / math.pi, rel=1e-7)
 
 
-@pytest.mark.parametrize("seed", [31, 40])
-def test_another_formulation_closes_the_orbits_and_finds_the_energy(seed):
-    """A sample; `python -m studies.coupling pulses 100` compares more."""
+@pytest.mark.parametrize(("seed", "off_terminals"), [(31, "short"), (40, "short"), (0, "open"), (1, "open")])
+def test_another_formulation_closes_the_orbits_and_finds_the_energy(seed, off_terminals):
+    """A sample; `python -m studies.coupling pulses 100`, or `open 100`, compares more."""
     from studies.coupling import pulse_differences
 
-    orbit, gaps = pulse_differences(seed)
+    orbit, gaps = pulse_differences(seed, off_terminals)
     assert orbit.stable
     assert (gaps[:-1] < 1e-6).all()
     assert gaps[-1] < 1e-8
@@ -227,6 +230,59 @@ def test_an_orbit_that_rounding_alone_keeps_from_closing_is_closed(motor):
     assert orbit.closed
     assert orbit.stable
     assert orbit.missed < 1e-8
+
+
+def _alone(motor, **words):
+    """A phase A that is off for a lap after it was driven, its terminals open, and a B without a force."""
+    schedule = ts.Schedule(periods=2, on_periods=1, off_terminals="open")
+    values = lap_values(motor, ts.Drive(), Levels(), schedule, **words)
+    return values | {"m": 7.0, "on_A": 7.0, "off_B": 0.0, "on_B": 0.0, "force_B_ahead": 0.0, "tolerance": 1e-10}
+
+
+def test_an_open_phase_swings_about_where_its_charge_holds_it(motor):
+    """Without a rotor: a damped oscillator in closed form, at the port's open resonance but for the damping."""
+    values = _alone(motor, reaction=False, rotor_mass=0.0) | {"force_phase": 0.4}
+    port = port_of(coupled_values(motor, ts.Drive(on_periods=20), Levels(coupling="contact")))
+    start = np.array([1e-6, 0.3, 0.0, 0.0, 0.0, 0.0, 0.0])
+    end, found = laps(values, start[:, np.newaxis])
+    own, turn, damping = values["omega_n0"], 2 * math.pi * port.open_resonance, values["xi"] * values["omega_n0"]
+    voltage = values["U_s"] * math.cos(0.4)
+    # at rest the ring's stiffness holds what the charge of voltage and displacement makes
+    aside = (port.force_factor * voltage + (turn**2 - own**2) * values["M_q"] * start[0]) / (values["M_q"] * turn**2)
+    time, whole = 7 * 2 * math.pi / values["omega_q"], math.sqrt(turn**2 - damping**2)
+    root = complex(-damping, whole)
+    size = complex(start[0] - aside, (-damping * (start[0] - aside) - start[1]) / whole)
+    moved = size * np.exp(root * time)
+    assert end[0, 0] == pytest.approx(aside + moved.real, abs=1e-8 * abs(size))
+    assert end[1, 0] == pytest.approx((root * moved).real, abs=1e-8 * abs(size * root))
+    # the charge's work is what the capacitance's energy has lost
+    then = (float(found["pull_A"][0]) - values["K_o"] * end[0, 0]) / port.force_factor
+    assert then == pytest.approx(voltage - port.force_factor / port.capacitance * (end[0, 0] - start[0]), rel=1e-9)
+    lost = port.capacitance / 2 * (voltage**2 - then**2)
+    assert float(found["input"][0]) * time == pytest.approx(lost, rel=1e-7)
+
+
+@pytest.mark.parametrize("mass", [0.0, 0.02])
+def test_an_infinite_capacitance_keeps_the_voltage_and_without_one_is_a_short(motor, mass):
+    values = _alone(motor, rotor_mass=mass)
+    start = start_of("steady", values)[:, np.newaxis]
+    gaps = []
+    for phase, stiffness in ((math.pi / 2, 1e-5), (math.pi / 2, 1e-3), (0.0, 1e-5)):
+        point = values | {"force_phase": phase}
+        short = laps(point | {"K_o": 0.0}, start)[0]
+        open_ = laps(point | {"K_o": stiffness * values["K_o"]}, start)[0]
+        gaps.append(float(np.abs(open_ - short)[0, 0]) / values["size"])
+    assert gaps[1] / gaps[0] == pytest.approx(100, rel=0.02)
+    assert 0 < gaps[1] < 1e-3
+    held = values["F_q"] / values["M_q"] / values["omega_n0"] ** 2 / values["size"]  # by the voltage at its crest
+    assert 0.1 * held < gaps[2] < 3 * held
+
+
+def test_open_terminals_take_a_permittivity(motor):
+    bare = replace(motor, piezo_permittivity=None)
+    with pytest.raises(ts.ParameterError, match="piezo_permittivity: got nothing"):
+        lap_values(bare, ts.Drive(), Levels(), ts.Schedule(off_terminals="open"))
+    assert lap_values(bare, ts.Drive(), Levels())["K_o"] == 0
 
 
 def test_pulses_have_the_force_of_the_motors_electrodes(motor):

@@ -12,6 +12,7 @@ from trum_sym.model.coupled_orbit import STATE, lap_values, laps, orbit_from, st
 from trum_sym.model.coupling import coupled_values, plain_waves
 from trum_sym.model.drive_orbit import drive_history, drive_orbit, history_of, read_by_encoder
 from trum_sym.model.levels import Levels
+from trum_sym.model.orbit_certificate import certificate_of
 from trum_sym.model.rotor import encoder_readings
 
 FLANGE = Levels(compliance="flange")
@@ -236,8 +237,9 @@ def test_a_motor_starts_from_rest_and_stops(motor, drive):
     assert not found.input_power[~driven].any()
 
 
-def test_parts_of_a_lap_are_the_lap(motor):
-    schedule = ts.Schedule(periods=4, on_periods=3)
+@pytest.mark.parametrize("off_terminals", ["short", "open"])
+def test_parts_of_a_lap_are_the_lap(motor, off_terminals):
+    schedule = ts.Schedule(periods=4, on_periods=3, off_terminals=off_terminals)
     values = lap_values(motor, ts.Drive(), FLANGE, schedule, rotor_mass=0.02) | {"tolerance": 1e-10}
     begun = start_of("steady", values)
     end, lap = laps(values, begun[:, np.newaxis])
@@ -246,6 +248,28 @@ def test_parts_of_a_lap_are_the_lap(motor):
     assert np.abs((found.states[:, -1] - end[:, 0]) / sizes).max() < 3e-8  # some hundred steps of 1e-10
     assert found.angle[-1] / found.time[-1] == pytest.approx(float(lap["mean"][0]) / values["r_c"], rel=1e-8)
     assert found.input_power.mean() == pytest.approx(float(lap["input"][0]), rel=1e-8)
+
+
+def test_a_phase_that_was_never_driven_holds_no_charge(motor, drive):
+    """From rest A is off first: open, it is only stiffer; no voltage of before holds it aside."""
+    schedule = ts.Schedule(periods=4, on_periods=3, off_terminals="open")
+    few = {"samples_per_period": 4, "tolerance": 1e-4, "rotor_mass": 0.0}
+    found = drive_history(motor, drive, schedule, compliance="flange", **few)
+    assert np.abs(found.states[0, 1]) < 0.02 * np.abs(found.states[2, 1])
+    with pytest.raises(ts.ParameterError, match="pause: got 3, need 0 where off_terminals is open"):
+        drive_history(motor, drive, schedule, pause=3)
+
+
+def test_single_with_an_open_phase_is_stiffer_there_alone(motor, drive):
+    """B, which a standing wave of A leaves at rest, counts for how small disturbances die out, not for the orbit."""
+    orbits = [
+        drive_orbit(motor, drive, ts.Schedule(kind="single", off_terminals=terminals), **QUICK).orbit
+        for terminals in ("short", "open")
+    ]
+    assert orbits[1].highest_wave == pytest.approx(orbits[0].highest_wave, rel=1e-6)
+    turns = [np.sort(np.abs(np.angle(orbit.multipliers))) for orbit in orbits]  # of the rotor, B twice, A twice
+    assert (turns[1][1:3] > 1.5 * turns[0][1:3]).all()
+    assert turns[1][3:] == pytest.approx(turns[0][3:], rel=0.02)
 
 
 def test_gates_are_the_three_spans_of_the_superimposed_pulses():
@@ -297,6 +321,15 @@ def test_an_answer_is_a_table_and_a_record(motor, drive):
         ({"ratio": -0.5}, "ratio: got -0.5"),
         ({"phase_difference": 4.0}, "phase_difference: got 4.0"),
         ({"phase_difference": "4 N"}, "phase_difference: got 4 N"),
+        ({"off_terminals": "none"}, "off_terminals: got none, need one of short, open"),
+        (
+            {"kind": "burst", "periods": 9, "on_periods": 3, "off_terminals": "open"},
+            "off_terminals: got open, need short where the schedule is burst: a charge would hold the wave aside",
+        ),
+        (
+            {"kind": "continuous", "off_terminals": "open"},
+            "need short where the schedule is continuous: no phase is off",
+        ),
     ],
 )
 def test_a_schedule_that_is_none_is_refused(words, naming):
@@ -324,3 +357,23 @@ def test_a_schedule_that_is_none_is_refused(words, naming):
 def test_what_no_orbit_can_be_found_of_is_refused(words, naming):
     with pytest.raises(ts.ParameterError, match=naming):
         drive_orbit(**words)
+
+
+def test_a_drive_s_orbit_is_certified_where_it_is_asked_for(motor):
+    found = drive_orbit(motor, ts.Drive(), ts.Schedule(), certify=True, **QUICK)
+    assert found.certificate is not None
+    assert found.certificate.certified
+    values = lap_values(motor, ts.Drive(), Levels(compliance="flange"), rotor_mass=0.0, tolerance=1e-4)
+    own = certificate_of(values, found.orbit)
+    assert found.certificate.radius == own.radius
+    assert "certified: begins within" in found.to_text()
+    assert "stable for certain" in found.to_text()
+    record = found.to_dict()["certificate"]
+    assert record["radius"] == own.radius
+    assert record["largest_multiplier_error"] == max(own.multiplier_error)
+    plain = drive_orbit(motor, ts.Drive(), ts.Schedule(), **QUICK)
+    assert plain.certificate is None
+    assert "certified" not in plain.to_text()
+    assert "certificate" not in plain.to_dict()
+    lost = drive_orbit(motor, ts.Drive(), ts.Schedule(), certify=True, rotor_mass=0.02, tolerance=1e-4, start="rest")
+    assert "not certified: Newton" in lost.to_text()

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import trum_sym as ts
-from studies.coupled_sobol import main, own_resonance, spans
+from studies import coupled_sobol
+from studies.coupled_sobol import amplitudes, main, own_resonance, spans
 from trum_sym.model.coupling import coupled_values, plain_waves
 from trum_sym.model.levels import Levels
 
@@ -33,6 +34,19 @@ def test_what_is_assumed_lies_in_the_motor_files_ranges():
             stated = getattr(motor, name, None)
             if stated is not None and stated.range is not None:
                 assert stated.range[0] <= low < high <= stated.range[1], name
+
+
+def test_a_run_takes_up_where_its_file_ends(tmp_path, monkeypatch):
+    draws = {name: np.array([(low + high) / 2] * 2) for name, (low, high, _) in spans(one=True).items()}
+    draws["offset"] = np.array([10.0, 20.0])
+    file = tmp_path / "rows.jsonl"
+    first = amplitudes((100.0, 120.0), {name: of[:1] for name, of in draws.items()}, file)
+    whole = amplitudes((100.0, 120.0), draws, file)
+    assert len(file.read_text().splitlines()) == 2
+    assert whole["100 N"][0] == first["100 N"][0] > whole["120 N"][0] > 1
+    monkeypatch.setattr(coupled_sobol, "one_phase", None)  # nothing is computed again
+    again = amplitudes((100.0, 120.0), draws, file)
+    assert all((again[name] == whole[name]).all() for name in whole)
 
 
 def test_it_says_what_it_takes(capsys):

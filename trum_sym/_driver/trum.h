@@ -2,7 +2,7 @@
  *
  * Define TRUM_IMPLEMENTATION before including it in exactly one C file, and compile generated/trum_*.c beside that.
  * No allocation, no globals, re-entrant.  SI units; trum_real is double, or float with -DTRUM_REAL_BITS=32
- * for all files.  docs/c-library.md says more. */
+ * for all files.  -DTRUM_COUPLED adds laps of the coupled system.  docs/c-library.md says more. */
 #ifndef TRUM_H
 #define TRUM_H
 
@@ -10,6 +10,7 @@
 
 #include "trum_fields.h"
 #include "trum_kernels.h"
+#include "trum_orbit_fields.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -73,6 +74,19 @@ enum trum_status trum_evaluate_determinants(const struct trum_motor* motor, cons
  * its end; both are NaN unless the status is TRUM_OK. */
 enum trum_status trum_simulate(const struct trum_motor* motor, const struct trum_drive* drive, struct trum_point* point,
                                trum_real* speed, trum_real* angle, long count);
+
+#ifdef TRUM_COUPLED
+/* Phases, contact and rotor as one system: what a lap of superimposed pulses depends on, by motor and drive, for
+ * trum_coupled_lap.  The rotor's mass goes up and down with it (kg; 0: it follows the wave), a phase's electrodes drive a share
+ * of the ring (1: all of it; counts where the amplitude is forced).  The state is that of a motor at rest, terminals of a
+ * phase that is off are short; point->field is where the status is TRUM_BAD_INPUT. */
+enum trum_status trum_coupled_values(const struct trum_motor* motor, const struct trum_drive* drive, trum_real rotor_mass,
+                                     trum_real phase_coverage, struct trum_point* point, trum_coupled_lap_in* in);
+
+/* A lap from the state in `in`: the state after it, means and extremes; and, unless that is null, the slopes of the seven
+ * numbers of the state and of the mean speed by those at the start, row by row.  0 where it cannot be stepped: NaN. */
+int trum_coupled_lap(const trum_coupled_lap_in* in, trum_coupled_lap_out* out, trum_real slopes[56]);
+#endif
 
 /* The name of a field by its number in point->field: the motor's, then the drive's; 0 if it is none. */
 const char* trum_field_name(int field);

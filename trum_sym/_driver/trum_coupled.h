@@ -6,13 +6,15 @@
  * A step is as long as its estimated error allows.  Steps end with drive periods, where phases are switched.  Where contact
  * or friction has a kink the rule is of a lower order, and steps become short by themselves until they may pass it.
  *
+ * A phase that is off has short terminals, or open ones whose charge makes a force (derivations/port.py).
+ *
  * With both phases off, friction stops wave and rotor in a finite time.  Once no more is left than it holds, both rest until
  * a phase is driven again.
  *
  * Lane 0 is the lap; the others are beside it, one in each number of the state, and take its steps: their differences are
  * the slopes of what those steps make of a state, exact but for the second order.
  *
- * Over lanes of points; included by coupled.inc. */
+ * Over lanes of points where coupled.inc includes it, one by one in the C library (trum_coupled_point.h). */
 #ifndef TRUM_COUPLED_H
 #define TRUM_COUPLED_H
 
@@ -96,7 +98,7 @@ static inline void trum_coupled_count(const trum_coupled_point* p, const trum_co
   for (g = 0; g < p->groups; ++g)
     for (i = 0; i < trum_coupled_last; ++i)
       for (k = 0; k < trum_coupled_sums; ++k)
-        sums[g].of[k] += real(s->h * within[trum_coupled_last][i]) * s->sums[i][g].of[k];
+        sums[g].of[k] += TRUM_NUMBER(s->h * within[trum_coupled_last][i]) * s->sums[i][g].of[k];
 }
 
 /* Brings wave and rotor to rest where friction holds them, and whether they are; `by` is the phases' swing since the period
@@ -135,7 +137,8 @@ static int trum_coupled_period(trum_coupled_point* p, trum_coupled_step* s, trum
     if (p->resting && !(p->in->mass > 0)) { /* nothing moves: the whole wave touches */
       for (g = 0; g < p->groups; ++g) {
         s->to[g] = s->from[g];
-        sums[g].of[0] += real(-p->v * left), sums[g].of[1] += real(p->v * p->v * left), sums[g].of[3] += real(pi * left);
+        sums[g].of[0] += TRUM_NUMBER(-p->v * left), sums[g].of[1] += TRUM_NUMBER(p->v * p->v * left);
+        sums[g].of[3] += TRUM_NUMBER(pi * left);
       }
       return 1;
     }
@@ -180,10 +183,13 @@ static inline void trum_coupled_begin(trum_coupled_point* p, const trum_coupled_
   const trum_real start[] = {in->w_A, in->v_A, in->w_B, in->v_B, in->height, in->climb, in->v};
   int g, i, k;
   p->in = in, p->v = in->v, p->resting = 0, p->groups = beside ? trum_coupled_groups : 1;
+  p->gates.g_A = in->driven_A, p->gates.g_B = in->driven_B;
   p->place.D = in->D, p->place.F_c = in->F_c, p->place.k_N = in->k_N, p->place.k_c = in->k_c, p->place.mu = in->mu;
   p->place.n_j = in->n_j;
-  trum_lanes_engagement(&p->place, &p->carried);
+  trum_coupled_call_engagement(&p->place, &p->carried);
   p->mode.omega_n0 = in->omega_n0, p->mode.xi = in->xi;
+  for (g = 0; g < trum_coupled_groups; ++g)
+    p->pull[g].A = TRUM_NUMBER(in->pull_A), p->pull[g].B = TRUM_NUMBER(in->pull_B);
   for (k = 0; k < trum_coupled_size; ++k) {
     p->sizes[k] = sizes[k];
     for (g = 0; g < trum_coupled_groups; ++g) {
@@ -196,7 +202,7 @@ static inline void trum_coupled_begin(trum_coupled_point* p, const trum_coupled_
 
 /* Drive periods from a state: the state after them, and means and extremes; with slopes of the state and of the mean speed
  * by the state that it began with, a row each, unless that is null.  What cannot be stepped is not a number. */
-static void trum_coupled_lap(const trum_coupled_lap_in* in, trum_coupled_lap_out* out, trum_real* slopes) {
+static void trum_coupled_follow(const trum_coupled_lap_in* in, trum_coupled_lap_out* out, trum_real* slopes) {
   const trum_real pi = TRUM_C(3.14159265358979323846), cycle = 2 * pi * in->m / in->omega_q;
   trum_real h = 2 * pi / in->omega_q / 16;
   trum_coupled_point p;
@@ -210,7 +216,9 @@ static void trum_coupled_lap(const trum_coupled_lap_in* in, trum_coupled_lap_out
     for (k = 0; k < trum_coupled_sums; ++k) sums[g].of[k] = 0;
   out->evaluations = out->highest = 0, out->low = out->high = in->v;
   for (period = 0; (trum_real)period < in->m && done; ++period) {
+    const trum_gates before = p.gates;
     p.gates = trum_coupled_gates(in, period);
+    if (in->K_o > 0) trum_coupled_charge(&p, before, s.to);
     p.resting = p.resting && p.gates.g_A == 0 && p.gates.g_B == 0;
     done = trum_coupled_period(&p, &s, &h, trum_fmin(1, in->m - (trum_real)period), sums, out);
   }
@@ -218,6 +226,7 @@ static void trum_coupled_lap(const trum_coupled_lap_in* in, trum_coupled_lap_out
     for (g = 0; g < p.groups; ++g)
       s.to[g].y[4] = trum_coupled_height(&p, trum_sqrt(s.to[g].y[0] * s.to[g].y[0] + s.to[g].y[2] * s.to[g].y[2]));
   for (k = 0; k < trum_coupled_size; ++k) *state[k] = done ? lane_value(&s.to[0].y[k], 0) : TRUM_NAN;
+  out->pull_A = lane_value(&p.pull[0].A, 0), out->pull_B = lane_value(&p.pull[0].B, 0);
   out->mean = lane_value(&sums[0].of[0], 0) / cycle, out->variance = lane_value(&sums[0].of[1], 0) / cycle;
   out->variance -= out->mean * out->mean, out->mean += in->v, out->square = out->variance + out->mean * out->mean;
   out->input = lane_value(&sums[0].of[2], 0) / cycle, out->touching = lane_value(&sums[0].of[3], 0) / cycle / pi;

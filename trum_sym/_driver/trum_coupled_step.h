@@ -11,8 +11,8 @@ enum { trum_coupled_stage_groups = (trum_coupled_stages + TRUM_LANES - 1) / TRUM
 /* what is summed over time: speed less that at the start, its square, power, touching */
 enum { trum_coupled_sums = 4 };
 
-static const trum_real trum_coupled_aside = 1e-6;    /* of a size, to a state beside */
-static const trum_real trum_coupled_shortest = 1e-6; /* step, of a drive period */
+static const trum_real trum_coupled_aside = TRUM_EITHER(1e-6, 1e-3); /* of a size, to a state beside */
+static const trum_real trum_coupled_shortest = TRUM_C(1e-6);         /* step, of a drive period */
 static const long trum_coupled_most = 2000000;       /* steps in a drive period, those that are tried */
 
 typedef struct {
@@ -23,12 +23,18 @@ typedef struct {
   real of[trum_coupled_sums];
 } trum_coupled_sum;
 
+/* Modal forces of the charges that open electrodes hold, at no displacement. */
+typedef struct {
+  real A, B;
+} trum_coupled_pull;
+
 typedef struct {
   const trum_coupled_lap_in* in;
   trum_coupled_place place;
   trum_carried carried;
   trum_mode mode;
   trum_gates gates;
+  trum_coupled_pull pull[trum_coupled_groups];
   trum_real sizes[trum_coupled_size];
   trum_real v; /* at the start of the lap */
   int groups;  /* of lanes that are in use */
@@ -48,9 +54,9 @@ typedef struct {
 /* Height of a rotor without a mass, which the layer carries at every instant. */
 static inline real trum_coupled_height(trum_coupled_point* p, real W_c) {
   p->carried.W_c = W_c;
-  trum_lanes_filling(&p->carried);
+  trum_coupled_call_filling(&p->carried);
   p->carried.fullness_root = cube_root(p->carried.fullness);
-  trum_lanes_contact_winkler(&p->carried);
+  trum_coupled_call_contact_winkler(&p->carried);
   return -p->carried.share / p->carried.engagement_per_height;
 }
 
@@ -75,28 +81,55 @@ static inline int trum_coupled_stops(const trum_coupled_point* p, const trum_cou
 
 /* Both phases and the rotor's turning at rest, or their rates; a rotor with a mass goes on up and down. */
 static inline void trum_coupled_rest(trum_coupled_vector* y) {
-  y->y[0] = y->y[1] = y->y[2] = y->y[3] = y->y[6] = real(0);
+  y->y[0] = y->y[1] = y->y[2] = y->y[3] = y->y[6] = TRUM_NUMBER(0);
 }
 
-/* Rates of a state at a phase of the drive, without the phases' own swing. */
-static inline trum_coupled_vector trum_coupled_rates(trum_coupled_point* p, const trum_coupled_vector* of, trum_real phase,
-                                                     trum_coupled_sum* sum, trum_coupled_step* step) {
-  const trum_coupled_lap_in* in = p->in;
+/* Modal forces of phases that are driven, at a phase of the drive. */
+typedef struct {
+  trum_real A, B;
+} trum_coupled_drive;
+
+static inline trum_coupled_drive trum_coupled_driven(const trum_coupled_lap_in* in, trum_gates gates, trum_real phase) {
   const trum_real cosine = trum_cos(phase), sine = trum_sin(phase);
-  const trum_real on_A = p->gates.g_A * in->F_q * in->force_A * cosine;
-  const trum_real on_B = p->gates.g_B * in->F_q * (in->force_B_along * cosine - in->force_B_ahead * sine);
+  trum_coupled_drive on;
+  on.A = gates.g_A * in->F_q * in->force_A * cosine;
+  on.B = gates.g_B * in->F_q * (in->force_B_along * cosine - in->force_B_ahead * sine);
+  return on;
+}
+
+/* Where phases are switched off and stay open, the charges of that instant: voltage and displacement tell them. */
+static inline void trum_coupled_charge(trum_coupled_point* p, trum_gates before, const trum_coupled_vector* states) {
+  const trum_coupled_lap_in* in = p->in;
+  const trum_coupled_drive on = trum_coupled_driven(in, before, in->force_phase);
+  int g;
+  for (g = 0; g < p->groups; ++g) {
+    if (before.g_A > p->gates.g_A) p->pull[g].A = on.A + in->K_o * states[g].y[0];
+    if (before.g_B > p->gates.g_B) p->pull[g].B = on.B + in->K_o * states[g].y[2];
+  }
+}
+
+/* Rates of a group's state at a phase of the drive, without the phases' own swing. */
+static inline trum_coupled_vector trum_coupled_rates(trum_coupled_point* p, int group, const trum_coupled_vector* of,
+                                                     trum_real phase, trum_coupled_sum* sum, trum_coupled_step* step) {
+  const trum_coupled_lap_in* in = p->in;
+  const trum_coupled_drive on = trum_coupled_driven(in, p->gates, phase);
+  real on_A = TRUM_NUMBER(on.A), on_B = TRUM_NUMBER(on.B);
   trum_coupled_state s;
   trum_coupled_surface surface;
   trum_coupled_acting acting;
   trum_coupled_vector rate;
   s.w_A = of->y[0], s.v_A = of->y[1], s.w_B = of->y[2], s.v_B = of->y[3], s.height = of->y[4], s.v = of->y[6];
+  if (in->K_o > 0) { /* else the terminals of a phase that is off are short */
+    if (!(p->gates.g_A > 0)) on_A = p->pull[group].A - in->K_o * s.w_A;
+    if (!(p->gates.g_B > 0)) on_B = p->pull[group].B - in->K_o * s.w_B;
+  }
   if (!(in->mass > 0)) s.height = trum_coupled_height(p, trum_sqrt(s.w_A * s.w_A + s.w_B * s.w_B));
-  trum_lanes_coupled_instant(&p->place, &s, &surface);
-  trum_lanes_coupled_forces(&p->place, &s, &surface, &acting);
+  trum_coupled_call_coupled_instant(&p->place, &s, &surface);
+  trum_coupled_call_coupled_forces(&p->place, &s, &surface, &acting);
   rate.y[0] = 0, rate.y[1] = (on_A + in->reaction * acting.Q_A) / in->M_q;
   rate.y[2] = 0, rate.y[3] = (on_B + in->reaction * acting.Q_B) / in->M_q;
-  rate.y[4] = in->mass > 0 ? of->y[5] : real(0);
-  rate.y[5] = in->mass > 0 ? (acting.F_z - in->F_c) / in->mass : real(0);
+  rate.y[4] = in->mass > 0 ? of->y[5] : TRUM_NUMBER(0);
+  rate.y[5] = in->mass > 0 ? (acting.F_z - in->F_c) / in->mass : TRUM_NUMBER(0);
   rate.y[6] = in->r_c * (in->r_c * acting.F_x - in->T_load) / in->J_total;
   if (p->resting) trum_coupled_rest(&rate);
   sum->of[0] = s.v - p->v, sum->of[1] = sum->of[0] * sum->of[0];
@@ -125,7 +158,7 @@ static inline void trum_coupled_swing(const trum_coupled_point* p, trum_coupled_
     real tau = s->tau;
     for (i = 0; i < TRUM_LANES && g * TRUM_LANES + i < trum_coupled_stages; ++i)
       set_lane(&tau, i, s->tau + nodes[g * TRUM_LANES + i] * s->h);
-    trum_lanes_mode_flow(&p->mode, &s->swing[g], tau);
+    trum_coupled_call_mode_flow(&p->mode, &s->swing[g], tau);
   }
 }
 
@@ -146,7 +179,7 @@ static inline void trum_coupled_seen(trum_coupled_point* p, trum_coupled_step* s
   span = by[0] * by[3] - by[1] * by[2];
   for (g = p->groups - 1; g >= 0; --g) {
     const trum_coupled_vector at = trum_coupled_swung(by, &of[g]);
-    trum_coupled_vector rates = trum_coupled_rates(p, &at, phase, &s->sums[stage][g], s);
+    trum_coupled_vector rates = trum_coupled_rates(p, g, &at, phase, &s->sums[stage][g], s);
     for (k = 0; k < 4; k += 2) rates.y[k] = -by[1] / span * rates.y[k + 1], rates.y[k + 1] = by[0] / span * rates.y[k + 1];
     s->rates[stage][g] = rates;
   }
@@ -155,7 +188,7 @@ static inline void trum_coupled_seen(trum_coupled_point* p, trum_coupled_step* s
 /* a += h b */
 static inline void trum_coupled_add(trum_coupled_vector* a, trum_real h, const trum_coupled_vector* b) {
   int k;
-  for (k = 0; k < trum_coupled_size; ++k) a->y[k] += real(h) * b->y[k];
+  for (k = 0; k < trum_coupled_size; ++k) a->y[k] += TRUM_NUMBER(h) * b->y[k];
 }
 
 /* Tries a step from `from`, with its rates in rates[0]; its error in lane 0 over what is allowed. */

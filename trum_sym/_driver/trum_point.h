@@ -55,8 +55,8 @@ static inline enum trum_status trum_check_wave(int modelled, struct trum_point* 
   return TRUM_BAD_INPUT;
 }
 
-/* Section, resonance and amplitude under prepressure. */
-static inline enum trum_status trum_stator(const struct trum_motor* motor, const struct trum_drive* drive,
+/* Section, resonance and amplitude under prepressure, which is the measured one or follows from the ceramic's force. */
+static inline enum trum_status trum_stator(const struct trum_motor* motor, const struct trum_drive* drive, int measured,
                                            struct trum_point* point, trum_real* v) {
   const int modelled = !(motor->amplitude > 0);
   /* two amplitudes in turn that differ in the last digits only have settled */
@@ -79,7 +79,7 @@ static inline enum trum_status trum_stator(const struct trum_motor* motor, const
       point->field = trum_drive_frequency_difference;
       return TRUM_BAD_INPUT;
     }
-    if (!modelled || TRUM_LEVEL_amplitude(drive) == TRUM_AMPLITUDE_MEASURED) break;
+    if (!modelled || measured) break;
     trum_call_amplitude_forced(v);
     change = v[trum_at_W] > before ? v[trum_at_W] - before : before - v[trum_at_W];
     if (change <= settled * v[trum_at_W]) {
@@ -188,6 +188,20 @@ static inline int trum_lacks_damping(const struct trum_motor* motor, const trum_
   return A > 10 || B > 10;
 }
 
+/* All symbols 0 but those of motor and drive. */
+static inline void trum_load_values(const struct trum_motor* motor, const struct trum_drive* drive, trum_real* v) {
+  memset(v, 0, TRUM_VALUES * sizeof *v);
+#define TRUM_LOAD_MOTOR(name, symbol, unit, low, high, low_open, high_open, integer, required) \
+  v[trum_at_##symbol] = motor->name;
+#define TRUM_LOAD_DRIVE(name, symbol, unit, low, high, low_open, high_open, integer, required) \
+  v[trum_at_##symbol] = drive->name;
+  TRUM_MOTOR_FIELDS(TRUM_LOAD_MOTOR)
+  TRUM_DRIVE_FIELDS(TRUM_LOAD_DRIVE)
+#undef TRUM_LOAD_MOTOR
+#undef TRUM_LOAD_DRIVE
+  v[trum_at_Delta_omega] = TRUM_C(6.283185307179586) * drive->frequency_difference;
+}
+
 /* Everything but the orbit; the values of all symbols are left in v. */
 static inline enum trum_status trum_solve_determinants(const struct trum_motor* motor, const struct trum_drive* drive,
                                                        struct trum_point* point, trum_real* v) {
@@ -201,19 +215,10 @@ static inline enum trum_status trum_solve_determinants(const struct trum_motor* 
   point->steps = 0;
   point->field = trum_wrong_field(motor, drive);
   if (point->field >= 0) return TRUM_BAD_INPUT;
-  memset(v, 0, TRUM_VALUES * sizeof *v);
-#define TRUM_LOAD_MOTOR(name, symbol, unit, low, high, low_open, high_open, integer, required) \
-  v[trum_at_##symbol] = motor->name;
-#define TRUM_LOAD_DRIVE(name, symbol, unit, low, high, low_open, high_open, integer, required) \
-  v[trum_at_##symbol] = drive->name;
-  TRUM_MOTOR_FIELDS(TRUM_LOAD_MOTOR)
-  TRUM_DRIVE_FIELDS(TRUM_LOAD_DRIVE)
-#undef TRUM_LOAD_MOTOR
-#undef TRUM_LOAD_DRIVE
-  v[trum_at_Delta_omega] = turn * drive->frequency_difference;
+  trum_load_values(motor, drive, v);
   if (!(motor->damping_ratio > 0) && !(drive->frequency_difference < 0) && !(drive->frequency_difference > 0))
     return TRUM_UNDAMPED;
-  status = trum_stator(motor, drive, point, v);
+  status = trum_stator(motor, drive, TRUM_LEVEL_amplitude(drive) == TRUM_AMPLITUDE_MEASURED, point, v);
   if (status != TRUM_OK) return status;
   W = v[trum_at_W];
   status = trum_begin_cycle(drive, v);
@@ -312,5 +317,8 @@ enum trum_status trum_simulate(const struct trum_motor* motor, const struct trum
 
 #ifdef __cplusplus
 }
+#endif
+#ifdef TRUM_COUPLED
+#include "trum_coupled_point.h"
 #endif
 #endif

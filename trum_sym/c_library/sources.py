@@ -15,11 +15,7 @@ _PACKAGE = Path(__file__).parents[1]
 _INSTALLED = _PACKAGE / "data" / "c"
 _TREE = _PACKAGE.parent
 _OTHERS = {
-    "trum_coupled.h",
-    "trum_coupled_step.h",
-    "trum_coupled_calls.h",
     "trum_coupled_lanes.h",
-    "trum_runge_kutta.h",
     "trum_lanes.h",
     "trum_elementary.h",
     "trum_fixed_grid.h",

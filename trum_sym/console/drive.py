@@ -24,7 +24,7 @@ __all__ = ["drive"]
 
 @click.command(
     epilog=examples(
-        "trum-sym drive --compliance flange",
+        "trum-sym drive --compliance flange --certify",
         "trum-sym drive --schedule burst --periods 200 --on-periods 1 --load-torque 0 --set rotor_mass=0",
         "trum-sym drive --schedule continuous --phase-difference '5 deg' --load-torque 0.05 --compliance flange",
         "trum-sym drive --compliance flange --sampling-period '2 ms' --plot drive.png",
@@ -35,6 +35,7 @@ __all__ = ["drive"]
 @number_option("--sampling-period", "s", None, "Averaging period of the speed's encoder.  [default: none]", "S")
 @number_option("--samples-per-period", "1", 8, "Parts of a drive period, for encoder and picture.", "K")
 @number_option("--tolerance", "1", 1e-6, "Largest error of speeds over the largest speed, 1e-9 to 1e-2.", "T")
+@click.option("--certify", is_flag=True, help="Say what is certain of the orbit; takes about as long again.")
 @plot_options("Draw the rotor's speed and the wave over the orbit")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object instead of a table; SI units, speeds in rad/s.")
 def drive(
@@ -45,6 +46,7 @@ def drive(
     sampling_period: float | None,
     samples_per_period: float,
     tolerance: float,
+    certify: bool,
     plot: Path | None,
     force: bool,
     as_json: bool,
@@ -72,6 +74,7 @@ def drive(
         sampling_period=sampling_period,
         samples_per_period=samples_per_period,
         tolerance=tolerance,
+        certify=certify,
         **levels,
     )
     say(found.to_json() if as_json else found.to_text())

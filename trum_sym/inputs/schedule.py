@@ -16,10 +16,12 @@ from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.points import one_number
 from trum_sym.values import Value
 
-__all__ = ["SCHEDULES", "Schedule"]
+__all__ = ["SCHEDULES", "TERMINALS", "Schedule", "Terminals"]
 
 Kind = Literal["pulses", "burst", "single", "continuous"]
 SCHEDULES: tuple[Kind, ...] = get_args(Kind)
+Terminals = Literal["short", "open"]
+TERMINALS: tuple[Terminals, ...] = get_args(Terminals)
 
 _COUNT = Domain(low=1, low_open=False, high=1e8, integer=True)
 _QUARTER = math.pi / 2
@@ -34,8 +36,7 @@ def _number(default: float | None, unit: str, domain: Domain, text: str, metavar
 class Schedule(Value):
     """Which phase is driven in which drive period of a cycle, how far apart both are, and by what voltage.
 
-    Both phases are driven at one frequency.  A phase that is off has its terminals shorted: no modal force, and no
-    stiffness of charges that stay.
+    Both phases are driven at one frequency.
 
     Parameters
     ----------
@@ -50,6 +51,10 @@ class Schedule(Value):
         Of A, over the voltage that the level ``amplitude`` is of.
     ratio : float
         Voltage of B over that of A.
+    off_terminals : {"short", "open"}
+        Of a phase that is off.  Short, it has no modal force; open, it keeps the charge that voltage and displacement
+        leave at that instant, or none where it is never driven, which stiffens it and holds it aside.  A burst's are
+        short: what comes to rest then is a wave that nothing holds aside.
 
     Raises
     ------
@@ -85,6 +90,9 @@ class Schedule(Value):
     ratio: float = _number(
         1.0, "1", Domain(low=0.0, low_open=False, high=10.0, high_open=False), "Voltage of B over that of A.", "SHARE"
     )
+    off_terminals: Terminals = field(
+        default=TERMINALS[0], metadata={"words": TERMINALS, "text": "Terminals of a phase that is off."}
+    )
 
     def __post_init__(self) -> None:
         """Checks and stores every number as a float."""
@@ -93,6 +101,10 @@ class Schedule(Value):
             name, about = quantity.name, quantity.metadata
             if "unit" in about and quantity.default is not None:
                 object.__setattr__(self, name, one_number(name, getattr(self, name), about["unit"], about["domain"]))
+        choice("off_terminals", self.off_terminals, TERMINALS)
+        if self.off_terminals == "open" and self.kind in ("burst", "continuous"):
+            why = "no phase is off" if self.kind == "continuous" else "a charge would hold the wave aside at rest"
+            raise ParameterError("off_terminals", "open", f"short where the schedule is {self.kind}: {why}")
         for name in ("periods", "on_periods"):
             given = getattr(self, name)
             if given is None and self.kind == "burst":
@@ -158,6 +170,11 @@ class Schedule(Value):
         return {
             "m": float(m),
             **dict(zip(("off_A", "on_A", "off_B", "on_B"), map(float, off), strict=True)),
+            # at the cycle's end, where what is off does not come back to it holds no charge
+            "driven_A": float(not off[0] < m <= off[1]),
+            "driven_B": float(not off[2] < m <= off[3]),
+            "pull_A": 0.0,
+            "pull_B": 0.0,
             "force_A": self.voltage,
             "force_B_along": 0.0 if quarter else of_B * math.cos(self.phase_difference),
             "force_B_ahead": lead * of_B * (1.0 if quarter else math.sin(self.phase_difference)),

@@ -24,6 +24,7 @@ from trum_sym.inputs.schedule import Schedule
 from trum_sym.model.coupling import coupled_values, held_wave
 from trum_sym.model.kernels import call
 from trum_sym.model.levels import Levels
+from trum_sym.model.port import open_stiffness
 from trum_sym.values import Value
 
 __all__ = [
@@ -61,14 +62,14 @@ _CLOSED = 3000.0  # of what a time step may be off, by which a lap may miss its 
 _FINER = 32.0  # times at the next levels
 _FINE = 1e-7  # where laps close if they ever do
 _FINEST = 1e-13
-_ORDERS = (0.7, 1.0)  # of an error in what a step may be off: the least and the most that is believed
-_SAFETY = np.array([20.0, 20.0, 20.0, 20.0, 50.0, 30.0, 20.0])
-"""Of the errors of ``_NAMED``; time steps are not chosen by the contact's width.  studies/coupling.py tries it."""
-_SHARE = 0.1  # of the largest error of a speed, that each has at least
+ORDERS = (0.7, 1.0)  # of an error in what a step may be off: the least and the most that is believed
+SAFETY = np.array([20.0, 20.0, 20.0, 20.0, 50.0, 30.0, 20.0])
+"""Of the errors of ``NAMED``; time steps are not chosen by the contact's width.  studies/coupling.py tries it."""
+SHARE = 0.1  # of the largest error of a speed, that each has at least
 _STEP = 1e-2  # that a lap's time step may be off where no orbit is asked for, over the figures' tolerance
 _TOLERANCE = Domain(low=1e-9, low_open=False, high=1e-2, high_open=False)
 _MASS = Domain(low=0.0, low_open=False, high=10.0)
-_NAMED = ("mean_speed", "min_speed", "max_speed", "deviation", "contact_fraction", "highest_wave", "input_power")
+NAMED = ("mean_speed", "min_speed", "max_speed", "deviation", "contact_fraction", "highest_wave", "input_power")
 _SUMMED = ("mean", "low", "high", "variance", "touching", "highest", "input")
 
 Complex = np.ndarray[tuple[int, ...], np.dtype[np.complex128]]
@@ -180,7 +181,8 @@ def lap_values(
     Raises
     ------
     ParameterError
-        As :func:`trum_sym.model.coupling.coupled_values` does, but for pulses.
+        As :func:`trum_sym.model.coupling.coupled_values` does, but for pulses; as
+        :func:`trum_sym.model.port.open_stiffness` does where terminals are open.
     """
     if drive.start != "periodic":
         raise ParameterError("start", drive.start, "periodic where coupling is contact: cycles follow each other")
@@ -195,9 +197,11 @@ def lap_values(
     values = coupled_values(motor, plain, Levels(**{**vars(levels), "coupling": "contact"}))
     prescribed = _swing({**values, "omega_n0": values["omega_n"]})
     mass = values["m_r"] if rotor_mass is None else rotor_mass
+    chosen = Schedule() if schedule is None else schedule
     return {
         **{name: float(value) for name, value in values.items()},
-        **(Schedule() if schedule is None else schedule).symbols(drive),
+        **chosen.symbols(drive),
+        "K_o": open_stiffness(values) if chosen.off_terminals == "open" else 0.0,
         "held": held_wave(values) if reaction else 0.0,
         "mass": one_number("rotor_mass", mass, "kg", _MASS),
         "reaction": float(reaction),
@@ -251,7 +255,7 @@ def random_start(values: Mapping[str, float], at: np.random.Generator) -> Array:
 
 
 @dataclass(frozen=True)
-class _Lap:
+class Lap:
     """Laps one after another.
 
     Attributes
@@ -259,7 +263,7 @@ class _Lap:
     state, end : (7,) array
         Where they begin and end, in SI.
     figures : (7,) array
-        As ``_NAMED``, speeds in m/s.
+        As ``NAMED``, speeds in m/s.
     slopes : (k + 1, k) array
         Of the end's k free numbers, in their sizes, and of the mean speed, in m/s, by those of the start.
     gap : (k,) array
@@ -285,7 +289,7 @@ class _Lap:
         return np.asarray(np.linalg.eigvals(square), np.complex128)
 
 
-class _System:
+class LapSystem:
     """Laps of one point, in sizes of its state."""
 
     def __init__(self, values: Mapping[str, float]) -> None:
@@ -300,7 +304,7 @@ class _System:
         found = call("coupled_lap", {**self.values, "tolerance": allowed, **start})
         return np.array([found[name] for name in STATE])
 
-    def around(self, state: Array, cycles: int, allowed: float) -> _Lap:
+    def around(self, state: Array, cycles: int, allowed: float) -> Lap:
         """So many laps with their slopes."""
         of_state, of_mean = np.eye(self.free.size), np.zeros(self.free.size)
         rows, at = [], state
@@ -316,9 +320,9 @@ class _System:
         held = np.setdiff1d(np.arange(len(STATE)), self.free)
         state = state.copy()
         state[held] = at[held]  # what follows from the others
-        return _Lap(state, at, _figures(np.array(rows)), np.vstack([of_state, of_mean]), gap)
+        return Lap(state, at, _figures(np.array(rows)), np.vstack([of_state, of_mean]), gap)
 
-    def orbit(self, state: Array, cycles: int, allowed: float) -> _Lap:
+    def orbit(self, state: Array, cycles: int, allowed: float) -> Lap:
         """The laps that come nearest to their start, by Newton from a state."""
         best = lap = self.around(state, cycles, allowed)
         for step in range(_NEWTON):
@@ -332,26 +336,26 @@ class _System:
             best = lap if lap.missed < best.missed else best
         return best
 
-    def first(self, state: Array, cycles: int) -> _Lap:
+    def first(self, state: Array, cycles: int) -> Lap:
         """Laps next to a state that close at the first level, by Newton with coarser steps and then with its own."""
         lap = self.orbit(state, cycles, _COARSE)
         return self.orbit(lap.state, cycles, _FIRST) if self.closed(lap, _COARSE) else lap
 
-    def closed(self, lap: _Lap, allowed: float) -> bool:
+    def closed(self, lap: Lap, allowed: float) -> bool:
         """Whether laps end where they began, as nearly as time steps tell."""
         return lap.missed < min(max(_CLOSED * allowed, _TIGHT), _LOOSE)
 
-    def attracts(self, lap: _Lap, allowed: float) -> bool:
+    def attracts(self, lap: Lap, allowed: float) -> bool:
         """Whether laps close, as nearly as time steps tell, where Newton leaves them, and disturbances die out."""
         if not (self.closed(lap, allowed) and float(np.abs(lap.multipliers).max()) < 1):
             return False
         return float(np.abs(self.newton(lap)).max()) < _NEAR
 
-    def newton(self, lap: _Lap) -> Array:
+    def newton(self, lap: Lap) -> Array:
         """By how much the start has to change for the laps to close, were their slopes to stay."""
         return np.asarray(np.linalg.lstsq(np.eye(self.free.size) - lap.slopes[:-1], lap.gap, rcond=None)[0], float)
 
-    def missing(self, lap: _Lap) -> Array:
+    def missing(self, lap: Lap) -> Array:
         """Twice what figures miss because laps do not quite close: the mean by its slopes, the others by sizes."""
         change, (_, _, _, _, height, speed, rim) = self.newton(lap), self.sizes
         sizes = np.array([0.0, rim, rim, rim, 1.0, height, self.values["F_q"] * speed])
@@ -363,7 +367,7 @@ class _System:
         """By which errors of speeds are measured: the rotor's largest, or a thousandth of the surface's."""
         return max(float(np.abs(figures[1:3]).max()), float(self.sizes[-1]) / 1000)
 
-    def settled(self, state: Array, settling: int, allowed: float) -> tuple[list[Array], _Lap | None]:
+    def settled(self, state: Array, settling: int, allowed: float) -> tuple[list[Array], Lap | None]:
         """The states after each of some laps, and the orbit that attracts them if one is seen before they are over."""
         tried, states = 2 * _NEAR, [state]
         for _ in range(settling):
@@ -378,7 +382,7 @@ class _System:
                 break
         return states, None
 
-    def several(self, states: list[Array]) -> tuple[int, _Lap] | None:
+    def several(self, states: list[Array]) -> tuple[int, Lap] | None:
         """An attracting orbit over two or three cycles, and none of one, from where laps come back most nearly."""
         for cycles in range(2, _CYCLES + 1):
             pairs = list(zip(states, states[cycles:]))  # noqa: B905
@@ -403,6 +407,11 @@ def _figures(rows: Array) -> Array:
     return np.array([*ends, touching.mean(), highest.max(), power.mean()])
 
 
+def figures_in_units(figures: Array, values: Mapping[str, float]) -> Array:
+    """As a result has them, by ``NAMED``: speeds are the rotor's."""
+    return np.asarray(figures * np.array([1 / values["r_c"]] * 4 + [1.0] * 3))
+
+
 def orbit_from(values: Mapping[str, float], start: Array, name: str, settling: int | None = None) -> CoupledOrbit:
     """The orbit that laps from a state lead to.
 
@@ -418,7 +427,7 @@ def orbit_from(values: Mapping[str, float], start: Array, name: str, settling: i
         Laps before Newton, at most, those of 2000 drive periods if not given, and as many again with finer time steps
         if they do not settle: it begins where laps hardly change and an orbit that attracts is near.
     """
-    system = _System(values)
+    system = LapSystem(values)
     most = math.ceil(_SETTLING / values["m"]) if settling is None else settling
     states, lap = [np.array(start, float)], None
     for allowed in _ROUGH:
@@ -433,10 +442,10 @@ def orbit_from(values: Mapping[str, float], start: Array, name: str, settling: i
     return orbit
 
 
-def _refined(system: _System, lap: _Lap, cycles: int, settled: Array, name: str) -> CoupledOrbit:
+def _refined(system: LapSystem, lap: Lap, cycles: int, settled: Array, name: str) -> CoupledOrbit:
     """An orbit at finer and finer time steps, until its errors are as small as wanted."""
     wanted, allowed = system.values["wanted"], _FIRST
-    levels, errors, met, finer = _Levels(allowed, lap.figures), np.full(len(_NAMED), np.nan), False, lap
+    levels, errors, met, finer = _Levels(allowed, lap.figures), np.full(len(NAMED), np.nan), False, lap
     closed = False
     while allowed > _FINEST and not met:
         allowed = levels.next(allowed, wanted * system.speed(lap.figures))
@@ -451,10 +460,10 @@ def _refined(system: _System, lap: _Lap, cycles: int, settled: Array, name: str)
             break
     missed, multipliers = finer.missed, finer.multipliers
     if not closed:
-        errors = np.full(len(_NAMED), np.nan)
+        errors = np.full(len(NAMED), np.nan)
         lap = system.around(settled, cycles, allowed)
-    scale = np.array([1 / system.values["r_c"]] * 4 + [1.0] * 3)
-    figures, off = (dict(zip(_NAMED, map(float, of * scale), strict=True)) for of in (lap.figures, errors))
+    in_units = (figures_in_units(of, system.values) for of in (lap.figures, errors))
+    figures, off = (dict(zip(NAMED, map(float, of), strict=True)) for of in in_units)
     return CoupledOrbit(
         start=name,
         state=lap.state,
@@ -497,10 +506,10 @@ class _Levels:
         else:
             fell = float(self.first[:4].max()) / max(float(change[:4].max()), 1e-300)
             span = self.allowed[0] / self.allowed[-1]
-            self.order = float(np.clip(np.log(max(fell, 1e-300)) / np.log(span), *_ORDERS))
+            self.order = float(np.clip(np.log(max(fell, 1e-300)) / np.log(span), *ORDERS))
             before = self.last / ((self.allowed[-2] / self.allowed[-1]) ** self.order - 1) / gain**self.order
-            self.errors = _SAFETY * np.maximum(change / (gain**self.order - 1), before)
-            self.errors[:4] = np.maximum(self.errors[:4], _SHARE * self.errors[:4].max())
+            self.errors = SAFETY * np.maximum(change / (gain**self.order - 1), before)
+            self.errors[:4] = np.maximum(self.errors[:4], SHARE * self.errors[:4].max())
         self.allowed, self.figures, self.last, self.count = [*self.allowed, allowed], figures, change, self.count + 1
         return self.count > 1
 
@@ -548,7 +557,7 @@ def same_orbit(values: Mapping[str, float], one: CoupledOrbit, other: CoupledOrb
     """Whether two orbits are one, perhaps begun a cycle or two apart."""
     if not (one.closed and other.closed and one.cycles == other.cycles):
         return False
-    system, state = _System(values), other.state
+    system, state = LapSystem(values), other.state
     for _ in range(one.cycles):
         if system.distance(one.state, state) < _APART:
             return True

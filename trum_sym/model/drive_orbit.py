@@ -27,6 +27,7 @@ from trum_sym.inputs.units import ARCSEC
 from trum_sym.model.coupled_orbit import STARTS, STATE, CoupledOrbit, lap_values, laps, orbit_from, start_of
 from trum_sym.model.inputs import Inputs
 from trum_sym.model.levels import LevelChoice, Levels
+from trum_sym.model.orbit_certificate import OrbitCertificate, certificate_of
 from trum_sym.output.digits import with_error
 from trum_sym.output.result import Result
 from trum_sym.output.text_table import text_table
@@ -75,7 +76,8 @@ def history_of(values: Mapping[str, float], state: Array, gates: Array, samples:
     Parameters
     ----------
     values : mapping
-        From :func:`trum_sym.model.coupled_orbit.lap_values`; its own gates do not count.
+        From :func:`trum_sym.model.coupled_orbit.lap_values`; of its own gates only what they are at the cycle's end
+        counts, before the motion.
     state : (7,) array
         At the start.
     gates : (m, 2) array
@@ -86,6 +88,7 @@ def history_of(values: Mapping[str, float], state: Array, gates: Array, samples:
     span = 2 * np.pi / values["omega_q"]
     always = {"off_A": 0.0, "off_B": 0.0}
     ends, times, paths, powers, driven = [state], [0.0], [0.0], [], []
+    before = {name: values[name] for name in ("driven_A", "driven_B", "pull_A", "pull_B")}
     changes = np.flatnonzero(np.any(np.diff(gates, axis=0) != 0, axis=1)) + 1
     period = 0
     while period < len(gates):
@@ -97,8 +100,10 @@ def history_of(values: Mapping[str, float], state: Array, gates: Array, samples:
             gate = {"on_A": parts[0], "on_B": parts[0]}
         for k, part in enumerate(parts):
             turned = values["force_phase"] + 2 * np.pi * k / samples
-            now = {**values, **always, **gate, "m": float(part), "force_phase": turned}
+            now = {**values, **always, **gate, **before, "m": float(part), "force_phase": turned}
             end, lap = laps(now, ends[-1][:, np.newaxis])
+            before = {"driven_A": gates[period, 0], "driven_B": gates[period, 1]}
+            before |= {name: float(lap[name][0]) for name in ("pull_A", "pull_B")}
             ends.append(end[:, 0])
             times.append(period + float(parts[: k + 1].sum()))
             paths.append(paths[-1] + float(lap["mean"][0]) * float(part) * span)
@@ -169,6 +174,8 @@ class DriveOrbit(Result, Value):
         Standard deviation, least and largest of what the encoder reads; None without a sampling period.
     inputs : Inputs
         Motor, drive, levels and sampling period.
+    certificate : OrbitCertificate or None
+        Whether the orbit is there, alone and stable for certain; None if it was not asked for.
 
     Examples
     --------
@@ -186,6 +193,7 @@ class DriveOrbit(Result, Value):
     encoder_low: float | None
     encoder_high: float | None
     inputs: Inputs = field(repr=False)
+    certificate: OrbitCertificate | None = None
 
     def to_dict(self) -> dict[str, Any]:
         """Schedule, figures and inputs by name, in SI units; multipliers by their size."""
@@ -199,6 +207,7 @@ class DriveOrbit(Result, Value):
             "converged": self.converged,
             "largest_multiplier": float(np.abs(self.orbit.multipliers).max()),
             **{name: getattr(self, name) for name in ("encoder_deviation", "encoder_low", "encoder_high")},
+            **({} if self.certificate is None else {"certificate": _record(self.certificate)}),
         }
 
     @property
@@ -226,13 +235,16 @@ class DriveOrbit(Result, Value):
             f"{float(drive.frequency_difference):+.10g} Hz, {drive.load_text()}"
         )
         table = text_table(rows, ("", "value", "+-", "unit"), "lrll")
-        return f"{title}\nfrom {orbit.start}: {state}\n\n{table}"
+        certain = "" if self.certificate is None else f"\n{_certainty(self.certificate)}"
+        return f"{title}\nfrom {orbit.start}: {state}{certain}\n\n{table}"
 
     def _schedule(self) -> str:
         """The schedule in words."""
         schedule = self.schedule
         m, n = schedule.counts(self.inputs.drive)
         found = [schedule.kind + (f", {n} of {m} periods on" if schedule.kind in ("pulses", "burst") else "")]
+        if schedule.off_terminals != "short":
+            found.append(f"{schedule.off_terminals} terminals when off")
         plain = Schedule()
         for name, unit, scale in (("phase_difference", "deg", math.degrees(1.0)), ("voltage", "", 1), ("ratio", "", 1)):
             if getattr(schedule, name) != getattr(plain, name):
@@ -250,6 +262,24 @@ _SHOWN = (
     ("input_power", "input power", "W", 1.0),
 )
 _READ = ("encoder's deviation", "its least reading", "its largest reading")
+
+
+def _certainty(found: OrbitCertificate) -> str:
+    """A certificate in words."""
+    if not found.certified:
+        return f"not certified: {found.reason}"
+    stable = "stable for certain" if found.stable else "not stable for certain"
+    return (
+        f"certified: begins within {found.radius:.2g} of the state's size, alone within {found.alone_within:.2g}, "
+        f"mean +- {found.mean_speed_error / ARCSEC:.2g} arcsec/s, {stable}"
+    )
+
+
+def _record(found: OrbitCertificate) -> dict[str, Any]:
+    """A certificate's numbers and words by name; multipliers by their size."""
+    skip = ("state_error", "multipliers", "multiplier_error")
+    kept = {name: value for name, value in vars(found).items() if name not in skip}
+    return {**kept, "largest_multiplier_error": float(np.max(found.multiplier_error, initial=0.0))}
 
 
 def _values(
@@ -291,6 +321,7 @@ def drive_orbit(
     sampling_period: float | str | None = None,
     samples_per_period: float = 8,
     tolerance: float = 1e-6,
+    certify: bool = False,
     **levels: Unpack[LevelChoice],
 ) -> DriveOrbit:
     """The cycle that any drive comes back to, with the rotor's reaction on the wave (docs/coupling.md).
@@ -312,6 +343,9 @@ def drive_orbit(
         Parts of a drive period between which the rotor's path is taken for the encoder.
     tolerance : float
         Of mean, lowest and highest speed over the largest, 1e-9 to 1e-2.
+    certify : bool
+        Whether to look for what is certain of the orbit (:mod:`trum_sym.model.orbit_certificate`), which takes about
+        as long as the orbit.
     contact, resonance, foundation, amplitude, compliance, tangential, coupling
         Levels, as for :func:`trum_sym.evaluate`; ``coupling`` is ``contact`` here.
 
@@ -348,9 +382,9 @@ def drive_orbit(
     first = laps(values, begun[:, np.newaxis])[0][:, 0]
     again = np.array_equal(first[_MOVING], begun[_MOVING]) and not values["mass"]  # all has come to rest
     settling = 0 if again else None
-    return _answer(
-        values, orbit_from(values, begun, start, settling), chosen, samples, motor, drive, chosen_levels, period
-    )
+    orbit = orbit_from(values, begun, start, settling)
+    found = _answer(values, orbit, chosen, samples, motor, drive, chosen_levels, period)
+    return replace(found, certificate=certificate_of(values, orbit)) if certify else found
 
 
 def _samples(samples_per_period: object) -> int:
@@ -396,7 +430,7 @@ def drive_history(
     cycles : whole number
         Of the schedule, from rest.
     pause : whole number
-        Drive periods after them with both phases off.
+        Drive periods after them with both phases off; none where their terminals are open.
     samples_per_period : whole number
         Of each drive period in which anything moves.
     contact, resonance, foundation, amplitude, compliance, tangential, coupling
@@ -428,5 +462,8 @@ def drive_history(
     repeats = int(one_number("cycles", cycles, "1", _COUNT))
     still = int(one_number("pause", pause, "1", _PAUSE))
     chosen, values = _values(motor, drive, schedule, chosen_levels, rotor_mass, tolerance)
+    if still and chosen.off_terminals == "open":
+        raise ParameterError("pause", pause, "0 where off_terminals is open: charges would hold the wave aside at rest")
     gates = np.concatenate([np.tile(chosen.gates(drive), (repeats, 1)), np.zeros((still, 2))])
+    values |= {"driven_A": 0.0, "driven_B": 0.0}  # nothing was before: no charge is held
     return history_of(values, start_of("rest", values), gates, samples)

@@ -16,7 +16,7 @@ from trum_sym.inputs.checks import Array, ArrayLike
 from trum_sym.model.coupling import PlainWaves
 from trum_sym.model.kernels import call
 
-__all__ = ["Drawn", "Port", "drawn", "free_admittance", "has_port", "port_of"]
+__all__ = ["Drawn", "Port", "drawn", "free_admittance", "has_port", "open_stiffness", "port_of"]
 
 Values = Mapping[str, ArrayLike]
 _TURN = 2 * np.pi
@@ -142,6 +142,22 @@ def port_of(values: Values) -> Port:
         open_resonance=circuit["omega_open"] / _TURN,
         coupling_factor=float(np.sqrt(circuit["k_eff_square"])),
     )
+
+
+def open_stiffness(values: Values) -> float:
+    """What the voltage of open electrodes adds to a phase's stiffness, N/m: force_factor^2 / capacitance.
+
+    Parameters
+    ----------
+    values
+        As for :func:`port_of`.
+
+    Raises
+    ------
+    ParameterError
+        As :func:`port_of` does.
+    """
+    return float(np.asarray(call("trum_port_open", _full(values))["K_o"]))
 
 
 def free_admittance(values: Values, frequencies: Array) -> tuple[Array, Array]:
