@@ -45,7 +45,7 @@ def test_a_lossy_layers_states_are_those_of_a_motion_in_time():
 
 
 def test_a_sheared_layers_states_are_those_of_elements_that_stick_and_slide():
-    """A sample; `python -m studies.layers shear 22` compares more, of more elements."""
+    """A sample; `python -m studies.layers shear 20` compares more, of more elements."""
     from studies.layers import shear_differences
 
     (rows,) = shear_differences(3, (60, 120))
