@@ -142,6 +142,19 @@ sin_crest   | 1        | r | \sin k_c x_{max} | ours | sine of the crest's place
 cos_crest   | 1        | r | \cos k_c x_{max} | ours | its cosine
 central     | N        | r | R_q | ours | modal force of the pressure against the height of the wave
 along       | N        | r | C_q | ours | friction's part in cos u over all crests, which holds the wave back
+across      | N        | r | S_q | ours | friction's part in sin u over all crests, along the height of the wave
+lossy       | N        | r | L_q | ours | the pressure's part in sin u over all crests, by which the layer takes power
+leaving     | rad      | + | \vartheta_l | ours | angle from a lossy layer's greatest pressure back to its end
+free        | rad      | + | \varphi_l | ours | angle by which the wave moves on while a lossy layer recovers freely
+u_in        | rad      | r | u_{in} | ours | where a lossy layer meets the surface, from the crest
+u_out       | rad      | r | u_{out} | ours | where it leaves
+zone_low    | rad      | r | u_- | ours | end of the driving zone behind the crest
+zone_high   | rad      | r | u_+ | ours | end of the driving zone ahead of the crest
+sheared     | rad      | r | \Sigma_1 | ours | integral of the bristles' stress over mu k_N W along the contact
+sheared_cos | 1        | r | \Sigma_c | ours | the same times cos u
+sheared_sin | 1        | r | \Sigma_s | ours | the same times sin u
+sheared_ratio | rad    | r | \Sigma_r | ours | rate of the first of these by the rotor's speed over the surface's
+level       | 1        | r | y_l | ours | height of the layer's surface over that of a stator at rest, over W
 v_A         | m/s      | r | \dot w_A | ours | velocity of phase A
 v_B         | m/s      | r | \dot w_B | ours | velocity of phase B
 """

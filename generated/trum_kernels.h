@@ -9,7 +9,7 @@
 #include "trum_math.h"
 
 /* SHA-256 of the expressions that the kernels are written from */
-#define TRUM_DERIVATIONS "dd0b9accabd202aca3629216fb1eaf89859f61bf03fb44381d8edbe34967247d"
+#define TRUM_DERIVATIONS "fc253283d91d5e10cb68e0665c85c189d3980454784a2ed7436db30def7d3661"
 
 #ifdef __cplusplus
 extern "C" {
@@ -134,6 +134,46 @@ enum { trum_coupled_instant_out_W_c, trum_coupled_instant_out_sin_crest, trum_co
 int trum_coupled_forces(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_coupled_forces_in_D, trum_coupled_forces_in_F_c, trum_coupled_forces_in_R_v, trum_coupled_forces_in_cos_crest, trum_coupled_forces_in_cos_phi, trum_coupled_forces_in_cos_theta, trum_coupled_forces_in_engagement, trum_coupled_forces_in_k_c, trum_coupled_forces_in_mu, trum_coupled_forces_in_phi, trum_coupled_forces_in_share, trum_coupled_forces_in_sin_crest, trum_coupled_forces_in_sin_phi, trum_coupled_forces_in_sin_theta, trum_coupled_forces_in_theta, trum_coupled_forces_in_v, trum_coupled_forces_n_arg };
 enum { trum_coupled_forces_out_F_z, trum_coupled_forces_out_F_x, trum_coupled_forces_out_Q_A, trum_coupled_forces_out_Q_B, trum_coupled_forces_n_res };
+
+/* Surface over a lossy layer that recovers freely */
+int trum_layer_meeting(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_layer_meeting_in_eta_m, trum_layer_meeting_in_free, trum_layer_meeting_in_leaving, trum_layer_meeting_n_arg };
+enum { trum_layer_meeting_out_gap, trum_layer_meeting_out_gap_free, trum_layer_meeting_out_u_in, trum_layer_meeting_out_u_out, trum_layer_meeting_n_res };
+
+/* What a lossy contact carries of the prepressure */
+int trum_layer_carried(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_layer_carried_in_engagement, trum_layer_carried_in_eta_m, trum_layer_carried_in_free, trum_layer_carried_in_leaving, trum_layer_carried_n_arg };
+enum { trum_layer_carried_out_carried, trum_layer_carried_out_carried_leaving, trum_layer_carried_out_share, trum_layer_carried_n_res };
+
+/* What the lossy contact of a plain wave does to the wave */
+int trum_layer_reaction(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_layer_reaction_in_F_c, trum_layer_reaction_in_engagement, trum_layer_reaction_in_eta_m, trum_layer_reaction_in_mu, trum_layer_reaction_in_share, trum_layer_reaction_in_u_in, trum_layer_reaction_in_u_out, trum_layer_reaction_in_zone_high, trum_layer_reaction_in_zone_low, trum_layer_reaction_n_arg };
+enum { trum_layer_reaction_out_f, trum_layer_reaction_out_f_alpha, trum_layer_reaction_out_central, trum_layer_reaction_out_lossy, trum_layer_reaction_out_along, trum_layer_reaction_out_across, trum_layer_reaction_n_res };
+
+/* Balance of a plain wave with a layer that loses or is sheared, and its resonance */
+int trum_layer_balance(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_layer_balance_in_D, trum_layer_balance_in_F_q, trum_layer_balance_in_M_q, trum_layer_balance_in_W, trum_layer_balance_in_across, trum_layer_balance_in_along, trum_layer_balance_in_central, trum_layer_balance_in_k_c, trum_layer_balance_in_lossy, trum_layer_balance_in_omega_n0, trum_layer_balance_in_omega_q, trum_layer_balance_in_xi, trum_layer_balance_n_arg };
+enum { trum_layer_balance_out_in_phase, trum_layer_balance_out_ahead, trum_layer_balance_out_residual, trum_layer_balance_out_lead, trum_layer_balance_out_omega_r, trum_layer_balance_n_res };
+
+/* Mean powers of a plain wave over such a layer */
+int trum_layer_powers(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_layer_powers_in_D, trum_layer_powers_in_F_c, trum_layer_powers_in_M_q, trum_layer_powers_in_W, trum_layer_powers_in_along, trum_layer_powers_in_f, trum_layer_powers_in_k_c, trum_layer_powers_in_lossy, trum_layer_powers_in_mu, trum_layer_powers_in_omega_n0, trum_layer_powers_in_omega_q, trum_layer_powers_in_v, trum_layer_powers_in_xi, trum_layer_powers_n_arg };
+enum { trum_layer_powers_out_P_in, trum_layer_powers_out_P_stator, trum_layer_powers_out_P_contact, trum_layer_powers_out_P_layer, trum_layer_powers_out_P_slip, trum_layer_powers_out_P_rotor, trum_layer_powers_n_res };
+
+/* Stress and limit of a bristle, their integrals times cos u and sin u */
+int trum_shear_passage(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_shear_passage_in_grip, trum_shear_passage_in_level, trum_shear_passage_in_ratio, trum_shear_passage_in_t_0, trum_shear_passage_in_u, trum_shear_passage_in_u_0, trum_shear_passage_n_arg };
+enum { trum_shear_passage_out_stress, trum_shear_passage_out_limit, trum_shear_passage_out_stuck, trum_shear_passage_out_slid, trum_shear_passage_out_stuck_cos, trum_shear_passage_out_stuck_sin, trum_shear_passage_out_slid_cos, trum_shear_passage_out_slid_sin, trum_shear_passage_out_stress_u, trum_shear_passage_out_limit_u, trum_shear_passage_out_stuck_ratio, trum_shear_passage_n_res };
+
+/* What the contact of a plain wave with bristles does to the wave */
+int trum_shear_reaction(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_shear_reaction_in_F_c, trum_shear_reaction_in_engagement, trum_shear_reaction_in_mu, trum_shear_reaction_in_share, trum_shear_reaction_in_sheared, trum_shear_reaction_in_sheared_cos, trum_shear_reaction_in_sheared_ratio, trum_shear_reaction_in_sheared_sin, trum_shear_reaction_in_theta, trum_shear_reaction_n_arg };
+enum { trum_shear_reaction_out_f, trum_shear_reaction_out_f_ratio, trum_shear_reaction_out_central, trum_shear_reaction_out_along, trum_shear_reaction_out_across, trum_shear_reaction_n_res };
+
+/* Height of the wave up to which all of the layer sticks */
+int trum_stuck_layer(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_stuck_layer_in_F_c, trum_stuck_layer_in_f, trum_stuck_layer_in_grip, trum_stuck_layer_in_k_N, trum_stuck_layer_in_k_c, trum_stuck_layer_in_n_j, trum_stuck_layer_n_arg };
+enum { trum_stuck_layer_out_W_stick, trum_stuck_layer_out_sheared_sin, trum_stuck_layer_out_ratio_most, trum_stuck_layer_n_res };
 
 /* Force factor of a phase for its modal force, and its capacitance */
 int trum_port(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
@@ -331,6 +371,14 @@ enum { trum_interface_out_v_x, trum_interface_out_v_x_slope, trum_interface_out_
   X(trum_mode_flow, 3, 4, "omega_n0 tau xi", "w_w w_v v_w v_v") \
   X(trum_coupled_instant, 10, 12, "D F_c height k_N k_c n_j v_A v_B w_A w_B", "W_c sin_crest cos_crest R_v phi cos_phi sin_phi theta sin_theta cos_theta engagement share") \
   X(trum_coupled_forces, 16, 4, "D F_c R_v cos_crest cos_phi cos_theta engagement k_c mu phi share sin_crest sin_phi sin_theta theta v", "F_z F_x Q_A Q_B") \
+  X(trum_layer_meeting, 3, 4, "eta_m free leaving", "gap gap_free u_in u_out") \
+  X(trum_layer_carried, 4, 3, "engagement eta_m free leaving", "carried carried_leaving share") \
+  X(trum_layer_reaction, 9, 6, "F_c engagement eta_m mu share u_in u_out zone_high zone_low", "f f_alpha central lossy along across") \
+  X(trum_layer_balance, 12, 5, "D F_q M_q W across along central k_c lossy omega_n0 omega_q xi", "in_phase ahead residual lead omega_r") \
+  X(trum_layer_powers, 13, 6, "D F_c M_q W along f k_c lossy mu omega_n0 omega_q v xi", "P_in P_stator P_contact P_layer P_slip P_rotor") \
+  X(trum_shear_passage, 6, 11, "grip level ratio t_0 u u_0", "stress limit stuck slid stuck_cos stuck_sin slid_cos slid_sin stress_u limit_u stuck_ratio") \
+  X(trum_shear_reaction, 9, 5, "F_c engagement mu share sheared sheared_cos sheared_ratio sheared_sin theta", "f f_ratio central along across") \
+  X(trum_stuck_layer, 6, 3, "F_c f grip k_N k_c n_j", "W_stick sheared_sin ratio_most") \
   X(trum_port, 10, 2, "F_q U_s b_p c_p d_31 eps_33T h_p k_c n_j s_11E", "Theta_q C_0") \
   X(trum_port_circuit, 5, 5, "C_0 M_q Theta_q omega_n0 xi", "L_m C_m R_m omega_open k_eff_square") \
   X(trum_port_open, 2, 1, "C_0 Theta_q", "K_o") \

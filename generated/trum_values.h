@@ -42,6 +42,7 @@ enum {
   trum_at_P_dielectric,
   trum_at_P_electric,
   trum_at_P_in,
+  trum_at_P_layer,
   trum_at_P_reactive,
   trum_at_P_rotor,
   trum_at_P_slip,
@@ -74,6 +75,7 @@ enum {
   trum_at_W_full_winkler,
   trum_at_W_max,
   trum_at_W_maxf,
+  trum_at_W_stick,
   trum_at_a,
   trum_at_a_A,
   trum_at_a_A_Delta_omega,
@@ -89,6 +91,7 @@ enum {
   trum_at_a_B_end,
   trum_at_a_B_omega_n,
   trum_at_a_B_redu,
+  trum_at_across,
   trum_at_ahead,
   trum_at_along,
   trum_at_alpha,
@@ -113,6 +116,8 @@ enum {
   trum_at_b_s,
   trum_at_beta,
   trum_at_c_p,
+  trum_at_carried,
+  trum_at_carried_leaving,
   trum_at_central,
   trum_at_conductance,
   trum_at_cos_crest,
@@ -130,6 +135,7 @@ enum {
   trum_at_engagement_per_height,
   trum_at_eps_33T,
   trum_at_eq6,
+  trum_at_eta_m,
   trum_at_euler,
   trum_at_f,
   trum_at_f_A_im,
@@ -148,11 +154,15 @@ enum {
   trum_at_f_alpha,
   trum_at_f_n,
   trum_at_f_phi,
+  trum_at_f_ratio,
   trum_at_f_v,
+  trum_at_free,
   trum_at_fullness,
   trum_at_fullness_root,
   trum_at_g_A,
   trum_at_g_B,
+  trum_at_gap,
+  trum_at_gap_free,
   trum_at_grip,
   trum_at_h_e,
   trum_at_h_f,
@@ -194,7 +204,11 @@ enum {
   trum_at_l_f,
   trum_at_l_s,
   trum_at_lead,
+  trum_at_leaving,
+  trum_at_level,
   trum_at_limit,
+  trum_at_limit_u,
+  trum_at_lossy,
   trum_at_m,
   trum_at_mu,
   trum_at_mu_e,
@@ -238,6 +252,7 @@ enum {
   trum_at_r_s,
   trum_at_r_t,
   trum_at_ratio,
+  trum_at_ratio_most,
   trum_at_re,
   trum_at_re_A_add,
   trum_at_re_A_add_Delta_omega,
@@ -266,16 +281,26 @@ enum {
   trum_at_s,
   trum_at_s_11E,
   trum_at_share,
+  trum_at_sheared,
+  trum_at_sheared_cos,
+  trum_at_sheared_ratio,
+  trum_at_sheared_sin,
   trum_at_sin_crest,
   trum_at_sin_phi,
   trum_at_sin_theta,
   trum_at_slid,
+  trum_at_slid_cos,
+  trum_at_slid_sin,
   trum_at_slope,
   trum_at_smeared,
   trum_at_span,
   trum_at_step,
   trum_at_stress,
+  trum_at_stress_u,
   trum_at_stuck,
+  trum_at_stuck_cos,
+  trum_at_stuck_ratio,
+  trum_at_stuck_sin,
   trum_at_susceptance,
   trum_at_swing,
   trum_at_t_0,
@@ -291,6 +316,8 @@ enum {
   trum_at_traction,
   trum_at_u,
   trum_at_u_0,
+  trum_at_u_in,
+  trum_at_u_out,
   trum_at_v,
   trum_at_v_A,
   trum_at_v_B,
@@ -309,6 +336,8 @@ enum {
   trum_at_xi,
   trum_at_zeta_x,
   trum_at_zeta_z,
+  trum_at_zone_high,
+  trum_at_zone_low,
   TRUM_VALUES
 };
 
@@ -455,6 +484,54 @@ static inline void trum_call_coupled_forces(trum_real* v) {
   const trum_real* arg[trum_coupled_forces_n_arg] = {v + trum_at_D, v + trum_at_F_c, v + trum_at_R_v, v + trum_at_cos_crest, v + trum_at_cos_phi, v + trum_at_cos_theta, v + trum_at_engagement, v + trum_at_k_c, v + trum_at_mu, v + trum_at_phi, v + trum_at_share, v + trum_at_sin_crest, v + trum_at_sin_phi, v + trum_at_sin_theta, v + trum_at_theta, v + trum_at_v};
   trum_real* res[trum_coupled_forces_n_res] = {v + trum_at_F_z, v + trum_at_F_x, v + trum_at_Q_A, v + trum_at_Q_B};
   (void)trum_coupled_forces(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_layer_meeting(trum_real* v) {
+  const trum_real* arg[trum_layer_meeting_n_arg] = {v + trum_at_eta_m, v + trum_at_free, v + trum_at_leaving};
+  trum_real* res[trum_layer_meeting_n_res] = {v + trum_at_gap, v + trum_at_gap_free, v + trum_at_u_in, v + trum_at_u_out};
+  (void)trum_layer_meeting(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_layer_carried(trum_real* v) {
+  const trum_real* arg[trum_layer_carried_n_arg] = {v + trum_at_engagement, v + trum_at_eta_m, v + trum_at_free, v + trum_at_leaving};
+  trum_real* res[trum_layer_carried_n_res] = {v + trum_at_carried, v + trum_at_carried_leaving, v + trum_at_share};
+  (void)trum_layer_carried(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_layer_reaction(trum_real* v) {
+  const trum_real* arg[trum_layer_reaction_n_arg] = {v + trum_at_F_c, v + trum_at_engagement, v + trum_at_eta_m, v + trum_at_mu, v + trum_at_share, v + trum_at_u_in, v + trum_at_u_out, v + trum_at_zone_high, v + trum_at_zone_low};
+  trum_real* res[trum_layer_reaction_n_res] = {v + trum_at_f, v + trum_at_f_alpha, v + trum_at_central, v + trum_at_lossy, v + trum_at_along, v + trum_at_across};
+  (void)trum_layer_reaction(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_layer_balance(trum_real* v) {
+  const trum_real* arg[trum_layer_balance_n_arg] = {v + trum_at_D, v + trum_at_F_q, v + trum_at_M_q, v + trum_at_W, v + trum_at_across, v + trum_at_along, v + trum_at_central, v + trum_at_k_c, v + trum_at_lossy, v + trum_at_omega_n0, v + trum_at_omega_q, v + trum_at_xi};
+  trum_real* res[trum_layer_balance_n_res] = {v + trum_at_in_phase, v + trum_at_ahead, v + trum_at_residual, v + trum_at_lead, v + trum_at_omega_r};
+  (void)trum_layer_balance(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_layer_powers(trum_real* v) {
+  const trum_real* arg[trum_layer_powers_n_arg] = {v + trum_at_D, v + trum_at_F_c, v + trum_at_M_q, v + trum_at_W, v + trum_at_along, v + trum_at_f, v + trum_at_k_c, v + trum_at_lossy, v + trum_at_mu, v + trum_at_omega_n0, v + trum_at_omega_q, v + trum_at_v, v + trum_at_xi};
+  trum_real* res[trum_layer_powers_n_res] = {v + trum_at_P_in, v + trum_at_P_stator, v + trum_at_P_contact, v + trum_at_P_layer, v + trum_at_P_slip, v + trum_at_P_rotor};
+  (void)trum_layer_powers(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_shear_passage(trum_real* v) {
+  const trum_real* arg[trum_shear_passage_n_arg] = {v + trum_at_grip, v + trum_at_level, v + trum_at_ratio, v + trum_at_t_0, v + trum_at_u, v + trum_at_u_0};
+  trum_real* res[trum_shear_passage_n_res] = {v + trum_at_stress, v + trum_at_limit, v + trum_at_stuck, v + trum_at_slid, v + trum_at_stuck_cos, v + trum_at_stuck_sin, v + trum_at_slid_cos, v + trum_at_slid_sin, v + trum_at_stress_u, v + trum_at_limit_u, v + trum_at_stuck_ratio};
+  (void)trum_shear_passage(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_shear_reaction(trum_real* v) {
+  const trum_real* arg[trum_shear_reaction_n_arg] = {v + trum_at_F_c, v + trum_at_engagement, v + trum_at_mu, v + trum_at_share, v + trum_at_sheared, v + trum_at_sheared_cos, v + trum_at_sheared_ratio, v + trum_at_sheared_sin, v + trum_at_theta};
+  trum_real* res[trum_shear_reaction_n_res] = {v + trum_at_f, v + trum_at_f_ratio, v + trum_at_central, v + trum_at_along, v + trum_at_across};
+  (void)trum_shear_reaction(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_stuck_layer(trum_real* v) {
+  const trum_real* arg[trum_stuck_layer_n_arg] = {v + trum_at_F_c, v + trum_at_f, v + trum_at_grip, v + trum_at_k_N, v + trum_at_k_c, v + trum_at_n_j};
+  trum_real* res[trum_stuck_layer_n_res] = {v + trum_at_W_stick, v + trum_at_sheared_sin, v + trum_at_ratio_most};
+  (void)trum_stuck_layer(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_port(trum_real* v) {

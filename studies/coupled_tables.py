@@ -9,6 +9,7 @@ Nothing is fitted; docs/coupling.md has what they print.
     python -m studies.coupled_tables branches
     python -m studies.coupled_tables starts 40
     python -m studies.coupled_tables spread 32
+    python -m studies.coupled_tables layers
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ from trum_sym.model.coupled_orbit import (
     same_orbit,
     start_of,
 )
-from trum_sym.model.coupling import coupled_values, plain_waves
+from trum_sym.model.coupling import coupled_values, plain_waves, standing
 from trum_sym.model.levels import Levels
 from trum_sym.paper.published import TABLE_2
 
@@ -256,10 +257,48 @@ def spread(count: int) -> None:
     print(tabulate(rows, ("rank correlation at", *names), floatfmt=".2f"))
 
 
+def layers() -> None:
+    """The plain wave at +500 Hz, 180 N: a layer that loses, one that is sheared, without load and loaded."""
+    rows = []
+    motor = ts.load_motor()
+    stall = float(motor.friction_coefficient.value) * 180.0 * float(motor.contact_radius.value)
+    for compliance in ("layer", "flange"):
+        for tangential, loss in (("rigid", 0.0), ("rigid", 0.05), ("rigid", 0.1), ("rigid", 0.2), ("brush", 0.0)):
+            machine = motor.with_values({"layer_loss_factor": loss})
+            levels = Levels(coupling="contact", compliance=compliance, tangential=tangential)  # type: ignore[arg-type]
+            found = []
+            for share in (0.0, 0.49):
+                drive = ts.Drive(on_periods=20, frequency_difference=500.0, load_torque=share * stall)
+                values = coupled_values(machine, drive, levels)
+                waves = plain_waves(values)
+                found.append((values, waves, waves.highest))
+            (values, free, at), (_, loaded, under) = found
+            height, force = standing(values)
+            rows.append(
+                (
+                    compliance,
+                    "sheared" if tangential == "brush" else f"{loss:g}",
+                    1e6 * free.amplitude[at],
+                    (free.resonance[at] - values["omega_n0"]) / _TURN,
+                    free.speed[at],
+                    free.layer_power[at],
+                    1e6 * loaded.amplitude[under],
+                    loaded.speed[under] / free.speed[at],
+                    loaded.layer_power[under],
+                    100 * loaded.output_power[under] / loaded.input_power[under],
+                    1e9 * height,
+                    force / values["F_q"] * values["U_s"],
+                )
+            )
+    head = ("contact", "layer", "um", "up, Hz", "rad/s", "lost, W", "um", "kept", "lost, W", "%", "stands, nm", "V")
+    print(tabulate(rows, head, floatfmt=".4g"))
+
+
 def main(arguments: list[str]) -> int:
     """Print one of the tables."""
     tables = {"table-2": table_2, "resonance": resonance, "table-3": table_3, "open": open_terminals}
     tables["branches"] = branches
+    tables["layers"] = layers
     counted = {"spread": (spread, 32), "starts": (starts, 40)}
     if arguments and arguments[0] in counted:
         run, usual = counted[arguments[0]]

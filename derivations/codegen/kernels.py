@@ -21,6 +21,7 @@ from derivations import (
     coupling,
     determinant,
     flange,
+    layer,
     phases,
     port,
     rotor,
@@ -213,6 +214,34 @@ def _coupling() -> list[Kernel]:
         ("trum_mode_flow", "Free motion of a phase: displacement and velocity after a time, of each", coupling.flow()),
         ("trum_coupled_instant", "Wave, surface speed and contact of two phases at any instant", coupling.instant()),
         ("trum_coupled_forces", "What the contact does to rotor and both phases at any instant", coupling.forces()),
+    )
+    return [Kernel(name, title, found, {of: units[of] for of in found}) for name, title, found in made]
+
+
+def _layer() -> list[Kernel]:
+    units = {
+        **dict.fromkeys(("central", "along", "across", "lossy", "in_phase", "ahead"), "N"),
+        **dict.fromkeys(layer.powers(), "N*m/s"),
+        **dict.fromkeys(("gap", "carried", "share", "f", "stress", "limit"), "1"),
+        **dict.fromkeys(("gap_free", "carried_leaving", "f_alpha", "stress_u", "limit_u"), "1/rad"),
+        **dict.fromkeys(("u_in", "u_out", "lead", "stuck", "slid", "stuck_ratio"), "rad"),
+        **dict.fromkeys(("f_ratio", "ratio_most"), "1"),
+        **dict.fromkeys(("stuck_cos", "stuck_sin", "slid_cos", "slid_sin", "sheared_sin"), "1"),
+        **{"residual": "N^2", "omega_r": "rad/s", "W_stick": "m"},
+    }
+    made = (
+        ("trum_layer_meeting", "Surface over a lossy layer that recovers freely", layer.meeting()),
+        ("trum_layer_carried", "What a lossy contact carries of the prepressure", layer.carried()),
+        ("trum_layer_reaction", "What the lossy contact of a plain wave does to the wave", layer.reaction()),
+        (
+            "trum_layer_balance",
+            "Balance of a plain wave with a layer that loses or is sheared, and its resonance",
+            {**layer.balance(), "omega_r": layer.resonance()},
+        ),
+        ("trum_layer_powers", "Mean powers of a plain wave over such a layer", layer.powers()),
+        ("trum_shear_passage", "Stress and limit of a bristle, their integrals times cos u and sin u", layer.passage()),
+        ("trum_shear_reaction", "What the contact of a plain wave with bristles does to the wave", layer.sheared()),
+        ("trum_stuck_layer", "Height of the wave up to which all of the layer sticks", layer.stuck()),
     )
     return [Kernel(name, title, found, {of: units[of] for of in found}) for name, title, found in made]
 
@@ -513,6 +542,7 @@ def kernels() -> tuple[Kernel, ...]:
         + _contact()
         + _brush()
         + _coupling()
+        + _layer()
         + _port()
         + _cycle()
         + _rotor()

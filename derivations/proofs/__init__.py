@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 from derivations.codegen.kernels import Kernel
-from derivations.proofs import contact, coupling, cycle, friction, port, stator, wave
+from derivations.proofs import contact, coupling, cycle, friction, layer, port, stator, wave
 from derivations.proofs.proof import Proof, Subject, check, reference
 from derivations.proofs.tables import HEADERS, TABLES, read, wrong
 
@@ -22,6 +22,7 @@ PROOFS: tuple[Proof, ...] = (
     *contact.PROOFS,
     *friction.PROOFS,
     *coupling.PROOFS,
+    *layer.PROOFS,
     *port.PROOFS,
 )
 

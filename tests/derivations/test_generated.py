@@ -304,6 +304,20 @@ def random_arguments(kernel, rng):
         Theta_q=1.2,
         C_0=2.4e-8,
         lead=1.1,
+        eta_m=0.2,
+        leaving=1.9,
+        free=2.8,
+        u_in=1.4,
+        u_out=-1.1,
+        zone_low=-0.8,
+        zone_high=0.9,
+        across=-7.0,
+        lossy=15.0,
+        level=-0.4,
+        sheared=0.3,
+        sheared_cos=0.2,
+        sheared_sin=0.1,
+        sheared_ratio=-0.9,
     )
     for name, rate in (("a_A", 4e-11), ("b_A", 6e-6), ("a_B", -3e-11), ("b_B", 5e-6)):
         usual |= {f"{name}_omega_n": rate, f"{name}_Delta_omega": -2 * rate}

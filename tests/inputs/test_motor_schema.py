@@ -46,7 +46,7 @@ def test_each_optional_entry_of_the_template_may_be_taken_in(motor_file):
     optional = [name for name, spec in SPECS.items() if not spec.required]
     for name in optional:
         (place,) = (k for k, line in enumerate(lines) if line.startswith(f"# {name} = "))
-        entry = lines[place].removeprefix("# ").replace("value = 0.0,", "value = 1.0,")
+        entry = lines[place].removeprefix("# ").replace("value = 0.0,", "value = 0.5,")
         changed = [*lines[:place], entry, *lines[place + 1 :]]
         assert getattr(ts.load_motor(motor_file("\n".join(changed))), name) is not None
     box = [line.removeprefix("# ") if "range = [" in line or line == "# [box]" else line for line in lines]

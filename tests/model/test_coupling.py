@@ -247,7 +247,12 @@ def test_a_load_beyond_friction_has_no_steady_state():
     [
         ({}, {"on_periods": 14}, {}, "coupling: got contact, need none in pulse drive"),
         ({}, {"start": "rest"}, {}, "coupling: got contact, need none where start is rest"),
-        ({}, {}, {"tangential": "brush"}, "coupling: got contact, need none where tangential is brush"),
+        (
+            {"layer_loss_factor": 0.1},
+            {},
+            {"tangential": "brush"},
+            "layer_loss_factor: got 0.1, need 0 where coupling is",
+        ),
         ({}, {}, {"contact": "hertz"}, "coupling: got contact, need none where contact is hertz"),
         ({"amplitude": 5e-6}, {}, {}, "coupling: got contact, need none where the motor's amplitude"),
         ({"friction_coefficient": 0}, {}, {}, "friction_coefficient: got 0, need a number > 0 where coupling"),

@@ -64,6 +64,7 @@ def test_rows_are_what_characteristics_has(tables):
 
 def test_a_motor_whose_amplitude_under_prepressure_is_given_has_none():
     assert coupled_tables(MOTOR.with_values({"amplitude": 5.5e-6})) == ()
+    assert len(coupled_tables(MOTOR.with_values({"layer_loss_factor": 0.1}))) == 2  # pulses know no loss
     assert coupled_tables(replace(MOTOR, flange_length=None)) == ()
 
 

@@ -227,6 +227,7 @@ def test_the_motor_file_says_what_is_uncertain():
     found = ts.spread(MOTOR.with_values({"piezo_width": 7e-3}), SHORT, samples=64)
     coupled = {
         "rotor_mass",
+        "layer_loss_factor",
         "phase_coverage",
         "piezo_permittivity",
         "piezo_loss_factor",

@@ -185,9 +185,12 @@ _WAVE = {
     "force ahead, rad": ("lead", 1.0),
     "resonance up by, Hz": ("resonance_shift", 1.0),
     "power in, W": ("input_power", 1.0),
+    "lost in layer, W": ("layer_power", 1.0),
+    "of it, %": ("layer_share", 100.0),
     "efficiency, %": ("efficiency", 100.0),
     "speed kept by contact": ("droop_compliance", 1.0),
     "by reaction": ("droop_reaction", 1.0),
+    "stands up to, V": ("standing_voltage", 1.0),
     "states": ("states", 1.0),
 }
 _ELECTRIC = {

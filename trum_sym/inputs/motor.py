@@ -143,8 +143,8 @@ class Amount(Value):
 class Motor(Value):
     """A travelling-wave rotary ultrasonic motor: every number with unit and source.
 
-    The names are those of the motor file and of ``--set``.  The last fifteen are optional: a measured value replaces
-    the modelled one, the rotor's flange is needed where its compliance counts, and the last four count where the rotor
+    The names are those of the motor file and of ``--set``.  The last sixteen are optional: a measured value replaces
+    the modelled one, the rotor's flange is needed where its compliance counts, and the last five count where the rotor
     acts back on the wave.  ``bench`` has what the file says of the
     bench that the published figures were measured on, by the names of :class:`trum_sym.Drive`; nothing is computed with
     it unless a drive takes it.  ``box`` has the ranges that searches vary, ``allowed`` those beyond which the hardware
@@ -238,8 +238,9 @@ class Motor(Value):
     flange_length: Parameter | None = _optional("m", "l_f", _SIZE)
     flange_young_modulus: Parameter | None = _optional("Pa", "E_f")
     flange_poisson_ratio: Parameter | None = _optional("1", "mu_f", _FLANGE_POISSON)
-    # Of the rotor and the electrodes: the level coupling = "contact" alone knows them
+    # Of the rotor, the layer and the electrodes: the level coupling = "contact" alone knows them
     rotor_mass: Parameter | None = _optional("kg", "m_r", Domain(low=0.0, low_open=False, high=1e3))
+    layer_loss_factor: Parameter | None = _optional("1", "eta_m", Domain(low=0.0, low_open=False, high=1.0))
     phase_coverage: Parameter | None = _optional("1", "c_p", Domain(low=0.0, high=1.0, high_open=False))
     piezo_permittivity: Parameter | None = _optional("F/m", "eps_33T")
     piezo_loss_factor: Parameter | None = _optional("1", "tan_delta", Domain(low=0.0, low_open=False, high=1.0))
@@ -355,7 +356,7 @@ SPECS: Mapping[str, Spec] = MappingProxyType(
 FLANGE = tuple(name for name in SPECS if name.startswith("flange_"))
 """The parameters of the rotor's flange, which the level compliance = "flange" needs."""
 
-COUPLED = ("rotor_mass", "phase_coverage", "piezo_permittivity", "piezo_loss_factor")
+COUPLED = ("rotor_mass", "layer_loss_factor", "phase_coverage", "piezo_permittivity", "piezo_loss_factor")
 """The parameters that only the level coupling = "contact" knows."""
 
 UNCOUPLED: Mapping[str, Spec] = MappingProxyType({name: spec for name, spec in SPECS.items() if name not in COUPLED})

@@ -91,11 +91,15 @@ _SECTIONS: dict[str, dict[str, Entry]] = {
         "flange_young_modulus": Entry("GPa", "of the flange"),
         "flange_poisson_ratio": Entry("1", "of the flange"),
     },
-    "Rotor and electrodes where the rotor acts back on the wave, --coupling contact; each is optional": {
+    "Rotor, layer and electrodes where the rotor acts back on the wave, --coupling contact; each is optional": {
         "rotor_mass": Entry(
             "g",
             "of what moves up and down with the rotor, in pulses and other schedules; none if not given; no plain wave "
             "depends on it",
+        ),
+        "layer_loss_factor": Entry(
+            "1",
+            "tan delta of the contact's stiffness at the drive's frequency; none if not given; the plain wave alone",
         ),
         "phase_coverage": Entry(
             "1",

@@ -186,6 +186,13 @@ def lap_values(
     """
     if drive.start != "periodic":
         raise ParameterError("start", drive.start, "periodic where coupling is contact: cycles follow each other")
+    if levels.tangential != "rigid":
+        raise ParameterError(
+            "coupling", "contact", f"none where tangential is {levels.tangential}, but for the plain wave"
+        )
+    loss = motor.layer_loss_factor
+    if loss is not None and np.any(np.asarray(loss.value) != 0):
+        raise ParameterError("layer_loss_factor", loss.value, "0: a layer's loss is known for the plain wave alone")
     plain = Drive(**{**drive.numbers(), **drive.words(), "on_periods": drive.periods})  # type: ignore[arg-type]
     values = coupled_values(motor, plain, Levels(**{**vars(levels), "coupling": "contact"}))
     prescribed = _swing({**values, "omega_n0": values["omega_n"]})

@@ -3,13 +3,16 @@
 Both phases are alike and always on, so the wave, the contact and the rotor are at rest seen from the crest, and what
 has to balance is one number, the height of the wave (derivations/coupling.py).  It may have several solutions; all are
 found.  The rotor follows the wave up and down without a mass, which a plain wave never asks of it.
+
+The layer is rigid along the circumference and loses nothing, unless the values have a loss factor ``eta_m`` above 0, or
+a ``grip`` (:mod:`trum_sym.model.layer`).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Literal, TypeAlias
 
 import numpy as np
 
@@ -20,13 +23,15 @@ from trum_sym.inputs.motor import Motor
 from trum_sym.inputs.plausible import unquestioned
 from trum_sym.inputs.points import check_point, check_single, numbers_of
 from trum_sym.model.kernels import call
+from trum_sym.model.layer import lossy_contact, lossy_reaction, sheared_reaction
 from trum_sym.model.levels import Levels
 from trum_sym.model.stator import solve_stator
 
-__all__ = ["PlainWaves", "check_coupling", "coupled_values", "held_wave", "plain_waves", "wave_at"]
+__all__ = ["PlainWaves", "check_coupling", "coupled_values", "held_wave", "plain_waves", "standing", "wave_at"]
 
 Values = Mapping[str, ArrayLike]
 Rotor = Literal["loaded", "held"]
+CArray: TypeAlias = np.ndarray[tuple[int, ...], np.dtype[np.complex128]]
 
 _TURN = 2 * np.pi
 _HALVINGS = 60  # of an angle, at most
@@ -36,6 +41,7 @@ _PARTS = 8  # of a bracket that may have a root
 _NARROW = 1e-7  # of a bracket, over the wave's height: roots nearer to each other count as one, at a fold
 _LEAST = 1e-12  # of a wave's height, over the largest that could be
 _ROUNDS = 5  # of a root's bracket, by _FIRST each, to the last bit
+_STEEPEST = 1.5  # above sqrt(1 + eta^2) of any loss factor
 _STEP = 1e-6  # of the differences that stability is judged by
 
 
@@ -59,12 +65,13 @@ class PlainWaves:
         Friction's fraction of mu F_c, in the sense in which the wave drives.
     resonance : (k,) array, rad/s
         At which a wave of this height swings by itself.
-    input_power, stator_power, contact_power, slip_power, output_power : (k,) array, W
-        Of both phases' modal forces; lost in the stator; given to the contact; lost in it; on the rotor.
+    input_power, stator_power, contact_power, layer_power, slip_power, output_power : (k,) array, W
+        Of both phases' modal forces; lost in the stator; given to the contact; lost in the layer, by slip; on the
+        rotor.
     stable : (k,) array of bool
         Whether a small disturbance of wave and rotor dies out.
-    whole : (k,) array of bool
-        Whether the whole wave touches.
+    whole, stuck : (k,) array of bool
+        Whether the whole wave touches; whether all of a layer that is sheared sticks, so that the rotor stands.
     residual : (k,) array
         What is left of the balance of powers, over the input power.
     """
@@ -79,23 +86,27 @@ class PlainWaves:
     input_power: Array
     stator_power: Array
     contact_power: Array
+    layer_power: Array
     slip_power: Array
     output_power: Array
     stable: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
     whole: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
+    stuck: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
     residual: Array
 
     @property
     def names(self) -> tuple[str, ...]:
         """A word for each state: ``still``, ``whole`` (all of the wave touches), ``unstable``, and ``low`` or ``high``.
 
-        ``high`` is the stable state of the highest wave; a stable one below it is ``low``.
+        ``stuck`` is one of a sheared layer that sticks all round, under a rotor that stands; ``high`` is the stable
+        state of the highest wave; a stable one below it is ``low``.
         """
         best = int(np.flatnonzero(self.stable)[-1]) if self.stable.any() else -1
         found = []
         for k, size in enumerate(self.amplitude):
             word = "still" if size == 0 else "unstable" if not self.stable[k] else "high" if k == best else "low"
-            found.append("whole" if self.whole[k] and word in ("high", "low") else word)
+            settled = word in ("high", "low")
+            found.append("stuck" if settled and self.stuck[k] else "whole" if settled and self.whole[k] else word)
         return tuple(found)
 
     @property
@@ -107,15 +118,18 @@ class PlainWaves:
 def check_coupling(motor: Motor, drive: Drive, levels: Levels) -> None:
     """Raise a ParameterError for what the level ``coupling = "contact"`` does not know.
 
-    It knows the plain wave over a rigid Winkler layer: no pulses, no brush, no Hertz width; and an amplitude that the
-    motor file states under prepressure would contradict it.
+    It knows the plain wave over a Winkler layer that loses energy or is sheared, not both: no pulses, no Hertz width;
+    and an amplitude that the motor file states under prepressure would contradict it.
     """
     if np.any(np.asarray(drive.on_periods) != drive.periods):
         raise ParameterError("coupling", "contact", "none in pulse drive, or on_periods = periods, the plain wave")
     if drive.start == "rest":
         raise ParameterError("coupling", "contact", "none where start is rest: a wave that grows is no plain one")
-    if levels.tangential != "rigid":
-        raise ParameterError("coupling", "contact", f"none where tangential is {levels.tangential}")
+    loss = None if motor.layer_loss_factor is None else motor.layer_loss_factor.value
+    if levels.tangential != "rigid" and loss is not None and np.any(np.asarray(loss) != 0):
+        raise ParameterError(
+            "layer_loss_factor", loss, f"0 where coupling is contact and tangential is {levels.tangential}"
+        )
     if levels.contact != "winkler":
         raise ParameterError("coupling", "contact", f"none where contact is {levels.contact}")
     if motor.amplitude is not None:
@@ -159,10 +173,16 @@ def coupled_values(
     values = {**motor.symbols(), **pressed.values, **drive.symbols()}
     modes = call("trum_resonance", {**values, "k_f": 0.0, "k_dx": 0.0})
     values = {"c_p": 1.0, "m_r": 0.0, **values, "beta": modes["beta"], "omega_n0": modes[levels.resonance]}
+    if levels.tangential == "brush":
+        sheared = {**call("trum_tangential_stiffness", values), **values}
+        values["grip"] = call("trum_brush_coefficient", sheared)["grip"]
     if motor.resonance_frequency is not None:
         mass = call("trum_modal", values)["M_q"]
         found = _reaction(values, np.array([float(np.asarray(values["W"]))]), "held")
-        square = float(np.asarray(values["omega_n"])) ** 2 - float(found["central"][0]) / (mass * values["W"])
+        lifts = float(found["central"][0])
+        if "across" in found:
+            lifts -= float(np.asarray(values["D"]) * values["k_c"]) * float(found["across"][0])
+        square = float(np.asarray(values["omega_n"])) ** 2 - lifts / (mass * values["W"])
         if not square > 0:
             raise ParameterError(
                 "resonance_frequency", motor.resonance_frequency.value, "more than the contact adds to it"
@@ -184,8 +204,18 @@ def _contact(values: Values, heights: Array) -> dict[str, Array]:
     return {name: np.asarray(value) for name, value in found.items()}
 
 
+def _layered(values: Values) -> bool:
+    """Whether the layer loses energy or is sheared."""
+    return "grip" in values or bool(np.asarray(values.get("eta_m", 0.0)) > 0)
+
+
 def _reaction(values: Values, heights: Array, rotor: Rotor) -> dict[str, Array]:
     """Contact and reaction of waves of given heights, under a rotor that carries its load or is held still."""
+    carried = None if rotor == "held" else _fraction(values)
+    if "grip" in values:
+        return sheared_reaction(values, _contact(values, heights), heights, carried)
+    if _layered(values):
+        return lossy_reaction(values, _contact(values, heights)["engagement"], carried)
     contact = _contact(values, heights)
     around = {**values, **contact}
 
@@ -193,10 +223,8 @@ def _reaction(values: Values, heights: Array, rotor: Rotor) -> dict[str, Array]:
         found = call("trum_plain_reaction", {**around, "alpha": alpha})
         return {name: np.asarray(value) for name, value in found.items()}
 
-    if rotor == "held":
-        alpha = np.minimum(contact["theta"], np.pi / 2)
-    else:
-        alpha = _driving(at, contact["theta"], _fraction(values))
+    theta = contact["theta"]
+    alpha = np.minimum(theta, np.pi / 2) if carried is None else _driving(at, theta, carried)
     return {**contact, "alpha": alpha, **at(alpha)}
 
 
@@ -225,7 +253,8 @@ def _fraction(values: Values) -> float:
 def _balance(values: Values, heights: Array, rotor: Rotor) -> dict[str, Array]:
     """Reaction and balance of waves of given heights."""
     found = _reaction(values, heights, rotor)
-    balance = call("trum_plain_balance", {**values, **found, "W": heights})
+    kernel = "trum_layer_balance" if _layered(values) else "trum_plain_balance"
+    balance = call(kernel, {**values, "lossy": 0.0, **found, "W": heights})
     return {**found, **{name: np.asarray(value) for name, value in balance.items()}}
 
 
@@ -234,16 +263,24 @@ def _possible(values: Values, low: dict[str, Array], high: dict[str, Array], end
 
     With the height the contact narrows, so that its pressure, and the part of it that is faster than the rotor, come
     nearer to the crest: the central reaction grows, and so does what friction does beyond its mu-fold negative.
+
+    Of a layer that loses energy or is sheared, the parts of the reaction do not all grow, but cannot change fast
+    (:func:`_away`).
     """
     mu, mass = np.asarray(values["mu"]), np.asarray(values["M_q"])
     lever = np.asarray(values["D"]) * values["k_c"]
     spring = mass * (np.asarray(values["omega_n0"]) ** 2 - np.asarray(values["omega_q"]) ** 2)
     damper = 2 * np.asarray(values["xi"]) * values["omega_n0"] * mass * values["omega_q"]
     stiff = np.sort(np.stack([spring * ends[0], spring * ends[1]]), axis=0)
-    in_phase = stiff + np.stack([low["central"], high["central"]])
-    least = low["along"] + mu * (low["central"] - high["central"])
-    most = high["along"] + mu * (high["central"] - low["central"])
-    ahead = damper * np.stack(ends) + lever * np.stack([least, most])
+    if _layered(values):
+        pressed, rubbed = _away(values, low, high, ends)
+        in_phase = stiff + pressed("central") - lever * rubbed("across")[::-1]
+        ahead = damper * np.stack(ends) + pressed("lossy") + lever * rubbed("along")
+    else:
+        in_phase = stiff + np.stack([low["central"], high["central"]])
+        least = low["along"] + mu * (low["central"] - high["central"])
+        most = high["along"] + mu * (high["central"] - low["central"])
+        ahead = damper * np.stack(ends) + lever * np.stack([least, most])
 
     def squares(bounds: Array) -> Array:
         sizes = bounds**2
@@ -251,6 +288,40 @@ def _possible(values: Values, low: dict[str, Array], high: dict[str, Array], end
 
     total, force = squares(in_phase) + squares(ahead), np.asarray(values["F_q"]) ** 2
     return np.asarray((total[0] <= force) & (force <= total[1]))
+
+
+def _away(
+    values: Values, low: dict[str, Array], high: dict[str, Array], ends: tuple[Array, Array]
+) -> tuple[Callable[[str], Array], Callable[[str], Array]]:
+    """Bounds, least and most, of parts of pressure and friction between two heights (docs/coupling.md proves them).
+
+    While the height grows by a share s, the pressure that carries F_c moves by 2 F_c s at most, in sum over all places,
+    and friction that carries the load by 4 mu F_c s; so what either does times cos u or sin u changes by no more than 2
+    F_c s and 4 mu F_c s.  Where the whole wave touches, and bristles all stick, pressure and stress change with the
+    height itself, which bounds the way from 0: as if s were that over the height at which 2 k_N W n_j / k_c is F_c,
+    times sqrt(1 + eta^2) or half the grip.
+    """
+    force = float(np.asarray(values["F_c"]))
+    with np.errstate(all="ignore"):
+        share = np.log(ends[1] / ends[0])
+    steady = high["stuck"] > 0 if "stuck" in high else high["theta"] >= np.pi
+    steep = max(_STEEPEST, float(np.asarray(values.get("grip", 0.0))) / 2)
+    share = np.where(steady, np.minimum(share, steep * high["engagement"] * (1 - ends[0] / ends[1])), share)
+
+    def between(name: str, most: float, rate: float) -> Array:
+        middle, reach = (low[name] + high[name]) / 2, rate * share / 2
+        return np.clip(np.stack([middle - reach, middle + reach]), -most, most)
+
+    def pressed(name: str) -> Array:
+        if name not in high:
+            return np.zeros((2, share.size))
+        return between(name, force, 2 * force)
+
+    def rubbed(name: str) -> Array:
+        most = float(np.asarray(values["mu"])) * force
+        return between(name, most, 4 * most)
+
+    return pressed, rubbed
 
 
 def _heights(values: Values, rotor: Rotor) -> Array:
@@ -319,6 +390,25 @@ def held_wave(values: Values) -> float:
     return float(np.asarray(values["D"]) * values["k_c"] * along / spring)
 
 
+def standing(values: Values) -> tuple[float, float]:
+    """Height of the plain wave in m, and modal force in N, up to which the rotor stands as the force rises from none.
+
+    A layer that is rigid along the circumference holds the surface, and there is no wave.  One that is sheared sticks
+    all round, and gives way as springs do.
+
+    Parameters
+    ----------
+    values : mapping
+        From :func:`coupled_values`.  NaN where friction cannot hold the load.
+    """
+    loaded = _fraction(values)
+    if not abs(loaded) < 1:
+        return float("nan"), float("nan")
+    most = float(np.asarray(call("trum_stuck_layer", {**values, "f": loaded})["W_stick"])) if "grip" in values else 0.0
+    at = _balance(values, np.array([most]), "loaded")
+    return most, float(np.hypot(at["in_phase"], at["ahead"])[0])
+
+
 def wave_at(values: Values, heights: Array, rotor: Rotor = "loaded") -> PlainWaves:
     """What plain waves of given heights do, whether or not the modal force makes them.
 
@@ -332,10 +422,12 @@ def wave_at(values: Values, heights: Array, rotor: Rotor = "loaded") -> PlainWav
         Whether the rotor turns under its load or is held still.
     """
     at = _balance(values, heights, rotor)
-    speed = np.asarray(values["D"]) * values["k_c"] * values["omega_q"] * heights * np.cos(at["alpha"])
+    share = at["ratio"] if "ratio" in at else np.cos(at["alpha"])
+    speed = np.asarray(values["D"]) * values["k_c"] * values["omega_q"] * heights * share
     if rotor == "held":
         speed = np.zeros_like(heights)
-    powers = call("trum_plain_powers", {**values, **at, "W": heights, "v": speed})
+    kernel = "trum_layer_powers" if _layered(values) else "trum_plain_powers"
+    powers = call(kernel, {**values, "lossy": 0.0, **at, "W": heights, "v": speed})
     given = np.asarray(values["F_q"]) * heights * values["omega_q"] * np.sin(at["lead"])
     with np.errstate(all="ignore"):
         residual = np.where(heights > 0, np.asarray(powers["P_in"]) / given - 1, 0.0)
@@ -351,10 +443,12 @@ def wave_at(values: Values, heights: Array, rotor: Rotor = "loaded") -> PlainWav
         input_power=np.asarray(powers["P_in"]),
         stator_power=np.asarray(powers["P_stator"]),
         contact_power=np.asarray(powers["P_contact"]),
+        layer_power=np.asarray(powers["P_layer"]) if "P_layer" in powers else np.zeros_like(heights),
         slip_power=np.asarray(powers["P_slip"]),
         output_power=np.asarray(powers["P_rotor"]),
         stable=stable,
         whole=at["theta"] >= np.pi,
+        stuck=at["stuck"] > 0 if "stuck" in at else np.zeros(heights.shape, bool),
         residual=residual,
     )
 
@@ -394,10 +488,13 @@ def _stable(values: Values, at: Mapping[str, Array], size: float, index: int, ro
     """Whether all eigenvalues of the motion about a plain wave, seen from its crest, have a negative real part.
 
     The state is the wave's vector in the turning frame (m), its rate (m/s) and the rim's speed (m/s); the rotor
-    follows up and down without a mass.
+    follows up and down without a mass.  Of a layer that is sheared, whether a higher wave takes more force.
     """
-    if size == 0.0:
+    if size == 0.0 or ("stuck" in at and at["stuck"][index] > 0):
         return True
+    if "ratio" in at:  # bristles remember a passage, and longer where the whole wave touches: no state of this motion
+        low, high = _balance(values, size * np.array([1 - _STEP, 1 + _STEP]), rotor)["residual"]
+        return bool(low < high)
     force = float(at["in_phase"][index]) + 1j * float(at["ahead"][index])
     surface = float(np.asarray(values["D"]) * values["k_c"] * values["omega_q"]) * size
     speed = 0.0 if rotor == "held" else surface * float(np.cos(at["alpha"][index]))
@@ -416,16 +513,47 @@ def _rates(values: Values, states: Array, force: complex, *, held: bool) -> Arra
     omega = float(np.asarray(values["omega_q"]))
     z, rate = states[:, 0] + 1j * states[:, 1], states[:, 2] + 1j * states[:, 3]
     whole = rate + 1j * omega * z  # seen from outside
-    contact = _contact(values, np.abs(z))
-    height = -contact["share"] / np.asarray(call("trum_engagement", values)["engagement_per_height"])
-    moving = {"w_B": z.real, "w_A": z.imag, "v_B": whole.real, "v_A": whole.imag, "height": height}
-    instant = call("trum_coupled_instant", {**values, **moving})
-    acting = call("trum_coupled_forces", {**values, **instant, "v": states[:, 4]})
-    reaction = np.asarray(acting["Q_B"]) + 1j * np.asarray(acting["Q_A"])
+    act = _acting_lossy if _layered(values) else _acting
+    reaction, along = act(values, z, whole, states[:, 4])
     mass, own, xi = (float(np.asarray(values[name])) for name in ("M_q", "omega_n0", "xi"))
     second = (force + reaction) / mass - 2 * xi * own * whole - own**2 * z - 2j * omega * rate + omega**2 * z
     radius = np.asarray(values["r_c"])
     load = np.asarray(values["s"]) * values["T_load"]
-    turn = radius * (radius * np.asarray(acting["F_x"]) - load) / np.asarray(values["J_total"])
+    turn = radius * (radius * along - load) / np.asarray(values["J_total"])
     parts = [rate.real, rate.imag, second.real, second.imag, np.zeros_like(turn) if held else turn]
     return np.stack(parts, axis=1)
+
+
+def _instant(values: Values, z: CArray, whole: CArray, contact: Mapping[str, Array]) -> dict[str, ArrayLike]:
+    """Wave and surface of the vectors and their rates, over a contact that carries the prepressure."""
+    height = -contact["share"] / np.asarray(call("trum_engagement", values)["engagement_per_height"])
+    moving = {"w_B": z.real, "w_A": z.imag, "v_B": whole.real, "v_A": whole.imag, "height": height}
+    return call("trum_coupled_instant", {**values, **moving})
+
+
+def _acting(values: Values, z: CArray, whole: CArray, speed: Array) -> tuple[CArray, Array]:
+    """Modal forces of B and A as one number, and the force on the rim."""
+    instant = _instant(values, z, whole, _contact(values, np.abs(z)))
+    acting = call("trum_coupled_forces", {**values, **instant, "v": speed})
+    return np.asarray(acting["Q_B"]) + 1j * np.asarray(acting["Q_A"]), np.asarray(acting["F_x"])
+
+
+def _acting_lossy(values: Values, z: CArray, whole: CArray, speed: Array) -> tuple[CArray, Array]:
+    """The same of a layer that loses energy, as on a wave that keeps its height, its rate and the crest's speed.
+
+    Left out: how fast the rotor rises, and what an element remembers of another wave when it meets the surface.
+    """
+    heights = np.abs(z)
+    growth, runs = (whole * z.conj() / heights).real, (whole * z.conj() / heights).imag  # m/s
+    instant = _instant(values, z, whole, _contact(values, heights))
+    half = np.arccos(np.clip(speed / np.asarray(instant["R_v"]), -1, 1))
+    lag, middle = np.asarray(values["eta_m"]) / np.asarray(values["omega_q"]), np.asarray(instant["phi"])
+    pressed = heights + lag * growth  # in phase with the crest; lag * runs is a quarter wave ahead
+    slanted = {**values, "eta_m": lag * runs / pressed}
+    contact = lossy_contact(slanted, _contact(values, pressed)["engagement"])
+    zone = {"zone_low": middle - half, "zone_high": middle + half}
+    found = call("trum_layer_reaction", {**slanted, **contact, **zone})
+    parts = {name: np.asarray(value) for name, value in found.items()}
+    lever = float(np.asarray(values["D"]) * values["k_c"])
+    against = parts["central"] - lever * parts["across"] + 1j * (parts["lossy"] + lever * parts["along"])
+    return -against * z / heights, float(np.asarray(values["mu"]) * values["F_c"]) * parts["f"]

@@ -75,7 +75,10 @@ def coupled_tables(motor: Motor) -> tuple[Table, ...]:
             coupled_values(motor, _drive(0.0, 0.0), levels)
         except ParameterError:  # an amplitude under prepressure, no friction, no flange, ...
             return ()
-    return _by_frequency(motor), _under_load(motor), _in_pulses(motor)
+    steady, loss = (_by_frequency(motor), _under_load(motor)), motor.layer_loss_factor
+    if loss is not None and float(np.asarray(loss.value)) > 0:  # which pulses do not know
+        return steady
+    return (*steady, _in_pulses(motor))
 
 
 def _text(value: float, digits: str = ".3g") -> str:

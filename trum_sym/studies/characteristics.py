@@ -96,10 +96,11 @@ def characteristics(
     xarray.Dataset
         Over ``drive`` (plain, pulse) and ``torque`` (N m): mean_speed, output_power, contact_efficiency; over
         ``frequency`` (Hz) and ``prepressure`` (N): speed_by_frequency, speed_by_prepressure, stall_by_prepressure.
-        NaN where a load is beyond friction or runs the rotor back.  With ``coupling = "contact"`` also amplitude (m),
-        lead (rad), resonance_shift (Hz), input_power and contact_power (W), efficiency, what the phases draw (current,
-        electric_power, reactive_power, power_factor, electric_efficiency; NaN for a motor file without
-        ``piezo_permittivity``), the parts of the droop, and how many steady states there are.
+        NaN where a load is beyond friction or runs the rotor back.  With ``coupling = "contact"`` also amplitude
+        (m), lead (rad), resonance_shift (Hz), input_power, contact_power and layer_power (W), layer_share,
+        efficiency, up to what amplitude and voltage the rotor stands (standing_amplitude, standing_voltage), what
+        the phases draw (current, electric_power, reactive_power, power_factor, electric_efficiency; NaN for a motor
+        file without ``piezo_permittivity``), the parts of the droop, and how many steady states there are.
 
     Raises
     ------

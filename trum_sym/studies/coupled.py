@@ -10,7 +10,7 @@ import numpy as np
 from trum_sym.inputs.checks import Array
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import Motor
-from trum_sym.model.coupling import PlainWaves, coupled_values, plain_waves, wave_at
+from trum_sym.model.coupling import PlainWaves, coupled_values, plain_waves, standing, wave_at
 from trum_sym.model.levels import Levels
 from trum_sym.model.port import drawn, has_port
 
@@ -22,7 +22,11 @@ COUPLED = {
     "resonance_shift": ("torque", "Hz", "resonance of a wave of this height less that without a rotor"),
     "input_power": ("torque", "W", "that the modal forces of both phases put in"),
     "contact_power": ("torque", "W", "that the stator's surface gives to the contact"),
+    "layer_power": ("torque", "W", "that the layer loses"),
+    "layer_share": ("torque", "1", "of the input power that the layer loses"),
     "efficiency": ("torque", "1", "output power over input power"),
+    "standing_amplitude": ("torque", "m", "height of the wave up to which friction holds the rotor"),
+    "standing_voltage": ("torque", "V", "up to which it does if the voltage rises from none"),
     "current": ("torque", "A", "amplitude of a phase's current"),
     "electric_power": ("torque", "W", "that both phases draw"),
     "reactive_power": ("torque", "W", "of both phases, positive where the current is behind the voltage"),
@@ -67,6 +71,11 @@ class _Found:
     @property
     def drive_frequency(self) -> float:
         return float(np.asarray(self.values["omega_q"])) / _TURN
+
+    def standing(self) -> tuple[float, float]:
+        """Height of the wave, in m, and voltage up to which the rotor stands."""
+        height, force = standing(self.values)
+        return height, force / float(np.asarray(self.values["F_q"])) * float(np.asarray(self.values["U_s"]))
 
     def stall(self) -> float:
         """Torque on a rotor held still, along the same direction."""
@@ -122,6 +131,7 @@ def coupled_curves(motor: Motor, drive: Drive, levels: Levels, axes: dict[str, A
             "input_power": spent,
             "contact_power": given,
             "efficiency": power / spent,
+            **_layer(loaded, spent),
             **_electric(loaded, power),
             "droop_compliance": kept,
             "droop_reaction": speed / rest.speed / kept,
@@ -130,6 +140,17 @@ def coupled_curves(motor: Motor, drive: Drive, levels: Levels, axes: dict[str, A
             "states_by_frequency": np.array([float(found.waves.amplitude.size) for found in by_frequency]),
             "amplitude_by_prepressure": np.array([found.of("amplitude") for found in by_prepressure]),
         }
+
+
+def _layer(loaded: list[_Found], spent: Array) -> dict[str, Array]:
+    """What the layer loses under each load, and up to where the rotor stands."""
+    lost, stands = np.array([found.of("layer_power") for found in loaded]), [found.standing() for found in loaded]
+    return {
+        "layer_power": lost,
+        "layer_share": lost / spent,
+        "standing_amplitude": np.array([height for height, _ in stands]),
+        "standing_voltage": np.array([voltage for _, voltage in stands]),
+    }
 
 
 def _electric(loaded: list[_Found], power: Array) -> dict[str, Array]:

@@ -1,16 +1,17 @@
-"""Entries of our own: flange, orbit, bench, coupling, electrical port."""
+"""Entries of our own: flange, orbit, bench, coupling, layer, electrical port."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 import mpmath as mp
 import numpy as np
 
-from derivations.ledger.second_route.common import at_table_3, region_ends, route
+from derivations.ledger.second_route.common import at_table_3, rate_of, region_ends, route
 from derivations.ledger.second_route.section_4 import seen_from_crest
-from derivations.ledger.witness import Drive, motor, resonance, stator
+from derivations.ledger.witness import Array, Drive, motor, resonance, stator
 
 
 @route("rotor-flange")
@@ -121,6 +122,58 @@ def _wave_reaction() -> list[Any]:
         needed,
         needed / measured,
     ]
+
+
+@route("lossy-layer")
+def _lossy_layer() -> list[Any]:
+    """Ends of the contact by bisection, of the level by the load and of its beginning by the recovering depth; sums."""
+    eta, size = 0.1, at_table_3("W")
+    stiff = at_table_3("n_j") / at_table_3("k_c") * at_table_3("k_N")
+
+    def contact(level: float) -> tuple[float, float]:
+        out = halved(lambda u: math.cos(u) + eta * math.sin(u) - level, -math.pi + eta, 0.0)
+        left = math.cos(out) - level
+
+        def free(u: float) -> float:
+            return left * math.exp(-(2 * math.pi + out - u) / eta)
+
+        return out, halved(lambda u: free(u) - math.cos(u) + level, 0.0, math.pi)
+
+    def halved(rises: Callable[[float], float], low: float, high: float) -> float:
+        for _ in range(80):
+            middle = (low + high) / 2
+            low, high = (middle, high) if rises(middle) < 0 else (low, middle)
+        return low
+
+    def pressure(level: float) -> tuple[Array, Array, float]:
+        out, into = contact(level)
+        u = out + (into - out) * (np.arange(200_000) + 0.5) / 200_000
+        return u, np.cos(u) + eta * np.sin(u) - level, (into - out) / u.size
+
+    def lacks(level: float) -> float:
+        _, press, width = pressure(level)
+        return 180 - stiff * size * float(press.sum()) * width
+
+    level = halved(lacks, 0.0, 0.9999)
+    u, press, width = pressure(level)
+    power = stiff * size**2 * float((press * np.sin(u)).sum()) * width * rate_of("q")
+    theta = at_table_3("theta")
+    u = theta * (2 * (np.arange(200_000) + 0.5) / 200_000 - 1)
+    bare = stiff * size**2 * eta * float((np.sin(u) ** 2).mean()) * 2 * theta * rate_of("q")
+    return [eta, power, 1e6 * size, 180, *contact(level), theta, bare]
+
+
+@route("sheared-layer")
+def _sheared_layer() -> list[Any]:
+    """By Young's and the shear modulus; the greatest stress less limit of a wave by a scan, both linear in it."""
+    shear = at_table_3("E_m") / 2 / (1 + at_table_3("mu_m")) * at_table_3("b_m") / at_table_3("h_m")
+    gripped = shear * at_table_3("D") * at_table_3("k_c") / at_table_3("mu") / at_table_3("k_N")
+    u = np.linspace(0, math.pi, 2_000_001)
+    most = float((gripped * np.sin(u) - np.cos(u)).max())
+    mean = (
+        180 / (2 * math.pi * at_table_3("n_j") / at_table_3("k_c")) / at_table_3("k_N")
+    )  # depth pressed in where all touches
+    return [gripped, 180, 1e9 * mean / most, 1 / most]
 
 
 @route("electrical-port")

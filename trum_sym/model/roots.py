@@ -1,0 +1,46 @@
+"""Roots of rising functions, many at once, each between bounds."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from trum_sym.inputs.checks import Array
+
+__all__ = ["rising"]
+
+_HALVINGS = 60  # at most
+
+
+def rising(
+    at: Callable[[Array], tuple[Array, Array]],
+    low: Array,
+    high: Array,
+    start: Array,
+    size: Array,
+    last: float,
+) -> Array:
+    """Where functions change from below 0 to 0 or above, by Newton's steps as long as they stay between the bounds.
+
+    Parameters
+    ----------
+    at : callable
+        Values and slopes at (k,) places.
+    low, high, start, size : (k,) array
+        Bounds, where to begin between them, and sizes that the last step is small against.
+    last : float
+        How small: more than what the functions' rounding makes of it.
+    """
+    place = start
+    for _ in range(_HALVINGS):
+        value, slope = at(place)
+        less = value < 0
+        low, high = np.where(less, place, low), np.where(less, high, place)
+        with np.errstate(all="ignore"):
+            step = place - value / slope
+        after = np.where((step >= low) & (step <= high), step, (low + high) / 2)
+        if (np.abs(after - place) <= last * size).all():
+            return after
+        place = after
+    return place
