@@ -176,7 +176,7 @@ def test_motor_and_drive_are_frozen(trum60):
 
 def test_every_parameter_of_the_motor_has_a_unit_and_a_source(trum60):
     named = dict(trum60.parameters())
-    assert len(named) == 45
+    assert len(named) == 46
     for name, parameter in named.items():
         assert parameter.unit, name
         assert parameter.source, name

@@ -243,7 +243,9 @@ def test_all_steady_states_are_found(layer):
 
 def test_what_a_motion_that_changes_does_not_know_is_refused():
     lossy = MOTOR.with_values({"layer_loss_factor": 0.1})
-    with pytest.raises(ts.ParameterError, match=r"layer_loss_factor: got 0\.1, need 0: a layer's loss is known for"):
+    with pytest.raises(
+        ts.ParameterError, match=r"layer_loss_factor: got 0\.1, need 0: characteristics alone knows a layer's loss"
+    ):
         lap_values(lossy, ts.Drive(), Levels())
     with pytest.raises(ts.ParameterError, match="coupling: got contact, need none where tangential is brush"):
         lap_values(MOTOR, ts.Drive(), Levels(tangential="brush"))

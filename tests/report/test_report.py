@@ -107,7 +107,7 @@ def test_tables_hold_what_the_paper_prints_and_what_the_motor_has(trum60):
     assert all(row[6] for row in one.rows if row[5] != "=")  # every difference has its reason
     assert {row[0] for row in one.rows if row[5] != "="} == {"R", "U_s"}  # a diameter, a peak-to-peak voltage
     assert len(one.rows) == len(TABLE_1) == 25
-    coupled = {"m_r", "c_p", "eps_33T", "tan_delta"}
+    coupled = {"m_r", "eta_m", "c_p", "eps_33T", "tan_delta"}
     section = {"b_p", "d_31", "s_11E", "μ", "r_c", "r_t", "h_f", "l_f", "E_f", "μ_f"}
     assert {row[0] for row in assumed.rows} == section | coupled
     for force, _, ours, _ in two.rows:

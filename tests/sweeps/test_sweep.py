@@ -119,7 +119,7 @@ def test_only_what_the_outputs_need_is_computed(trum60, monkeypatch, outputs, ke
 @pytest.mark.parametrize("name", PARAMETERS)
 def test_every_number_can_be_swept(trum60, name):
     optional = {"resonance_frequency": 39e3, "amplitude": 5e-6, "neutral_axis": 2.8e-3, "wavenumber": 300.0}
-    optional["phase_coverage"] = 0.5  # which no more than 1 may be
+    optional |= {"phase_coverage": 0.5, "layer_loss_factor": 0.1}  # which no more than 1 may be
     stiff = dict.fromkeys(("layer_stiffness", "contact_stiffness", "tangential_stiffness"), 3e10)
     start = {**ts.Drive().numbers(), "sampling_period": 2e-3, **stiff, **optional}
     drive = ts.Drive(load="weight", load_radius=0.03) if name == "load_radius" else ts.Drive()

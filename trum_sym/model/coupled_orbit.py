@@ -192,7 +192,9 @@ def lap_values(
         )
     loss = motor.layer_loss_factor
     if loss is not None and np.any(np.asarray(loss.value) != 0):
-        raise ParameterError("layer_loss_factor", loss.value, "0: a layer's loss is known for the plain wave alone")
+        raise ParameterError(
+            "layer_loss_factor", loss.value, "0: characteristics alone knows a layer's loss, of the plain wave"
+        )
     plain = Drive(**{**drive.numbers(), **drive.words(), "on_periods": drive.periods})  # type: ignore[arg-type]
     values = coupled_values(motor, plain, Levels(**{**vars(levels), "coupling": "contact"}))
     prescribed = _swing({**values, "omega_n0": values["omega_n"]})

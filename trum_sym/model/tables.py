@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from trum_sym.errors import ParameterError
 from trum_sym.inputs.checks import Array
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import SPECS, TO_DO, Motor, Parameter, Published
@@ -164,7 +165,11 @@ def _coupled_on_assumed(
     closed, values = at(None)
     found: dict[str, set[str]] = {}
     for name in assumed:
-        others, point = at(name)
+        try:
+            others, point = at(name)
+        except ParameterError:  # laps know no other value: they rest on the one that they have
+            found[name] = {figure for figure in quantities if figure not in closed}
+            continue
         found[name] = {figure for figure in closed if others[figure] != closed[figure]}
         found[name] |= {q for q in quantities if q not in closed} if _laps_differ(values, point) else set()
     return found
