@@ -89,6 +89,7 @@ def test_every_claim_is_shown_with_its_verdict_and_linked_from_what_shows_it(tex
         assert table[: table.index("</table>")].count("<tr>") == rows + 1
 
 
+@pytest.mark.slow
 def test_the_page_is_the_same_in_another_process(folder, tmp_path):
     environment = {**os.environ, "PYTHONHASHSEED": "4711", "TZ": "Asia/Tokyo", "SOURCE_DATE_EPOCH": "0"}
     subprocess.run(

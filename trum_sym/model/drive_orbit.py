@@ -344,7 +344,7 @@ def drive_orbit(
     tolerance : float
         Of mean, lowest and highest speed over the largest, 1e-9 to 1e-2.
     certify : bool
-        Whether to look for what is certain of the orbit (:mod:`trum_sym.model.orbit_certificate`), which takes about
+        Whether to look for what is certain of the orbit (``trum_sym.model.orbit_certificate``), which takes about
         as long as the orbit.
     contact, resonance, foundation, amplitude, compliance, tangential, coupling
         Levels, as for :func:`trum_sym.evaluate`; ``coupling`` is ``contact`` here.
