@@ -309,7 +309,7 @@ def _stage_error(t: Tables) -> list[Number]:
 
 
 def _hidden_peak(t: Tables) -> list[Number]:
-    """Of peaks 1/sqrt(1 + (s - c)^2/w^2): the integral from 0 to 1 over the nodes' range; near the bound for one."""
+    """Of peaks 1/sqrt(1 + (s - c)^2/w^2), the integral from 0 to 1 over the nodes' range: at most that, rounded up."""
     z, (bound,) = t["TRUM_COLLOCATION_POINTS"], t["TRUM_HIDDEN_PEAK"]
     found = []
     for wide in ("1.46", "10", "1e2", "1e3", "1e4", "1e5", "1e6"):  # half a step over the peak's half-width
@@ -321,8 +321,8 @@ def _hidden_peak(t: Tables) -> list[Number]:
 
             ends = [mp.mpf(0), *(x for x in (centre - width, centre, centre + width) if 0 < x < 1), mp.mpf(1)]
             seen = [peak(s) for s in z]
-            found.append(mp.quad(peak, ends) / (max(seen) - min(seen)) / bound)
-    return [*found, mp.mpf("0.95") / max(found)]
+            found.append(mp.quad(peak, ends) / (max(seen) - min(seen)))
+    return [_same(bound, mp.ceil(max(found)))]
 
 
 _SHARED = "each phase has n pulses, A is off in the first region, never are both"
@@ -348,7 +348,9 @@ TABLES = (
     Table("TRUM_CHECK_VALUES", "powers below n reproduced at the check nodes", _check_values),
     Table("TRUM_CHECK_INTEGRALS", "powers below n integrated exactly up to each check node", _check_integrals),
     Table(
-        "TRUM_HIDDEN_PEAK", "a peak's integral over what the nodes see of it: at most that, and nearly", _hidden_peak
+        "TRUM_HIDDEN_PEAK",
+        "the whole number that a peak's integral over what the nodes see of it does not exceed",
+        _hidden_peak,
     ),
     Table(
         "TRUM_RUNGE_KUTTA_STAGES",
