@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Mapping
 from importlib.metadata import version
 from pathlib import Path
 
@@ -98,6 +99,13 @@ def amalgamated(texts: dict[str, str]) -> dict[str, str]:
     texts : dict of str to str
         As :func:`library` gives them.
     """
+    header, body, kernels = _joined(texts)
+    _, plain, _ = _joined({name: text for name, text in texts.items() if not name.startswith("trum_coupled")})
+    return {ONE_HEADER: header, ONE_SOURCE: f'#include "{ONE_HEADER}"\n{_called(body, plain)}\n{kernels}'}
+
+
+def _joined(texts: Mapping[str, str]) -> tuple[str, str, str]:
+    """What users include, the point with all that it includes, and the kernels; a file that is not there is left out."""
     seen: set[str] = set()
 
     def inlined(name: str) -> str:
@@ -112,10 +120,22 @@ def amalgamated(texts: dict[str, str]) -> dict[str, str]:
     seen.add(ONE_HEADER)
     header = _INCLUDE.sub(lambda found: inlined(found[1]), public) + "#endif\n"
     body = inlined("trum_point.h")
-    kernels = "\n".join(inlined(name) for name in sorted(texts) if name.endswith(".c") and name != ONE_SOURCE)
-    return {ONE_HEADER: header, ONE_SOURCE: f'#include "{ONE_HEADER}"\n{_called(body)}\n{kernels}'}
+    return (
+        header,
+        body,
+        "\n".join(inlined(name) for name in sorted(texts) if name.endswith(".c") and name != ONE_SOURCE),
+    )
 
 
-def _called(text: str) -> str:
-    """A source without the calls of kernels that nothing in it makes, of which compilers warn outside headers."""
-    return _CALL.sub(lambda found: found[0] if text.count(f"{found[1]}(") > 1 else "", text)
+def _called(text: str, plain: str) -> str:
+    """A source without the calls of kernels that nothing in it makes, of which compilers warn outside headers.
+
+    Those that the coupled system makes alone, which ``plain`` is without, are there where it is.
+    """
+
+    def kept(found: re.Match[str]) -> str:
+        if plain.count(f"{found[1]}(") > 1:
+            return found[0]
+        return f"#ifdef TRUM_COUPLED\n{found[0]}#endif\n" if text.count(f"{found[1]}(") > 1 else ""
+
+    return _CALL.sub(kept, text)
