@@ -105,7 +105,7 @@ def amalgamated(texts: dict[str, str]) -> dict[str, str]:
 
 
 def _joined(texts: Mapping[str, str]) -> tuple[str, str, str]:
-    """What users include, the point with all that it includes, and the kernels; a file that is not there is left out."""
+    """What users include, the point with what it includes, and the kernels; files that are not there are left out."""
     seen: set[str] = set()
 
     def inlined(name: str) -> str:
