@@ -257,10 +257,16 @@ def friction() -> list[str]:
     return found + [f"kernel trum_interface 180 0.4 1 1.4 300 0.25 9 -0.4 0 {v} 1e-3 1e-3" for v in (-1, 1)]
 
 
+def layer() -> list[str]:
+    """A lossy layer whose zone of reversed slip lies inside the contact, and a turn above and below it."""
+    zones = ((0.5, -0.5), (7.0, 0.0), (0.0, -7.0))
+    return [f"kernel trum_layer_reaction 180 0.3 0.2 0.25 0.4 1.4 -1.3 {high} {low}" for high, low in zones]
+
+
 def script() -> str:
     """What the harness is told to do."""
     lines = [f"point {line}" for line in ("", *levels(), *edges(), *wild(120), *wild(40, 7, (-14, 5)), *limits(60))]
-    lines += friction()
+    lines += friction() + layer()
     lines += [f"simulate {count} load_torque=0.05 {more}" for count in (0, 1, 1000) for more in ("", "contact=hertz")]
     lines += ["simulate 100 load_torque=0.05 on_periods=20 tangential=brush"]
     lines += [f"simulate 10 load_torque=0.05 tolerance=1e-3 max_steps={x}" for x in (2454, 4928)]
