@@ -25,6 +25,7 @@ __all__ = ["checked", "draw", "main", "study"]
 
 LONGEST = 10.0  # s, for a thousand points
 FIGURES = ("mean_speed", "min_speed", "max_speed", "speed_volatility", "stall_torque", "contact_fraction")
+BOUNDS = tuple(f"{name}_error" for name in FIGURES if name != "contact_fraction")
 _ALONE = 3  # points of a batch that are computed alone, too
 
 
@@ -90,7 +91,7 @@ def checked(motor: ts.Motor, drive: ts.Drive, options: dict[str, object], picked
         one = motor.with_values({name: _alone(p.value, k) for name, p in motor.parameters()})
         fields = {field.name: _alone(getattr(drive, field.name), k) for field in dataclasses.fields(drive)}
         alone = ts.evaluate(one, ts.Drive(**fields), **options)
-        for name in FIGURES:
+        for name in (*FIGURES, *BOUNDS):
             a, b = getattr(alone, name), np.asarray(getattr(points, name))[k]
             wrong[f"{name} alone is another number"] += int(not (a == b or (np.isnan(a) and np.isnan(b))))
     return +wrong
