@@ -24,6 +24,7 @@ __all__ = [
     "elastic_energy",
     "flow",
     "forces",
+    "held_height",
     "instant",
     "modal",
     "moments",
@@ -31,6 +32,7 @@ __all__ = [
     "reaction",
     "resonance",
     "swing",
+    "without_contact",
     "work",
 ]
 
@@ -256,6 +258,37 @@ def swing() -> dict[str, sp.Expr]:
 def resonance() -> sp.Expr:
     """Angular frequency at which a plain wave of height W swings by itself, its damping and friction made up for."""
     return sp.sqrt(omega_n0**2 + central / (M_q * W))
+
+
+@cache
+def without_contact() -> sp.Expr:
+    """Natural frequency of the stator without a rotor, from the one that a wave of height W has with it.
+
+    Raises
+    ------
+    CouplingError
+        If :func:`resonance` does not lead back to the latter.
+    """
+    omega_n = sym("omega_n")[0]
+    found = sp.sqrt(omega_n**2 - central / (M_q * W))
+    _zero(resonance().subs(omega_n0, found) - omega_n, "the resonance with the contact")
+    return found
+
+
+@cache
+def held_height() -> sp.Expr:
+    """Height of a wave that stands still and that friction alone holds, of the traction's part in cos u.
+
+    Raises
+    ------
+    CouplingError
+        If the mode's stiffness and the traction, without pressure, motion and force, are not as large.
+    """
+    found = D * k_c * along / (M_q * omega_n0**2)
+    still = {central: 0, omega_q: 0, W: found}
+    in_phase, ahead = (balance()[name].subs(still) for name in ("in_phase", "ahead"))
+    _zero(in_phase - ahead, "stiffness and traction of a wave that is held")
+    return found
 
 
 @cache

@@ -30,7 +30,19 @@ from derivations.coupling import CouplingError
 from derivations.nomenclature import sym
 from derivations.rotor import less
 
-__all__ = ["balance", "carried", "meeting", "moments", "passage", "powers", "reaction", "resonance", "sheared", "stuck"]
+__all__ = [
+    "balance",
+    "carried",
+    "meeting",
+    "moments",
+    "passage",
+    "powers",
+    "reaction",
+    "resonance",
+    "sheared",
+    "stuck",
+    "without_contact",
+]
 
 eta, leaving, free, u_in, u_out, zone_low, zone_high = sym("eta_m leaving free u_in u_out zone_low zone_high")
 engagement, share, F_c, mu, W = sym("engagement share F_c mu W")
@@ -248,6 +260,11 @@ def _moves(found: dict[str, sp.Expr]) -> None:
 def resonance() -> sp.Expr:
     """Angular frequency at which a plain wave of height W swings by itself, what it loses made up for."""
     return coupling.resonance().subs(_ALSO, simultaneous=True)
+
+
+def without_contact() -> sp.Expr:
+    """Natural frequency of the stator without a rotor, from the one that a wave of height W has with it."""
+    return coupling.without_contact().subs(_ALSO, simultaneous=True)
 
 
 @cache

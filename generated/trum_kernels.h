@@ -9,7 +9,7 @@
 #include "trum_math.h"
 
 /* SHA-256 of the expressions that the kernels are written from */
-#define TRUM_DERIVATIONS "fc253283d91d5e10cb68e0665c85c189d3980454784a2ed7436db30def7d3661"
+#define TRUM_DERIVATIONS "e43fd792f3ee2217429f866a625208db8c59b3641246b45086f533ea48051a59"
 
 #ifdef __cplusplus
 extern "C" {
@@ -115,6 +115,11 @@ int trum_mode_swing(const trum_real** arg, trum_real** res, long long int* iw, t
 enum { trum_mode_swing_in_F_q, trum_mode_swing_in_M_q, trum_mode_swing_in_omega_n0, trum_mode_swing_in_omega_q, trum_mode_swing_in_xi, trum_mode_swing_n_arg };
 enum { trum_mode_swing_out_swing, trum_mode_swing_out_lead, trum_mode_swing_n_res };
 
+/* Height of a wave that nothing drives and that friction holds still */
+int trum_held_wave(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_held_wave_in_D, trum_held_wave_in_M_q, trum_held_wave_in_along, trum_held_wave_in_k_c, trum_held_wave_in_omega_n0, trum_held_wave_n_arg };
+enum { trum_held_wave_out_W_held, trum_held_wave_n_res };
+
 /* The layer's force at full wave over the prepressure, per height of the wave */
 int trum_engagement(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_engagement_in_F_c, trum_engagement_in_k_N, trum_engagement_in_k_c, trum_engagement_in_n_j, trum_engagement_n_arg };
@@ -154,6 +159,11 @@ enum { trum_layer_reaction_out_f, trum_layer_reaction_out_f_alpha, trum_layer_re
 int trum_layer_balance(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
 enum { trum_layer_balance_in_D, trum_layer_balance_in_F_q, trum_layer_balance_in_M_q, trum_layer_balance_in_W, trum_layer_balance_in_across, trum_layer_balance_in_along, trum_layer_balance_in_central, trum_layer_balance_in_k_c, trum_layer_balance_in_lossy, trum_layer_balance_in_omega_n0, trum_layer_balance_in_omega_q, trum_layer_balance_in_xi, trum_layer_balance_n_arg };
 enum { trum_layer_balance_out_in_phase, trum_layer_balance_out_ahead, trum_layer_balance_out_residual, trum_layer_balance_out_lead, trum_layer_balance_out_omega_r, trum_layer_balance_n_res };
+
+/* Natural frequency without a rotor, from the one with a plain wave's contact */
+int trum_without_contact(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
+enum { trum_without_contact_in_D, trum_without_contact_in_M_q, trum_without_contact_in_W, trum_without_contact_in_across, trum_without_contact_in_central, trum_without_contact_in_k_c, trum_without_contact_in_omega_n, trum_without_contact_n_arg };
+enum { trum_without_contact_out_omega_n0, trum_without_contact_n_res };
 
 /* Mean powers of a plain wave over such a layer */
 int trum_layer_powers(const trum_real** arg, trum_real** res, long long int* iw, trum_real* w, int mem);
@@ -367,6 +377,7 @@ enum { trum_interface_out_v_x, trum_interface_out_v_x_slope, trum_interface_out_
   X(trum_plain_balance, 10, 5, "D F_q M_q W along central k_c omega_n0 omega_q xi", "in_phase ahead residual lead omega_r") \
   X(trum_plain_powers, 12, 5, "D F_c M_q W along f k_c mu omega_n0 omega_q v xi", "P_in P_stator P_contact P_slip P_rotor") \
   X(trum_mode_swing, 5, 2, "F_q M_q omega_n0 omega_q xi", "swing lead") \
+  X(trum_held_wave, 5, 1, "D M_q along k_c omega_n0", "W_held") \
   X(trum_engagement, 4, 1, "F_c k_N k_c n_j", "engagement_per_height") \
   X(trum_mode_flow, 3, 4, "omega_n0 tau xi", "w_w w_v v_w v_v") \
   X(trum_coupled_instant, 10, 12, "D F_c height k_N k_c n_j v_A v_B w_A w_B", "W_c sin_crest cos_crest R_v phi cos_phi sin_phi theta sin_theta cos_theta engagement share") \
@@ -375,6 +386,7 @@ enum { trum_interface_out_v_x, trum_interface_out_v_x_slope, trum_interface_out_
   X(trum_layer_carried, 4, 3, "engagement eta_m free leaving", "carried carried_leaving share") \
   X(trum_layer_reaction, 9, 6, "F_c engagement eta_m mu share u_in u_out zone_high zone_low", "f f_alpha central lossy along across") \
   X(trum_layer_balance, 12, 5, "D F_q M_q W across along central k_c lossy omega_n0 omega_q xi", "in_phase ahead residual lead omega_r") \
+  X(trum_without_contact, 7, 1, "D M_q W across central k_c omega_n", "omega_n0") \
   X(trum_layer_powers, 13, 6, "D F_c M_q W along f k_c lossy mu omega_n0 omega_q v xi", "P_in P_stator P_contact P_layer P_slip P_rotor") \
   X(trum_shear_passage, 6, 11, "grip level ratio t_0 u u_0", "stress limit stuck slid stuck_cos stuck_sin slid_cos slid_sin stress_u limit_u stuck_ratio") \
   X(trum_shear_reaction, 9, 5, "F_c engagement mu share sheared sheared_cos sheared_ratio sheared_sin theta", "f f_ratio central along across") \

@@ -73,6 +73,7 @@ enum {
   trum_at_W_full,
   trum_at_W_full_hertz,
   trum_at_W_full_winkler,
+  trum_at_W_held,
   trum_at_W_max,
   trum_at_W_maxf,
   trum_at_W_stick,
@@ -462,6 +463,12 @@ static inline void trum_call_mode_swing(trum_real* v) {
   (void)trum_mode_swing(arg, res, 0, 0, 0);
 }
 
+static inline void trum_call_held_wave(trum_real* v) {
+  const trum_real* arg[trum_held_wave_n_arg] = {v + trum_at_D, v + trum_at_M_q, v + trum_at_along, v + trum_at_k_c, v + trum_at_omega_n0};
+  trum_real* res[trum_held_wave_n_res] = {v + trum_at_W_held};
+  (void)trum_held_wave(arg, res, 0, 0, 0);
+}
+
 static inline void trum_call_engagement(trum_real* v) {
   const trum_real* arg[trum_engagement_n_arg] = {v + trum_at_F_c, v + trum_at_k_N, v + trum_at_k_c, v + trum_at_n_j};
   trum_real* res[trum_engagement_n_res] = {v + trum_at_engagement_per_height};
@@ -508,6 +515,12 @@ static inline void trum_call_layer_balance(trum_real* v) {
   const trum_real* arg[trum_layer_balance_n_arg] = {v + trum_at_D, v + trum_at_F_q, v + trum_at_M_q, v + trum_at_W, v + trum_at_across, v + trum_at_along, v + trum_at_central, v + trum_at_k_c, v + trum_at_lossy, v + trum_at_omega_n0, v + trum_at_omega_q, v + trum_at_xi};
   trum_real* res[trum_layer_balance_n_res] = {v + trum_at_in_phase, v + trum_at_ahead, v + trum_at_residual, v + trum_at_lead, v + trum_at_omega_r};
   (void)trum_layer_balance(arg, res, 0, 0, 0);
+}
+
+static inline void trum_call_without_contact(trum_real* v) {
+  const trum_real* arg[trum_without_contact_n_arg] = {v + trum_at_D, v + trum_at_M_q, v + trum_at_W, v + trum_at_across, v + trum_at_central, v + trum_at_k_c, v + trum_at_omega_n};
+  trum_real* res[trum_without_contact_n_res] = {v + trum_at_omega_n0};
+  (void)trum_without_contact(arg, res, 0, 0, 0);
 }
 
 static inline void trum_call_layer_powers(trum_real* v) {

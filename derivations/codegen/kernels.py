@@ -187,7 +187,7 @@ def _coupling() -> list[Kernel]:
         "lead": "rad",
         "omega_r": "rad/s",
         "R_v": "m/s",
-        **dict.fromkeys(("W_c", "swing"), "m"),
+        **dict.fromkeys(("W_c", "W_held", "swing"), "m"),
         **dict.fromkeys(("phi", "theta"), "rad"),
         **dict.fromkeys(("sin_crest", "cos_crest", "cos_phi", "sin_phi", "sin_theta", "cos_theta"), "1"),
         **dict.fromkeys(("engagement", "share"), "1"),
@@ -205,6 +205,11 @@ def _coupling() -> list[Kernel]:
             "trum_mode_swing",
             "Steady swing of a phase under its modal force alone, and the force's lead",
             coupling.swing(),
+        ),
+        (
+            "trum_held_wave",
+            "Height of a wave that nothing drives and that friction holds still",
+            {"W_held": coupling.held_height()},
         ),
         (
             "trum_engagement",
@@ -227,7 +232,7 @@ def _layer() -> list[Kernel]:
         **dict.fromkeys(("u_in", "u_out", "lead", "stuck", "slid", "stuck_ratio"), "rad"),
         **dict.fromkeys(("f_ratio", "ratio_most"), "1"),
         **dict.fromkeys(("stuck_cos", "stuck_sin", "slid_cos", "slid_sin", "sheared_sin"), "1"),
-        **{"residual": "N^2", "omega_r": "rad/s", "W_stick": "m"},
+        **{"residual": "N^2", "omega_r": "rad/s", "omega_n0": "rad/s", "W_stick": "m"},
     }
     made = (
         ("trum_layer_meeting", "Surface over a lossy layer that recovers freely", layer.meeting()),
@@ -237,6 +242,11 @@ def _layer() -> list[Kernel]:
             "trum_layer_balance",
             "Balance of a plain wave with a layer that loses or is sheared, and its resonance",
             {**layer.balance(), "omega_r": layer.resonance()},
+        ),
+        (
+            "trum_without_contact",
+            "Natural frequency without a rotor, from the one with a plain wave's contact",
+            {"omega_n0": layer.without_contact()},
         ),
         ("trum_layer_powers", "Mean powers of a plain wave over such a layer", layer.powers()),
         ("trum_shear_passage", "Stress and limit of a bristle, their integrals times cos u and sin u", layer.passage()),

@@ -114,6 +114,22 @@ def _swing(p: Point, m: Maths) -> Found:  # noqa: ARG001
     return {"swing": abs(p.F_q / over), "lead": mp.arg(over)}
 
 
+def _held(p: Point, m: Maths) -> Found:
+    """Where the strain energy of a wave at rest grows with its height as fast as the traction takes up work."""
+
+    def work(height: Number) -> Number:
+        """Of a traction along cos(u) / pi, as the wave's displacement along the surface grows with its height."""
+        whole = (-m.pi + 0 * height, m.pi + 0 * height)
+        return m.integral(lambda u: p.along * m.cos(u) / m.pi * (p.D * p.k_c * height * m.cos(u)), *whole)
+
+    def energy(height: Number) -> Number:
+        """Of twice the kinetic energy that the mode has as it passes zero, over two."""
+        return p.M_q * (p.omega_n0 * height) ** 2 / 2
+
+    one = 0 * p.along + 1
+    return {"W_held": m.derivative(work, one) / m.derivative(energy, one)}
+
+
 def _flow(p: Point, m: Maths) -> Found:  # noqa: ARG001
     """The exponential of the oscillator's matrix."""
     moved = mp.expm(mp.matrix([[0, 1], [-(p.omega_n0**2), -2 * p.xi * p.omega_n0]]) * p.tau)
@@ -293,6 +309,16 @@ PROOFS = (
         _swing,
         grid("F_q M_q omega_n0 omega_q xi", 12),
         "random points around TRUM-60",
+    ),
+    Proof(
+        "trum_held_wave",
+        "W_held",
+        _RESTS,
+        "slopes of strain energy and of the traction's work by the height",
+        _held,
+        grid("D M_q along k_c omega_n0"),
+        "random points around TRUM-60",
+        symbolic=True,
     ),
     Proof(
         "trum_engagement",

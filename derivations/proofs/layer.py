@@ -161,6 +161,16 @@ def _balance(p: Point, m: Maths) -> Found:  # noqa: ARG001
     }
 
 
+def _without_contact(p: Point, m: Maths) -> Found:  # noqa: ARG001
+    """Where the dynamic stiffness at the resonance with the contact, and the contact's part of it, add up to 0."""
+    contact = mp.mpc(p.central, 0) + 1j * p.D * p.k_c * mp.mpc(0, p.across)
+
+    def force(own: Number) -> Number:
+        return (p.M_q * p.W * mp.mpc(own**2 - p.omega_n**2, 0) + contact).real
+
+    return {"omega_n0": mp.findroot(force, (p.omega_n, p.omega_n * mp.mpf("0.999")), tol=mp.mpf(10) ** -90)}
+
+
 def _powers(p: Point, m: Maths) -> Found:
     """Means over a period of force times speed: damping, traction and pressure on the surface, friction on the rim."""
     period, size, whole = 2 * m.pi / p.omega_q, p.omega_q * p.W, (-m.pi + 0 * p.W, m.pi + 0 * p.W)
@@ -284,6 +294,15 @@ PROOFS = (
         "dynamic stiffness and the contact's first harmonics as complex numbers; where the real part is 0",
         _balance,
         grid("D F_q M_q W across along central k_c lossy omega_n0 omega_q xi", 12),
+        "random points around TRUM-60",
+    ),
+    Proof(
+        "trum_without_contact",
+        "omega_n0",
+        f"{_RESTS} {_SHEAR}",
+        "where dynamic stiffness and the contact's first harmonics add up to 0",
+        _without_contact,
+        grid("D M_q W across central k_c omega_n", 12),
         "random points around TRUM-60",
     ),
     Proof(

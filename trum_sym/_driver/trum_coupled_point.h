@@ -27,7 +27,6 @@ static inline int trum_uncoupled_field(const struct trum_motor* motor, const str
 /* The own frequency without a rotor; where the one under prepressure was measured, less what the contact adds to it. */
 static inline int trum_free_resonance(const struct trum_motor* motor, const struct trum_drive* drive, trum_real* v) {
   static const int resonances[] = {trum_at_quartic, trum_at_eq6, trum_at_printed, trum_at_euler};
-  trum_real square;
   v[trum_at_k_f] = v[trum_at_k_dx] = 0;
   trum_call_resonance(v);
   v[trum_at_omega_n0] = v[resonances[TRUM_LEVEL_resonance(drive)]];
@@ -39,13 +38,13 @@ static inline int trum_free_resonance(const struct trum_motor* motor, const stru
   v[trum_at_fullness_root] = trum_cbrt(v[trum_at_fullness]);
   trum_call_contact_winkler(v);
   trum_call_plain_reaction(v); /* its central part does not depend on where the surface is faster */
-  square = v[trum_at_omega_n] * v[trum_at_omega_n] - v[trum_at_central] / (v[trum_at_M_q] * v[trum_at_W]);
-  v[trum_at_omega_n0] = trum_sqrt(square);
-  return trum_is_size(square);
+  v[trum_at_across] = 0;
+  trum_call_without_contact(v);
+  return trum_is_size(v[trum_at_omega_n0]);
 }
 
 /* Height of a wave that nothing drives and that friction holds still, under a rotor at rest with its load; 0 if none. */
-static inline trum_real trum_held_wave(trum_real* v) {
+static inline trum_real trum_held_height(trum_real* v) {
   const trum_real pi = TRUM_C(3.14159265358979323846);
   trum_real loaded;
   v[trum_at_f] = 1;
@@ -55,7 +54,8 @@ static inline trum_real trum_held_wave(trum_real* v) {
   v[trum_at_engagement] = 0, v[trum_at_share] = 1 / pi, v[trum_at_theta] = pi;
   v[trum_at_alpha] = pi * (1 + loaded) / 2;
   trum_call_plain_reaction(v);
-  return v[trum_at_D] * v[trum_at_k_c] * v[trum_at_along] / (v[trum_at_M_q] * v[trum_at_omega_n0] * v[trum_at_omega_n0]);
+  trum_call_held_wave(v);
+  return v[trum_at_W_held];
 }
 
 enum trum_status trum_coupled_values(const struct trum_motor* motor, const struct trum_drive* drive, trum_real rotor_mass,
@@ -89,7 +89,7 @@ enum trum_status trum_coupled_values(const struct trum_motor* motor, const struc
   in->force_phase = drive->switching_phase + v[trum_at_lead], in->size = v[trum_at_swing];
   in->tolerance = TRUM_EITHER(1e-2, 1) * drive->tolerance;
   in->mass = rotor_mass, in->reaction = 1, in->height = -1 / (pi * v[trum_at_engagement_per_height]);
-  in->held = trum_held_wave(v);
+  in->held = trum_held_height(v);
   return TRUM_OK;
 }
 

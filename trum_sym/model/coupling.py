@@ -177,17 +177,14 @@ def coupled_values(
         sheared = {**call("trum_tangential_stiffness", values), **values}
         values["grip"] = call("trum_brush_coefficient", sheared)["grip"]
     if motor.resonance_frequency is not None:
-        mass = call("trum_modal", values)["M_q"]
         found = _reaction(values, np.array([float(np.asarray(values["W"]))]), "held")
-        lifts = float(found["central"][0])
-        if "across" in found:
-            lifts -= float(np.asarray(values["D"]) * values["k_c"]) * float(found["across"][0])
-        square = float(np.asarray(values["omega_n"])) ** 2 - lifts / (mass * values["W"])
-        if not square > 0:
+        lifts = {name: float(found[name][0]) if name in found else 0.0 for name in ("central", "across")}
+        with np.errstate(invalid="ignore"):
+            values |= call("trum_without_contact", {**values, **call("trum_modal", values), **lifts})
+        if not np.asarray(values["omega_n0"]) > 0:
             raise ParameterError(
                 "resonance_frequency", motor.resonance_frequency.value, "more than the contact adds to it"
             )
-        values["omega_n0"] = np.sqrt(square)
     modal = call("trum_modal", values)
     values["M_q"] = modal["M_q"]
     values["F_q"] = modal["F_measured" if levels.amplitude == "measured" else "F_ceramic"]
@@ -385,9 +382,8 @@ def held_wave(values: Values) -> float:
     if not loaded < 1:
         return 0.0
     even = {"engagement": 0.0, "share": 1 / np.pi, "theta": np.pi, "alpha": np.pi * (1 + loaded) / 2}
-    along = np.asarray(call("trum_plain_reaction", {**values, **even})["along"])
-    spring = np.asarray(values["M_q"]) * np.asarray(values["omega_n0"]) ** 2
-    return float(np.asarray(values["D"]) * values["k_c"] * along / spring)
+    reaction = call("trum_plain_reaction", {**values, **even})
+    return float(np.asarray(call("trum_held_wave", {**values, **reaction})["W_held"]))
 
 
 def standing(values: Values) -> tuple[float, float]:
