@@ -151,7 +151,8 @@ class Model:
         case = self._case(points, tolerance)
         self.evaluations += len(points)
         if not self._held:
-            return {**self._closed(case), **_speeds(solve_orbit(case.arguments, case.symbols))}
+            orbit = solve_orbit(case.arguments, case.symbols, method="auto")
+            return {**self._closed(case), **_speeds(orbit)}
         orbit, held = held_figures(case, self._held, self.asked, self.target)
         return {**self._closed(case), **_speeds(orbit), **held}
 

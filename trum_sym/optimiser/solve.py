@@ -29,6 +29,7 @@ from trum_sym.values import Value
 __all__ = ["Answer", "Problem", "map_of", "solve"]
 
 _MOST_STARTS = 8
+_DESCENTS = 6  # times the map's time that descents take, as measured: from 3 to 20
 _DESCENT = 1e-6  # tolerance of IPOPT's orbits
 _CLOSE = 1e-3  # objectives closer than this share are finished too; optima closer than this in the box are one
 _STEPS = 60  # of a bisection
@@ -149,14 +150,14 @@ def solve(
     known : Chart, optional
         Its map, if it is there already.
     tell : callable
-        Told what is begun, and how long that may take: the map is a third of the whole, as measured.
+        Told what is begun, and how long that may take, by the map's time.
     """
     begin = time.monotonic()
     model = problem.model() if model is None else model
     held = bool(problem.names & set(HELD_FIGURES))
     tell("a map of the box")
     known = map_of(problem, model) if known is None else known
-    tell(f"descents from its basins, about {duration(2 * (time.monotonic() - begin))}")
+    tell(f"descents from its basins, about {duration(_DESCENTS * (time.monotonic() - begin))}")
     rows = functions([problem.objective, *(constraint.expression for constraint in problem.constraints)])
     values = rows.values(known.figures)
     low = np.array([constraint.low for constraint in problem.constraints])
