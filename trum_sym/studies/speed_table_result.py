@@ -74,7 +74,7 @@ class SpeedTable(Result, Value):
     floor : float
         Speed in rad/s of which ``error`` is taken where the speed is smaller, and the accuracy of the orbits.
     reachable : (float, float)
-        Lowest and highest mean speed on the map of the box, rad/s.
+        Lowest and highest mean speed on the map of the box, which has a tolerance of 1e-2 of the swing, rad/s.
     evaluations : int
         Orbits computed.
     inputs : Inputs
@@ -218,7 +218,8 @@ def _as_text(table: SpeedTable) -> str:
             "",
             *table.about()[2:],
             *_held(table),
-            f"mean speeds on the map of the box: {low:.6g} to {high:.6g} arcsec/s; {table.evaluations} orbits computed",
+            f"mean speeds on the map of the box: about {low:.3g} to {high:.3g} arcsec/s; "
+            f"{table.evaluations} orbits computed",
         ]
     )
 
