@@ -33,6 +33,7 @@ FIGURES = ("mean", "low", "high", "deviation", "held")
 _OF_DRIVE = ("prepressure", "frequency_difference", "periods", "on_periods", "switching_phase", "phase_lead")
 _BLOCK = 250
 _FINEST = 1e-13  # accuracy of the witness
+_NEAR = 0.5  # of a stated error: a difference beyond it is looked at with that accuracy
 _WITNESS = 10  # what the witness says of its own error is taken so many times
 
 
@@ -202,7 +203,7 @@ def rows(
             m, n, start = (int(columns[name][i]) for name in ("periods", "on_periods", "start"))
             needed = float(np.clip(1e-5 * columns["tolerance"][i], accuracy, 1e-9))
             held, _, reached = witness.held(p, m, n, start, accuracy)
-            if abs(ours[4] - held) > stated[4] + _WITNESS * reached:  # it may have missed an event
+            if abs(ours[4] - held) > _NEAR * stated[4] + _WITNESS * reached:  # it may have missed an event
                 held, _, reached = witness.held(p, m, n, start, _FINEST)
             of_held, doubts = _WITNESS * reached, None
             if box == "wave":
@@ -212,7 +213,7 @@ def rows(
             else:
                 guess = raw["start"][k] if np.isfinite(raw["start"][k]) else 0.0
                 speeds, doubt = _witnessed(p, (m, n, start), float(guess), needed)
-                if speeds is not None and (np.abs(ours[:4] - speeds) > np.array(stated[:4]) + doubt).any():
+                if speeds is not None and (np.abs(ours[:4] - speeds) > _NEAR * np.array(stated[:4]) + doubt).any():
                     speeds, doubt = _witnessed(p, (m, n, start), float(guess), _FINEST)  # likewise
                 if speeds is not None:
                     doubts = [doubt] * 4 + [of_held]
