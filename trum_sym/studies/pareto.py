@@ -228,7 +228,7 @@ def pareto(
     >>> bounds = {"prepressure": 180.0, "frequency_difference": (3000, 3300)}
     >>> front = ts.pareto(drive=ts.Drive(load_torque=0.1), bounds=bounds, points=3)
     >>> [f"{point.objective:.3f} {point.against:.3f} N m" for point in front.points]
-    ['3.362 0.124 N m', '3.364 0.126 N m', '3.394 0.128 N m']
+    ['3.362 0.124 N m', '3.364 0.126 N m', '3.395 0.128 N m']
     """
     count = int(one_number("points", points, "1", _COUNT))
     target = None if target_speed is None else one_number("target_speed", target_speed, "rad/s")
