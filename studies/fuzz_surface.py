@@ -4,7 +4,8 @@ python -m studies.fuzz_surface [COUNT] [--seed N]
 
 Hypothesis makes the calls.  Each has to end within 10 s: with a result whose figures are numbers wherever no flag says
 otherwise, or with one of the package's own errors on one line.  Anything else is printed once for each place it comes
-from, with how often and an example; the exit code is then 1.
+from, with how often and an example; the exit code is then 1.  Ctrl-C ends it after the call under way, and shows
+what was found; how far it is stands on the standard error.
 """
 
 from __future__ import annotations
@@ -36,6 +37,7 @@ import trum_sym as ts
 from trum_sym import console
 
 LONGEST = 10.0  # s
+_TELL = 1000  # calls
 OURS = (ts.ParameterError, ts.ConvergenceError, ts.UnfinishedError, ts.MissingExtraError)
 MOTOR = ts.load_motor()
 PARAMETERS = tuple(name for name, _ in MOTOR.parameters())
@@ -87,7 +89,8 @@ def evaluate(motor: dict[str, Any], fields: dict[str, Any], options: dict[str, A
     point = ts.evaluate(MOTOR.with_values(motor), drive(fields), **{"tolerance": 1e-2, **options})
     good = np.asarray(point.converged)
     figures = [np.broadcast_to(getattr(point, name), good.shape) for name in ("mean_speed", "min_speed", "max_speed")]
-    known = ("resonance_frequency", "amplitude", "q_average", "cycle_time")
+    coupled = isinstance(point, ts.CoupledPoint)  # of which no amplitude is prescribed
+    known = ("resonance_frequency", "cycle_time", *(() if coupled else ("amplitude", "q_average")))
     always = [np.asarray(getattr(point, name)) for name in known]
     if not all(np.isfinite(figure[good]).all() for figure in figures) or not all(np.isfinite(x).all() for x in always):
         raise FloatingPointError(f"a figure is no number, and nothing says so: {point}")
@@ -161,7 +164,10 @@ SMALL = {
     "sweep": ["--outputs", "amplitude"],
     "characteristics": ["--points", "2"],
 }
-SLOW = ("characteristics", "spread", "optimize", "pareto", "robust", "speed-table", "calibrate", "report")
+SLOW = (
+    "characteristics", "admittance", "drive", "spread",
+    "optimize", "pareto", "robust", "speed-table", "calibrate", "report",
+)  # fmt: skip
 
 
 def console_calls(name: str) -> st.SearchStrategy[Any]:
@@ -220,7 +226,8 @@ OTHERS = [
     called("sweep", sweep, some(("prepressure", "periods", "x"), values, 2), some(("chunk",), values, 1)),
     called("calibrate", calibrate, columns),
     called("optimize", optimise(ts.optimize), some(("objective", "bounds", "constraints", "target_speed"), values, 2)),
-    called("pareto", optimise(ts.pareto), some(("against", "points", "bounds"), values, 2)),
+    called("pareto", optimise(ts.pareto), some(("against", "bounds"), values, 2)),
+    called("pareto's points", optimise(ts.pareto), some(("points",), st.integers(-1, 4) | st.sampled_from(OBJECTS), 1)),
     called("robust", optimise(ts.robust), some(("spreads", "samples", "bounds"), values, 2)),
     called("spread", tolerance, some(("spreads", "samples", "seed"), values, 2)),
     called("speed_table", optimise_speeds,
@@ -246,9 +253,16 @@ class Found:
         self.places: Counter[str] = Counter()
         self.examples: dict[str, str] = {}
         self.refused = 0
+        self.interrupted = False
+        self.begin = time.monotonic()
 
     def call(self, name: str, function: Callable[..., Any], arguments: tuple[Any, ...]) -> None:
+        if self.interrupted:  # and not within a call, as commands take it for themselves
+            raise KeyboardInterrupt
         self.count[name] += 1
+        done = self.count.total()
+        if done % _TELL == 0:
+            print(f"{done} calls, {time.monotonic() - self.begin:.0f} s, {len(self.places)} places", file=sys.stderr)
         signal.setitimer(signal.ITIMER_REAL, LONGEST)
         try:
             with warnings.catch_warnings():
@@ -259,8 +273,6 @@ class Found:
             if len(str(error).splitlines()) != 1:
                 self.note(name, error, arguments)
         except BaseException as error:
-            if isinstance(error, KeyboardInterrupt):
-                raise
             self.note(name, error, arguments)
         finally:
             signal.setitimer(signal.ITIMER_REAL, 0)
@@ -279,8 +291,9 @@ def run(count: int, number: int) -> int:
     import trum_sym.report.output
 
     trum_sym.report.output.page = lambda *_, **__: "a page"  # which takes a minute to draw
-    found, begin, before = Found(), time.monotonic(), Path.cwd()
+    found, before = Found(), Path.cwd()
     signal.signal(signal.SIGALRM, ring)
+    signal.signal(signal.SIGINT, lambda *_: setattr(found, "interrupted", True))
 
     fresh = {"database": None, "deadline": None, "phases": [Phase.generate], "suppress_health_check": list(HealthCheck)}
 
@@ -298,7 +311,7 @@ def run(count: int, number: int) -> int:
             print("interrupted; up to here:")
         finally:
             os.chdir(before)
-    done, took = sum(found.count.values()), time.monotonic() - begin
+    done, took = found.count.total(), time.monotonic() - found.begin
     print(f"{done} calls of {len(found.count)} surfaces in {took:.0f} s, {found.refused} refused in Python")
     print(", ".join(f"{name} {times}" for name, times in sorted(found.count.items())))
     for key, times in found.places.most_common():

@@ -9,7 +9,7 @@ import pytest
 
 import trum_sym as ts
 from trum_sym.model.coupled_orbit import STATE, lap_values, laps, orbit_from, start_of
-from trum_sym.model.coupling import coupled_values, plain_waves
+from trum_sym.model.coupling import coupled_values, plain_waves, standing
 from trum_sym.model.drive_orbit import drive_history, drive_orbit, history_of, read_by_encoder
 from trum_sym.model.levels import Levels
 from trum_sym.model.orbit_certificate import certificate_of
@@ -377,3 +377,40 @@ def test_a_drive_s_orbit_is_certified_where_it_is_asked_for(motor):
     assert "certificate" not in plain.to_dict()
     lost = drive_orbit(motor, ts.Drive(), ts.Schedule(), certify=True, rotor_mass=0.02, tolerance=1e-4, start="rest")
     assert "not certified: Newton" in lost.to_text()
+
+
+@pytest.mark.parametrize(
+    ("words", "peak", "mass"),
+    [
+        ({}, 1.0, 0.02),
+        ({"kind": "continuous"}, 1.0, 0.0),
+        ({"kind": "single"}, 1.0, 0.0),
+        ({"ratio": 2.0}, 2.0, 0.0),
+        ({"phase_difference": 0.0}, math.sqrt(2), 0.0),
+        ({"phase_difference": math.radians(60), "ratio": 1.0}, math.sqrt(1.5), 0.0),
+        ({"off_terminals": "open"}, math.sqrt(2), 0.0),
+    ],
+)
+def test_forces_that_friction_holds_move_nothing(motor, words, peak, mass):
+    """Up to the plain wave's dead zone; such laps were stepped through a chatter of friction for minutes."""
+    load = 0.2
+    of_plain = coupled_values(motor, ts.Drive(load_torque=load, on_periods=20), Levels())
+    voltage = standing(of_plain)[1] / of_plain["F_q"] / peak
+    for share in (1e-320, 1e-3, 0.999):
+        found = drive_orbit(
+            motor, ts.Drive(load_torque=load), ts.Schedule(**{**words, "voltage": share * voltage}), rotor_mass=mass
+        )
+        assert (found.orbit.closed, found.orbit.stable, found.orbit.highest_wave) == (True, True, 0.0)
+        assert not found.history.angle.any()
+    more = lap_values(
+        motor,
+        ts.Drive(load_torque=load),
+        Levels(),
+        ts.Schedule(**{**words, "voltage": 1.01 * voltage}),
+        rotor_mass=mass,
+    )
+    _, lap = laps(
+        {**more, "m": 1.0, "off_A": 0.0, "off_B": 0.0, "on_A": 0.0, "on_B": 0.0}, start_of("rest", more)[:, None]
+    )
+    if words.get("off_terminals") != "open":  # whose largest force is of charges that this lap does not have
+        assert lap["highest"][0] > 0

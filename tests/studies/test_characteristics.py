@@ -180,3 +180,11 @@ def test_the_console_writes_table_json_csv_netcdf_and_picture(tmp_path, capsys):
 )
 def test_bad_input_is_one_line(console_refuses, arguments, naming):
     console_refuses("characteristics", *arguments, naming=naming)
+
+
+@pytest.mark.parametrize("name", ["", ".", "/"])
+def test_a_motor_whose_path_has_no_name_is_refused_in_one_line(name, capsys):
+    assert main(["characteristics", "--motor", name]) == 2
+    said = capsys.readouterr().err
+    assert said.startswith("trum-sym: --motor: got ")
+    assert said.count("\n") == 1

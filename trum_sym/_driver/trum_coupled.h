@@ -219,7 +219,8 @@ static void trum_coupled_follow(const trum_coupled_lap_in* in, trum_coupled_lap_
     const trum_gates before = p.gates;
     p.gates = trum_coupled_gates(in, period);
     if (in->K_o > 0) trum_coupled_charge(&p, before, s.to);
-    p.resting = p.resting && p.gates.g_A == 0 && p.gates.g_B == 0;
+    p.spare = trum_coupled_spare(in, p.gates);
+    p.resting = p.resting && p.spare > 0;
     done = trum_coupled_period(&p, &s, &h, trum_fmin(1, in->m - (trum_real)period), sums, out);
   }
   if (!(in->mass > 0))

@@ -39,6 +39,7 @@ typedef struct {
   trum_real v; /* at the start of the lap */
   int groups;  /* of lanes that are in use */
   int resting; /* friction holds wave and rotor */
+  trum_real spare; /* height of a wave that it holds beside the drive */
 } trum_coupled_point;
 
 /* A step from a state: states and rates at its stages, the last at its end, and what is summed there. */
@@ -68,15 +69,25 @@ static inline trum_gates trum_coupled_gates(const trum_coupled_lap_in* in, long 
   return gates;
 }
 
-/* Whether friction stops wave and rotor and then holds them: neither phase is driven, what is left of the wave is at most
- * what it holds, and the rotor is no faster than the surface of such a wave. */
+/* Height of a wave that friction holds beside the forces on the phases: what it holds without, less what the largest of
+ * them bends the stator by.  An open phase that is off may keep the charge of its largest force. */
+static inline trum_real trum_coupled_spare(const trum_coupled_lap_in* in, trum_gates gates) {
+  const int open = in->K_o > 0;
+  const trum_real g_A = open ? TRUM_C(1) : gates.g_A, g_B = open ? TRUM_C(1) : gates.g_B;
+  const trum_real a = g_A * in->force_A, b = g_B * in->force_B_along, c = g_B * in->force_B_ahead;
+  const trum_real even = a * a + b * b - c * c, odd = 2 * b * c, both = a * a + b * b + c * c;
+  const trum_real largest = trum_sqrt(open ? both : (both + trum_sqrt(even * even + odd * odd)) / 2);
+  return in->held - in->F_q * largest / (in->M_q * in->omega_n0 * in->omega_n0);
+}
+
+/* Whether friction stops wave and rotor and then holds them: what is left of the wave is at most what it holds beside the
+ * drive, and the rotor is no faster than the surface of such a wave. */
 static inline int trum_coupled_stops(const trum_coupled_point* p, const trum_coupled_vector* y) {
   const trum_coupled_lap_in* in = p->in;
-  const trum_real held = in->held * in->omega_n0, v = lane_value(&y->y[6], 0);
+  const trum_real held = p->spare * in->omega_n0, v = lane_value(&y->y[6], 0);
   const trum_real a = lane_value(&y->y[0], 0) * in->omega_n0, b = lane_value(&y->y[2], 0) * in->omega_n0;
   const trum_real v_A = lane_value(&y->y[1], 0), v_B = lane_value(&y->y[3], 0);
-  return held > 0 && p->gates.g_A == 0 && p->gates.g_B == 0 && trum_fabs(v) <= in->D * in->k_c * held &&
-         a * a + b * b + v_A * v_A + v_B * v_B <= held * held;
+  return held > 0 && trum_fabs(v) <= in->D * in->k_c * held && a * a + b * b + v_A * v_A + v_B * v_B <= held * held;
 }
 
 /* Both phases and the rotor's turning at rest, or their rates; a rotor with a mass goes on up and down. */

@@ -64,7 +64,7 @@ class MeasuredPoint(Value):
 def measured_of(motor: str | PathLike[str]) -> Path | None:
     """The file of measured points that lies beside a motor's: NAME.measured.toml beside NAME.toml; None without one."""
     path = Path(__file__).parents[1] / "data" / f"{motor}.toml" if str(motor) in SHIPPED else Path(motor)
-    beside = path.with_name(f"{path.stem}.measured.toml")
+    beside = path.parent / f"{path.stem}.measured.toml"
     return beside if beside.is_file() else None
 
 

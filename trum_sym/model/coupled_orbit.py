@@ -70,6 +70,7 @@ _STEP = 1e-2  # that a lap's time step may be off where no orbit is asked for, o
 _TOLERANCE = Domain(low=1e-9, low_open=False, high=1e-2, high_open=False)
 _MASS = Domain(low=0.0, low_open=False, high=10.0)
 NAMED = ("mean_speed", "min_speed", "max_speed", "deviation", "contact_fraction", "highest_wave", "input_power")
+MOVING = [STATE.index(name) for name in ("w_A", "v_A", "w_B", "v_B", "v")]
 _SUMMED = ("mean", "low", "high", "variance", "touching", "highest", "input")
 
 Complex = np.ndarray[tuple[int, ...], np.dtype[np.complex128]]
@@ -396,6 +397,30 @@ class LapSystem:
                 return cycles, lap
         return None
 
+    def rests(self, state: Array) -> bool:
+        """Whether friction holds wave and rotor at rest through a lap from a state."""
+        if state[MOVING].any():
+            return False
+        found = call("coupled_lap", {**self.values, **dict(zip(STATE, state, strict=True))})
+        return not any(float(np.asarray(found[name])) for name in ("highest", "low", "high"))
+
+    def at_rest(self, name: str) -> CoupledOrbit:
+        """The orbit of what rests: friction takes what disturbs it.
+
+        A rotor that still goes up and down counts as at rest.
+        """
+        nothing = dict.fromkeys((*NAMED, *(f"{of}_error" for of in NAMED), "missed"), 0.0) | {"contact_fraction": 1.0}
+        return CoupledOrbit(
+            start=name,
+            state=start_of("rest", self.values),
+            cycles=1,
+            **nothing,
+            multipliers=np.zeros(self.free.size, np.complex128),
+            order=np.nan,
+            closed=True,
+            tolerance_met=True,
+        )
+
     def distance(self, one: Array, other: Array) -> float:
         """Between two states, by the number that differs most."""
         return float(np.abs(((one - other) / self.sizes)[self.free]).max())
@@ -433,8 +458,12 @@ def orbit_from(values: Mapping[str, float], start: Array, name: str, settling: i
     most = math.ceil(_SETTLING / values["m"]) if settling is None else settling
     states, lap = [np.array(start, float)], None
     for allowed in _ROUGH:
+        if lap is None and system.rests(states[-1]):
+            return system.at_rest(name)
         if lap is None:
             states, lap = system.settled(states[-1], most, allowed)
+    if lap is None and system.rests(states[-1]):
+        return system.at_rest(name)
     lap = lap or system.first(states[-1], 1)
     orbit = _refined(system, lap, 1, states[-1], name)
     if not (orbit.closed and orbit.stable):

@@ -24,7 +24,7 @@ from trum_sym.inputs.points import check_point, one_number
 from trum_sym.inputs.schedule import Schedule
 from trum_sym.inputs.shown import full
 from trum_sym.inputs.units import ARCSEC
-from trum_sym.model.coupled_orbit import STARTS, STATE, CoupledOrbit, lap_values, laps, orbit_from, start_of
+from trum_sym.model.coupled_orbit import MOVING, STARTS, STATE, CoupledOrbit, lap_values, laps, orbit_from, start_of
 from trum_sym.model.inputs import Inputs
 from trum_sym.model.levels import LevelChoice, Levels
 from trum_sym.model.orbit_certificate import OrbitCertificate, certificate_of
@@ -36,7 +36,6 @@ from trum_sym.values import Value
 
 __all__ = ["DriveHistory", "DriveOrbit", "drive_history", "drive_orbit", "history_of", "read_by_encoder"]
 
-_MOVING = [STATE.index(name) for name in ("w_A", "v_A", "w_B", "v_B", "v")]
 _COUNT = Domain(low=1, low_open=False, high=1e6, integer=True)
 _PAUSE = Domain(low=0, low_open=False, high=1e6, integer=True)
 _PERIOD = Domain(low=0.0, high=1e6)
@@ -95,7 +94,7 @@ def history_of(values: Mapping[str, float], state: Array, gates: Array, samples:
         gate = {"on_A": 1.0 - gates[period, 0], "on_B": 1.0 - gates[period, 1]}
         later = changes[changes > period]
         parts = np.full(samples, 1 / samples)
-        if not gates[period].any() and not values["mass"] and not ends[-1][_MOVING].any():
+        if not gates[period].any() and not values["mass"] and not ends[-1][MOVING].any():
             parts = np.array([float((later[0] if later.size else len(gates)) - period)])
             gate = {"on_A": parts[0], "on_B": parts[0]}
         for k, part in enumerate(parts):
@@ -380,7 +379,7 @@ def drive_orbit(
     chosen, values = _values(motor, drive, schedule, chosen_levels, rotor_mass, tolerance)
     begun = start_of(start, values)
     first = laps(values, begun[:, np.newaxis])[0][:, 0]
-    again = np.array_equal(first[_MOVING], begun[_MOVING]) and not values["mass"]  # all has come to rest
+    again = np.array_equal(first[MOVING], begun[MOVING]) and not values["mass"]  # all has come to rest
     settling = 0 if again else None
     orbit = orbit_from(values, begun, start, settling)
     found = _answer(values, orbit, chosen, samples, motor, drive, chosen_levels, period)
