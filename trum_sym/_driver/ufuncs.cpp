@@ -195,22 +195,27 @@ void coupled_slopes_loop(char** args, const npy_intp* dimensions, const npy_intp
   }
 }
 
+template <class T>
+T& at(std::vector<T>& of, npy_intp place) {
+  return of[static_cast<std::size_t>(place)];
+}
+
 // Blocks of points of one contact law, small enough to keep their inputs in cache.
 constexpr int n_orbit_in = COUNT(TRUM_ORBIT_IN), n_orbit_out = COUNT(TRUM_ORBIT_OUT);
 template <class Orbits>
 void orbit_blocks(char** args, const npy_intp* dimensions, const npy_intp* steps, Orbits orbits) {
   const Unlocked unlocked;
   const npy_intp most = block(256, dimensions);
-  std::vector<trum_orbit_in> in(most);
-  std::vector<trum_orbit_out> out(most);
+  std::vector<trum_orbit_in> in(static_cast<std::size_t>(most));
+  std::vector<trum_orbit_out> out(static_cast<std::size_t>(most));
   for (npy_intp i = 0; i < dimensions[0];) {
     npy_intp count = 0;
     for (; i + count < dimensions[0] && count < most; ++count) {
-      read(&in[count], args, steps, i + count);
-      if (in[count].hertz != in[0].hertz) break;
+      read(&at(in, count), args, steps, i + count);
+      if (at(in, count).hertz != at(in, 0).hertz) break;
     }
     orbits(in.data(), out.data(), static_cast<long>(count));
-    for (npy_intp k = 0; k < count; ++k) write(out[k], args + n_orbit_in, steps + n_orbit_in, i + k);
+    for (npy_intp k = 0; k < count; ++k) write(at(out, k), args + n_orbit_in, steps + n_orbit_in, i + k);
     i += count;
   }
 }
@@ -227,13 +232,13 @@ constexpr int n_sums_in = COUNT(TRUM_CYCLE_SUMS_IN);
 void cycle_sums_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
   const Unlocked unlocked;
   const npy_intp most = block(512, dimensions);
-  std::vector<trum_cycle_sums_in> in(most);
-  std::vector<trum_cycle_sums_out> out(most);
+  std::vector<trum_cycle_sums_in> in(static_cast<std::size_t>(most));
+  std::vector<trum_cycle_sums_out> out(static_cast<std::size_t>(most));
   for (npy_intp i = 0; i < dimensions[0]; i += most) {
     const npy_intp count = std::min(most, dimensions[0] - i);
-    for (npy_intp k = 0; k < count; ++k) read(&in[k], args, steps, i + k);
+    for (npy_intp k = 0; k < count; ++k) read(&at(in, k), args, steps, i + k);
     orbit_code->sums(in.data(), out.data(), static_cast<long>(count));
-    for (npy_intp k = 0; k < count; ++k) write(out[k], args + n_sums_in, steps + n_sums_in, i + k);
+    for (npy_intp k = 0; k < count; ++k) write(at(out, k), args + n_sums_in, steps + n_sums_in, i + k);
   }
 }
 
@@ -242,25 +247,25 @@ constexpr int n_slopes_in = n_orbit_in + COUNT(TRUM_SLOPES_IN), n_slopes_out = n
 void rotor_slopes_loop(char** args, const npy_intp* dimensions, const npy_intp* steps, void*) {
   const Unlocked unlocked;
   const npy_intp most = block(64, dimensions);
-  std::vector<trum_orbit_in> in(most);
-  std::vector<trum_slopes_in> with(most);
-  std::vector<trum_orbit_out> out(most);
-  std::vector<trum_slopes_out> slopes(most);
+  std::vector<trum_orbit_in> in(static_cast<std::size_t>(most));
+  std::vector<trum_slopes_in> with(static_cast<std::size_t>(most));
+  std::vector<trum_orbit_out> out(static_cast<std::size_t>(most));
+  std::vector<trum_slopes_out> slopes(static_cast<std::size_t>(most));
   const npy_intp* core = steps + n_slopes_in + n_slopes_out;  // strides of rows and columns
   for (npy_intp i = 0; i < dimensions[0];) {
     npy_intp count = 0;
     for (; i + count < dimensions[0] && count < most; ++count) {
-      read(&in[count], args, steps, i + count);
-      read(&with[count], args + n_orbit_in, steps + n_orbit_in, i + count);
-      if (in[count].hertz != in[0].hertz) break;
+      read(&at(in, count), args, steps, i + count);
+      read(&at(with, count), args + n_orbit_in, steps + n_orbit_in, i + count);
+      if (at(in, count).hertz != at(in, 0).hertz) break;
     }
     orbit_code->orbits(in.data(), out.data(), with.data(), slopes.data(), static_cast<long>(count));
     for (npy_intp k = 0; k < count; ++k) {
-      write(out[k], args + n_slopes_in, steps + n_slopes_in, i + k);
+      write(at(out, k), args + n_slopes_in, steps + n_slopes_in, i + k);
       char* to = args[n_slopes_in + n_orbit_out] + (i + k) * steps[n_slopes_in + n_orbit_out];
       for (int of = 0; of < TRUM_SLOPE_FIGURES_COUNT; ++of)
         for (int by = 0; by < TRUM_SLOPE_PARAMETERS_COUNT; ++by)
-          *reinterpret_cast<double*>(to + of * core[0] + by * core[1]) = slopes[k].of[of][by];
+          *reinterpret_cast<double*>(to + of * core[0] + by * core[1]) = at(slopes, k).of[of][by];
     }
     i += count;
   }
