@@ -76,8 +76,15 @@ static inline trum_real trum_coupled_spare(const trum_coupled_lap_in* in, trum_g
   const trum_real g_A = open ? TRUM_C(1) : gates.g_A, g_B = open ? TRUM_C(1) : gates.g_B;
   const trum_real a = g_A * in->force_A, b = g_B * in->force_B_along, c = g_B * in->force_B_ahead;
   const trum_real even = a * a + b * b - c * c, odd = 2 * b * c, both = a * a + b * b + c * c;
-  const trum_real largest = trum_sqrt(open ? both : (both + trum_sqrt(even * even + odd * odd)) / 2);
-  return in->held - in->F_q * largest / (in->M_q * in->omega_n0 * in->omega_n0);
+  const trum_real force = in->F_q * trum_sqrt(open ? both : (both + trum_sqrt(even * even + odd * odd)) / 2);
+  const trum_real* arg[trum_mode_swing_n_arg] = {NULL}; /* at rest: omega_q is 0 */
+  trum_real* res[trum_mode_swing_n_res] = {NULL};
+  trum_real bent = 0;
+  arg[trum_mode_swing_in_F_q] = &force, arg[trum_mode_swing_in_M_q] = &in->M_q;
+  arg[trum_mode_swing_in_omega_n0] = &in->omega_n0, arg[trum_mode_swing_in_xi] = &in->xi;
+  res[trum_mode_swing_out_swing] = &bent;
+  (void)trum_mode_swing(arg, res, 0, 0, 0);
+  return in->held - bent;
 }
 
 /* Whether friction stops wave and rotor and then holds them: what is left of the wave is at most what it holds beside the
