@@ -31,16 +31,22 @@ FOLDERS = [ROOT / "generated", ROOT / "trum_sym" / "_driver"]
 WARNINGS = ("-Wall", "-Wextra", "-Wconversion", "-Wpedantic", "-Wdouble-promotion", "-Wshadow", "-Wmissing-prototypes")
 C, CPP = ("c99", "c11", "c17"), ("c++11", "c++17", "c++20")
 PLUS = {"gcc": "g++", "clang": "clang++"}
-EXTENSION = {
-    "ufuncs": (),
-    "orbit_baseline": (),
-    "orbit_avx2": ("-mavx2", "-mfma"),
-    "orbit_avx512": ("-mavx512f", "-mavx512dq", "-mavx512vl", "-mfma"),
+INSTRUCTIONS = {
+    "baseline": (),
+    "avx2": ("-mavx2", "-mfma"),
+    "avx512": ("-mavx512f", "-mavx512dq", "-mavx512vl", "-mfma"),
 }
+EXTENSION: dict[str, tuple[str, ...]] = {
+    "ufuncs": (),
+    **{f"{of}_{name}": flags for of in ("orbit", "grid", "coupled") for name, flags in INSTRUCTIONS.items()},
+}
+# Nothing is set when the module loads: code for AVX-512 would run before the module has looked for it.
+NOTHING_AT_LOAD = {"gcc": (), "clang": ("-Wglobal-constructors",)}
 
 # warning, where, why it stays
 EXCEPTIONS = (
     ("-W*enum-float-conversion", "trum_sym/_driver/orbit/*.h", "flags are small whole numbers, kept as numbers"),
+    ("-W*enum-float-conversion", "trum_sym/_driver/trum_coupled*.h", "flags are small whole numbers, kept as numbers"),
 )
 _WARNING = re.compile(r"^([^\s:]+):(\d+):\d+: (?:warning|error): (.*?)(?: \[(-W[\w+-]+)\])?$", re.M)
 LIBRARY = '#define TRUM_IMPLEMENTATION\n#include "trum.h"\n#include "trum60.h"\n'
@@ -96,7 +102,8 @@ def compilations(folder: Path, compilers: Iterable[str], c: Iterable[str], cpp: 
             system += ["-DNPY_NO_DEPRECATED_API=NPY_2_0_API_VERSION", "-Wno-psabi"]
             for name, flags in EXTENSION.items():
                 source = ROOT / "trum_sym" / "_driver" / f"{name}.cpp"
-                lines.append([PLUS[compiler], "-std=c++17", *plain, *base, *system, *flags, str(source)])
+                more = (*flags, *NOTHING_AT_LOAD[compiler])
+                lines.append([PLUS[compiler], "-std=c++17", *plain, *base, *system, *more, str(source)])
     return lines
 
 

@@ -103,7 +103,7 @@ def compiled(folder: Path, target: Target) -> Path:
             raise subprocess.CalledProcessError(done.returncode, words, done.stdout, done.stderr)
 
     objects = []
-    for name in ("studies/targets.cpp", *(f"trum_sym/_driver/{name}.cpp" for name in EXTENSION if name != "ufuncs")):
+    for name in ("studies/targets.cpp", *(f"trum_sym/_driver/{name}.cpp" for name in EXTENSION if "orbit" in name)):
         source = Path(name)
         features = EXTENSION.get(source.stem, ())
         if features and not target.x86:

@@ -81,7 +81,7 @@ def test_the_page_on_claims_has_what_the_region_s_script_prints(drawn):
     block = text.split("<!-- examples/gallery_load_region.py -->\n```\n")[1].split("```")[0]
     assert NUMBER.sub("#", block) == NUMBER.sub("#", drawn[0]["load_region"])
     numbers = [np.array(NUMBER.findall(part), float) for part in (block, drawn[0]["load_region"])]
-    assert numbers[0] == pytest.approx(numbers[1], rel=0.02)
+    assert numbers[0] == pytest.approx(numbers[1], rel=0.02, abs=5e-4)  # a bound of 0.005 % hangs on the steps taken
 
 
 def test_every_stored_picture_is_on_a_page():

@@ -63,9 +63,10 @@ static inline real trum_coupled_height(trum_coupled_point* p, real W_c) {
 
 /* Which phases are driven in a drive period of the lap. */
 static inline trum_gates trum_coupled_gates(const trum_coupled_lap_in* in, long period) {
+  const trum_real now = (trum_real)period;
   trum_gates gates;
-  gates.g_A = period >= in->off_A && period < in->on_A ? 0 : 1;
-  gates.g_B = period >= in->off_B && period < in->on_B ? 0 : 1;
+  gates.g_A = now >= in->off_A && now < in->on_A ? 0 : 1;
+  gates.g_B = now >= in->off_B && now < in->on_B ? 0 : 1;
   return gates;
 }
 
