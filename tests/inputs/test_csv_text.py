@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 
+import numpy as np
 import pytest
 from refusals import MOTOR_TEXT, refusal
 
@@ -68,6 +69,19 @@ def test_what_spreadsheets_write_is_read(tmp_path, case):
     found = read_measurements(written(tmp_path / "data.csv", TAKEN[case]))
     assert found.columns["prepressure"].tolist() == [100.0, 120.0]
     assert found.columns["amplitude"].tolist() == pytest.approx([8.5e-6, 7e-6], rel=1e-15)
+
+
+BLANKS = [chr(code) for code in range(0x110000) if chr(code).isspace() and chr(code) not in "\t\n\r"]
+
+
+@pytest.mark.parametrize("blank", BLANKS, ids=lambda blank: f"U+{ord(blank):04X}")
+def test_blanks_of_any_kind_around_a_number_are_left_off_in_files_and_quantities(tmp_path, blank):
+    around = f"{blank}100{blank}"  # float() itself takes some of them and not others
+    path = written(tmp_path / "data.csv", f"{HEADER}{around},{blank}8.5\n120{blank},7\n")
+    assert read_measurements(path).columns["prepressure"].tolist() == [100.0, 120.0]
+    assert parse("prepressure", f"@{path}", "N").values.tolist() == [100.0, 120.0]
+    for text in (around, f"{around}:200:2", f"{around},200"):
+        assert np.ravel(parse("prepressure", text, "N"))[0] == 100.0
 
 
 @pytest.mark.parametrize("case", REFUSED)

@@ -115,7 +115,8 @@ def _with_point(cell: str) -> str:
 
 def plain_number(text: str) -> float | None:
     """The number that a text is; None for anything but ASCII digits, a point and an exponent, such as ``1_90``."""
-    return float(text) if _PLAIN.fullmatch(text.strip()) else None
+    bare = text.strip()  # float() leaves separators such as \x1c on, which no tool shows
+    return float(bare) if _PLAIN.fullmatch(bare) else None
 
 
 def read_table(name: str, path: Path) -> Table:

@@ -58,7 +58,7 @@ def parse(name: str, text: str, unit: str) -> float | Array | Column:
 
 def _bare(text: str) -> bool:
     try:
-        float(text)
+        float(text.strip())
     except ValueError:
         return False
     return True
