@@ -31,6 +31,7 @@ __all__ = [
     "repetition",
     "reversal",
     "saturation",
+    "segments",
     "start_speed",
     "surface",
 ]
@@ -314,6 +315,32 @@ def repetition() -> sp.Expr:
     return drift / (1 - K)
 
 
+def segments() -> sp.Expr:
+    """A lap in segments that begin beside where those before them end is the lap in one, changed by what jumps leave.
+
+    Segment k takes a speed to P_k, which rises with a slope between 0 and 1 (comparison).  It was begun at b_k; the
+    lap in one passes there at b_k + d_k.  Then d_(k+1) = s_k d_k + (P_k(b_k) - b_(k+1)), s_k the slope of a secant of
+    P_k.  The tangent at b_k, S_k, stands for it, and as both lie between 0 and 1, |s_k - S_k| |d_k| is |d_k| at most;
+    so it is for every speed within the segment.  Returns where a lap of three segments ends.
+
+    Raises
+    ------
+    ProofError
+        If a step does not hold.
+    """
+    begin, end = sp.symbols("b_1:4", real=True), sp.symbols("P_1:4", real=True)  # of each segment
+    s = sp.symbols("s_1:4", nonnegative=True)
+    in_one, change = begin[0], sp.Integer(0)
+    for k in range(3):
+        in_one = end[k] + s[k] * (in_one - begin[k])
+        change = s[k] * change + end[k] - (begin[k + 1] if k < 2 else 0)
+    _zero(in_one - change, "the lap in one")
+    secant, tangent = (sp.Symbol(name, nonnegative=True) for name in ("s", "S"))
+    apart = ((1 - secant) + tangent) * ((1 - tangent) + secant)  # two factors that are not negative
+    _zero(1 - (secant - tangent) ** 2 - apart, "slopes between 0 and 1")
+    return in_one
+
+
 @dataclass(frozen=True)
 class Theorem:
     """A statement, what it rests on, and its proof."""
@@ -337,6 +364,7 @@ THEOREMS = (
     Theorem("reversal", "nothing", reversal),
     Theorem("contact edge", "pressure", contact_edge),
     Theorem("repetition", "comparison", repetition),
+    Theorem("segments", "comparison", segments),
 )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import warnings
 from dataclasses import replace
@@ -569,3 +570,22 @@ def test_a_fit_that_no_motor_gives_ends_at_ten_times_what_is_usual():
     found = ts.calibrate(data, parameters=("friction_coefficient",), contact="hertz")
     assert found["friction_coefficient"].value == pytest.approx(15.0)
     assert found.status == "unidentifiable"
+
+
+@pytest.mark.parametrize(
+    "columns",
+    [
+        "time displacement",
+        "prepressure amplitude",
+        "load_torque mean_speed",
+        "prepressure resonance_frequency",
+        "frequency amplitude",
+    ],
+)
+@pytest.mark.parametrize("rows", [0, 1, 2, 3])
+def test_few_rows_are_answered_or_refused(trum60, columns, rows):
+    by, observed = columns.split()
+    data = {by: np.arange(rows) * 1e-6 + (0 if by == "time" else 100), observed: np.arange(rows) * 1e-6 + 1e-6}
+    with warnings.catch_warnings(), contextlib.suppress(ts.ParameterError, ts.ConvergenceError):
+        warnings.simplefilter("ignore")
+        ts.calibrate(data, trum60)

@@ -174,7 +174,9 @@ def test_the_docs_show_what_the_studies_print(command, capsys):
     main(shlex.split(command))
     theirs, ours = skeleton(shown("docs/studies.md", f"trum-sym {command}")), skeleton(capsys.readouterr().out)
     assert ours[0].strip() == theirs[0].strip()
-    assert ours[1] == pytest.approx(theirs[1], rel=2e-3)
+    assert ours[1] == pytest.approx(
+        theirs[1], rel=6e-3
+    )  # slopes of three digits, the last of which CPUs round differently
 
 
 def test_the_page_on_tolerances_shows_what_its_command_prints(capsys, monkeypatch, tmp_path):

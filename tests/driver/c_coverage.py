@@ -54,12 +54,12 @@ NEVER = {
         "static mask where_mask(": ONE_LANE,
         "if (lanes->record && mask_in_lane(accepted, 0))": ONE_LANE,
         "if (!mask_in_lane(ended, i)) continue;": ONE_LANE,
-        "while (!busy[i] && ((has_task": ONE_LANE,
-        "const int to_scratch = slopes_in": ONE_LANE,
-        "const long point = has_task": ONE_LANE,
-        "searches[i].slopes_out = slopes_out && has_task": ONE_LANE,
-        "busy[i] = trum_load_task(": ONE_LANE,
-        "busy[i] = busy[i] && has_task": ONE_LANE,
+        "busy[i] = trum_begin_coarse_orbit(": ONE_LANE,
+        "if (i < count) found[i].found": ONE_LANE,
+        "trum_search* search = &searches[work[i].search < 0": ONE_LANE,
+        "return !search->done && (search->side_by_side": ONE_LANE,
+        "batch->count - first < TRUM_LANES": ONE_LANE,
+        "const long end = count - first < TRUM_AT_ONCE": ONE_LANE,
         "if (i > 0) set_lane_mask(": ONE_LANE,
         "const int beyond = r->written == r->count": "rounding of a history's last time, which may fall to either side",
         "z = z < 0 ? 0 : z > 1": "rounding of a history's times, which may fall to either side",
@@ -75,7 +75,8 @@ NEVER = {
         "if (s->known && next > b->sure_low": LAPS,
         "if (!with_slopes(lanes) && !met": LAPS,
         "if (excess > 1 &&": LAPS,
-        "if (s->certain) return next;": LAPS,
+        "if (s->certain || s->loose) return next;": LAPS,
+        "} else if (search->laps == 1) {": LAPS,
         "if (width <= TRUM_C(0.5) * allowed": LAPS,
         "next = search->bracket.high - middle": LAPS,
         "if (next < search->bracket.high &&": LAPS,
@@ -102,8 +103,8 @@ NEVER = {
         "const trum_real decay = held ? 1 : 1 - kept_error": LONG,
         "set_lane(&lap->remainder, i, (added": LONG,
         "if (r->left < TRUM_C(0.5)) return 0;": LONG,
-        "if (searches[0].repetition.is_long && record.written": "no long history ended with a step",
-        "if (mask_in_lane(lanes.status.failed, 0)": "a history repeats a lap that came to its end",
+        "if (search->repetition.is_long && record.written": "no long history ended with a step",
+        "if (mask_in_lane(lanes->status.failed, 0)": "a history repeats a lap that came to its end",
     },
 }
 
@@ -335,7 +336,7 @@ def ran(name: str, told: str) -> Mapping[str, Mapping[Branch, int]]:
     """How often each branch was taken by a harness that was told something."""
     with tempfile.TemporaryDirectory() as place:
         folder = Path(place)
-        harness = build(folder, ["-O0", "--coverage"], name)
+        harness = build(folder, ["-O0", "--coverage", "-DTRUM_SEGMENTS=16"], name)
         subprocess.run([harness], input=told, text=True, check=True, cwd=folder, capture_output=True)
         return measured(folder)
 

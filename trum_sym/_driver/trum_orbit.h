@@ -35,10 +35,13 @@
 #include "orbit/accept.h"
 #include "orbit/repeat.h"
 #include "orbit/lap.h"
+#include "orbit/segments.h"
 #include "orbit/bounds.h"
+#include "orbit/figure_slopes.h"
 #include "orbit/shooting.h"
 #include "orbit/balance.h"
 #include "orbit/task.h"
+#include "orbit/coarse.h"
 #include "orbit/run.h"
 
 #undef REAL

@@ -91,6 +91,8 @@ def first_guess(elapsed: Array, signal: Array, expected: float) -> tuple[float, 
     ParameterError
         If the rows are too few or too far apart to show the vibration.
     """
+    if elapsed.size < 2:
+        raise ParameterError("data", "1 row of a decay", "at least 2, to tell how the vibration goes on")
     spacing = float(np.max(np.diff(elapsed)))
     if spacing > 0.5 / expected:
         allowed = f"less than half a period of the resonance, {0.5 / expected:.3g} s"

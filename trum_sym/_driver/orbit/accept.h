@@ -93,6 +93,7 @@ static void trum_accept_step(trum_lanes* lanes, const trum_trial_step* trial, ma
   lap->x = where(accepted, lap->x + sum_x, lap->x), lap->xx = where(accepted, lap->xx + defect->xx, lap->xx);
   lap->S = where(accepted, lap->S + sum_S, lap->S), lap->xS = where(accepted, lap->xS + sum_xS, lap->xS);
   lap->SS = where(accepted, lap->SS + sum_SS, lap->SS);
+  lap->stiffest = where(accepted, maximum(lap->stiffest, defect->stiffness * lanes->step.h), lap->stiffest);
   trum_add_defect(lanes, defect, S, accepted);
   if (lanes->record && mask_in_lane(accepted, 0)) trum_record_step(lanes->record, lanes, rate);
   lanes->start.x = where(accepted, trial->x[LAST_NODE], lanes->start.x);

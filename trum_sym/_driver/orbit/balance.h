@@ -26,16 +26,20 @@ static trum_real trum_angle_within(trum_real engagement, trum_real share, trum_r
   return a;
 }
 
+/* Whether a drive is of that kind. */
+static int trum_is_balance(const trum_orbit_in* in) {
+  const trum_real motion = trum_fabs(in->a_A) + trum_fabs(in->a_B) + (trum_fabs(in->b_A) + trum_fabs(in->b_B)) / in->omega_n; /* free */
+  return !(in->m > in->n) && motion <= TRUM_EITHER(4e-15, 2e-6) * in->W;
+}
+
 /* Stores the speed of balance, if the drive is of that kind; else 0. */
 static int trum_solve_balance(trum_lanes* lanes, int i, trum_search* search) {
   const trum_orbit_in* in = search->in;
   trum_orbit_out* out = search->out;
   trum_real a, R_v, theta, sense, pressure, error;
   trum_surface at;
-  const trum_real motion = trum_fabs(in->a_A) + trum_fabs(in->a_B) + (trum_fabs(in->b_A) + trum_fabs(in->b_B)) / in->omega_n; /* free */
-  if (in->m > in->n) return 0;
-  if (!(motion <= TRUM_EITHER(4e-15, 2e-6) * in->W)) return 0;
-  trum_start_lap(lanes, i, search);
+  if (!trum_is_balance(in)) return 0;
+  trum_start_segment(lanes, i, search, 0);
   trum_surface_at(&lanes->constants, &lanes->region, with_hertz(lanes), lanes->step.tau, &at);
   R_v = lane_value(&at.R_v, i), theta = lane_value(&at.theta, i);
   sense = lane_value(&at.cos_phi, i) < 0 ? -1 : 1; /* in which the crest travels */

@@ -7,8 +7,6 @@
 #ifndef TRUM_ORBIT_BOUNDS_H
 #define TRUM_ORBIT_BOUNDS_H
 
-static trum_real trum_larger(trum_real a, trum_real b) { return a > b ? a : b; }
-
 /* How the start speed of an orbit lies to that of a lap: to be changed by this, which is uncertain by that, beside the
  * lap's own errors; and by how much more than the extremes that are seen others may move with it. */
 typedef struct {
@@ -16,34 +14,32 @@ typedef struct {
 } trum_start_change;
 
 /* Bounds of a lap's errors: at its start, of its mean, and of its deviation, whose variance is stored. */
-static void trum_store_bounds(const trum_lanes* lanes, int i, trum_search* search, trum_start_change start,
-                              trum_real top) {
-  const trum_lap* lap = &lanes->lap;
-  const trum_real cycle_time = lane_value(&lanes->equation.cycle_time, i), growth = lane_value(&lanes->start.S, i);
+static void trum_store_bounds(trum_search* search, const trum_lap_sums* lap, trum_start_change start, trum_real top) {
+  const trum_real cycle_time = search->cycle_time, growth = lap->growth;
   const trum_real decay = trum_larger(1 - growth, trum_least_decay), share = trum_first_order_share;
-  const trum_real S = lane_value(&lap->S, i) / cycle_time, SS = lane_value(&lap->SS, i) / cycle_time;
-  const trum_real end_error = lane_value(&lap->error, i), start_error = end_error / decay;
-  const trum_real start_remainder = (share * trum_fabs(end_error) + lane_value(&lap->remainder, i)) / decay + start.uncertainty;
-  const trum_real mean_error = lane_value(&lap->error_sum, i) / cycle_time, rounding = TRUM_EITHER(4e-15, 2e-6) * top;
-  const trum_real mean_remainder = share * trum_fabs(mean_error) + lane_value(&lap->remainder_sum, i) / cycle_time;
+  const trum_real S = lap->S / cycle_time, SS = lap->SS / cycle_time;
+  const trum_real end_error = lap->error, start_error = end_error / decay;
+  const trum_real start_remainder = (share * trum_fabs(end_error) + lap->remainder) / decay + start.uncertainty;
+  const trum_real mean_error = lap->error_sum / cycle_time, rounding = TRUM_EITHER(4e-15, 2e-6) * top;
+  const trum_real mean_remainder = share * trum_fabs(mean_error) + lap->remainder_sum / cycle_time;
   const trum_real of_start = trum_fabs(start_error) + start_remainder, of_extremes = start.rival + rounding;
   const trum_real whole_error = mean_error + S * start_error;
-  const trum_real square = lane_value(&lap->error_square, i) / cycle_time - whole_error * whole_error +
-                        start_error * (2 * lane_value(&lap->error_S, i) / cycle_time + start_error * SS);
-  const trum_real of_variance = TRUM_EITHER(1e-15, 5e-7) * (lane_value(&lap->xx, i) / cycle_time + start.change * start.change * SS);
-  const trum_real low = (1 + share) * lane_value(&lap->low_error, i) + lane_value(&lap->low_remainder, i);
-  const trum_real high = (1 + share) * lane_value(&lap->high_error, i) + lane_value(&lap->high_remainder, i);
-  const trum_real low_rival = lane_value(&lap->low, i) - lane_value(&lap->lowest, i); /* of the lap's other extremes */
-  const trum_real high_rival = lane_value(&lap->highest, i) - lane_value(&lap->high, i);
+  const trum_real square = lap->error_square / cycle_time - whole_error * whole_error +
+                        start_error * (2 * lap->error_S / cycle_time + start_error * SS);
+  const trum_real of_variance = TRUM_EITHER(1e-15, 5e-7) * (lap->xx / cycle_time + start.change * start.change * SS);
+  const trum_real low = (1 + share) * lap->low_error + lap->low_remainder;
+  const trum_real high = (1 + share) * lap->high_error + lap->high_remainder;
+  const trum_real low_rival = lap->low - lap->lowest; /* of the lap's other extremes */
+  const trum_real high_rival = lap->highest - lap->high;
   trum_orbit_out* out = search->out;
   out->mean_error = trum_fabs(whole_error) + mean_remainder + S * start_remainder + rounding;
-  out->low_error = lane_value(&lap->S_low, i) * of_start + trum_larger(low, low_rival) + of_extremes;
-  out->high_error = lane_value(&lap->S_high, i) * of_start + trum_larger(high, high_rival) + of_extremes;
+  out->low_error = lap->S_low * of_start + trum_larger(low, low_rival) + of_extremes;
+  out->high_error = lap->S_high * of_start + trum_larger(high, high_rival) + of_extremes;
   /* by the triangle inequality the deviation is off by no more than the deviation of the error */
   out->deviation_error = trum_sqrt(square > 0 ? square : 0) + share * (trum_fabs(mean_error) + trum_fabs(end_error)) +
                          trum_sqrt(SS > S * S ? SS - S * S : 0) * start_remainder +
-                         trum_sqrt(lane_value(&lap->remainder_square, i) / cycle_time) +
-                         TRUM_C(0.05) * lane_value(&lap->inside, i) / cycle_time + rounding +
+                         trum_sqrt(lap->remainder_square / cycle_time) +
+                         TRUM_C(0.05) * lap->inside / cycle_time + rounding +
                          of_variance / (trum_sqrt(out->variance) + trum_sqrt(of_variance) + trum_tiny);
   out->mean_error *= trum_bound_safety, out->deviation_error *= trum_bound_safety;
   out->low_error *= trum_bound_safety, out->high_error *= trum_bound_safety;
@@ -52,36 +48,35 @@ static void trum_store_bounds(const trum_lanes* lanes, int i, trum_search* searc
 }
 
 /* The figures of the orbit whose start speed a lap's is to be changed to, to the first order in the change. */
-static void trum_store_orbit(const trum_lanes* lanes, int i, trum_search* search, trum_start_change start, trum_real top) {
-  const trum_lap* lap = &lanes->lap;
-  const trum_real cycle_time = lane_value(&lanes->equation.cycle_time, i), change = start.change;
-  const trum_real x = lane_value(&lap->x, i) / cycle_time, xx = lane_value(&lap->xx, i) / cycle_time;
-  const trum_real S = lane_value(&lap->S, i) / cycle_time, SS = lane_value(&lap->SS, i) / cycle_time;
-  const trum_real xS = lane_value(&lap->xS, i) / cycle_time;
+static void trum_store_orbit(trum_search* search, const trum_lap_sums* lap, trum_start_change start, trum_real top) {
+  const trum_real cycle_time = search->cycle_time, change = start.change;
+  const trum_real x = lap->x / cycle_time, xx = lap->xx / cycle_time;
+  const trum_real S = lap->S / cycle_time, SS = lap->SS / cycle_time;
+  const trum_real xS = lap->xS / cycle_time;
   const trum_real variance = xx - x * x + change * (2 * (xS - x * S) + change * (SS - S * S));
-  const trum_real v0 = lane_value(&lanes->equation.v0, i);
+  const trum_real v0 = search->v0;
   trum_orbit_out* out = search->out;
   out->start = search->start_speed + change, out->level = search->level;
   out->mean = v0 + x + change * S;
-  out->low = v0 + lane_value(&lap->low, i) + change * lane_value(&lap->S_low, i);
-  out->high = v0 + lane_value(&lap->high, i) + change * lane_value(&lap->S_high, i);
+  out->low = v0 + lap->low + change * lap->S_low;
+  out->high = v0 + lap->high + change * lap->S_high;
   /* the change leaves the order of nearly equal speeds open */
   out->low = out->low < out->mean ? out->low : out->mean, out->high = out->high > out->mean ? out->high : out->mean;
   out->variance = variance > 0 ? variance : 0;
-  trum_store_bounds(lanes, i, search, start, top);
+  trum_store_bounds(search, lap, start, top);
 }
 
 /* Contact and friction of the held rotor; 1 if both bounds meet the tolerance. */
-static int trum_store_held(const trum_lanes* lanes, int i, trum_search* search) {
-  const trum_lap* lap = &lanes->lap;
-  const trum_real cycle_time = lane_value(&lanes->equation.cycle_time, i), pi_time = cycle_time * TRUM_C(3.14159265358979323846);
-  const trum_real contact = lane_value(&lap->angle, i) / pi_time, held = lane_value(&lap->friction, i) / cycle_time;
+static int trum_store_held(trum_search* search) {
+  const trum_lap_sums* lap = &search->lap;
+  const trum_real cycle_time = search->cycle_time, pi_time = cycle_time * TRUM_C(3.14159265358979323846);
+  const trum_real contact = lap->angle / pi_time, held = lap->friction / cycle_time;
   trum_orbit_out* out = search->out;
   out->contact = contact < 1 ? contact : 1, out->held = held > 1 ? 1 : held < -1 ? -1 : held;
-  out->contact_error = ((1 + trum_first_order_share) * trum_fabs(lane_value(&lap->angle_error, i)) +
-                        lane_value(&lap->angle_remainder, i)) / pi_time;
-  out->held_error = ((1 + trum_first_order_share) * trum_fabs(lane_value(&lap->friction_error, i)) +
-                     lane_value(&lap->friction_remainder, i)) / cycle_time;
+  out->contact_error = ((1 + trum_first_order_share) * trum_fabs(lap->angle_error) +
+                        lap->angle_remainder) / pi_time;
+  out->held_error = ((1 + trum_first_order_share) * trum_fabs(lap->friction_error) +
+                     lap->friction_remainder) / cycle_time;
   out->contact_error *= trum_bound_safety, out->held_error *= trum_bound_safety;
   return out->contact_error <= search->in->tolerance && out->held_error <= search->in->tolerance;
 }

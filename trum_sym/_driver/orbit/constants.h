@@ -35,6 +35,19 @@ static const trum_real trum_repetition_share = TRUM_C(0.3);   /* of periods that
 static const trum_real trum_least_counted = 100; /* drive periods, at least, over which the errors of a long lap's steps add up */
 static const trum_real trum_first_lap_tolerance = TRUM_C(1e-2); /* in place of the tolerance, far from the orbit */
 
+/* Coarse laps (coarse.h): steps a drive period; what they may be off by and how near to the orbit is enough, over the largest
+ * speed */
+static const trum_real trum_first_coarse_steps = 24, trum_coarse_steps = 96;
+static const trum_real trum_coarse_error = TRUM_C(1e-3), trum_coarse_enough = TRUM_C(2e-3);
+static const int trum_most_coarse_laps = 8;
+static const trum_real trum_coarse_stiff = TRUM_C(0.2); /* the exponent of a coarse step from which on friction is stiff in longer ones */
+
+/* By how much, over the largest speed, a lap may begin beside the one before if its segments are to be side by side */
+static const trum_real trum_side_by_side_change = TRUM_C(5e-3);
+#if TRUM_SEGMENTS > 1
+static const trum_real trum_least_jump_share = TRUM_C(5e-4); /* what a jump's change is uncertain by at least */
+#endif
+
 /* Limits of the number's type: what is added to a divisor that may be 0, what a number is rounded by, slopes that count as
  * none, friction that counts as saturated, the least that speeds draw together over a lap, a scale nothing is known of */
 static const trum_real trum_tiny = TRUM_EITHER(1e-290, 1e-37);

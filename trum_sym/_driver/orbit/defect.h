@@ -244,6 +244,7 @@ static void trum_add_defect(trum_lanes* lanes, const trum_defect* d, const real*
   within = lap->remainder * square_root(d->mean_kept) + d->remainder;
   lap->remainder_square = where(accepted, lap->remainder_square + h * (within * within), lap->remainder_square);
   lap->inside = where(accepted, lap->inside + h * d->inside, lap->inside);
+  lap->kept_sum = where(accepted, lap->kept_sum + h * (lap->kept * d->mean_kept), lap->kept_sum);
   lap->kept = where(accepted, lap->kept * d->kept, lap->kept);
   lap->error = where(accepted, error, lap->error), lap->remainder = where(accepted, remainder, lap->remainder);
   lap->friction_error = where(accepted, lap->friction_error + d->friction, lap->friction_error);

@@ -35,6 +35,9 @@ static real reciprocal(real a) { return 1 / a; }
 #ifndef TRUM_SLOPES /* whether the search can give slopes of its figures, which trum.h has none of */
 #define TRUM_SLOPES (TRUM_LANES > 1)
 #endif
+#ifndef TRUM_SEGMENTS /* of a lap that are integrated side by side (segments.h); one: none are */
+#define TRUM_SEGMENTS (TRUM_LANES > 1 ? 16 : 1)
+#endif
 #include "trum_collocation.h"
 #include "trum_lane_calls.h"
 #include "trum_orbit_fields.h"

@@ -95,8 +95,12 @@ static void trum_share_friction(const trum_lanes* lanes, const trum_surface* at,
   }
 }
 
+/* How many nodes of each lane that has a task are evaluated at once. */
+static int trum_places(const trum_lanes* lanes) { return lanes->sharing.places; }
+
 #else
 static void trum_share_lanes(trum_lanes* lanes, const int* busy) { (void)lanes, (void)busy; }
+static int trum_places(const trum_lanes* lanes) { return (void)lanes, 1; }
 #endif
 
 /* Surface and contact at `count` times after the region's start. */

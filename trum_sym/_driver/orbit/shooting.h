@@ -11,51 +11,13 @@
 /* The level of laps far from the orbit: their start is known so well in the end that one fine lap is enough. */
 static trum_real trum_rough_level(trum_real tolerance) { return TRUM_C(0.2) * trum_pow(tolerance, TRUM_C(0.8)); }
 
+/* That of laps whose segments are side by side: their figures are known to the second order in what these begin beside. */
+static trum_real trum_side_by_side_level(trum_real tolerance) { return TRUM_C(0.03) * trum_sqrt(tolerance); }
+
 /* The level at which a lap's own errors, which are `excess` times the tolerance at the level of this one, would be a
  * third of it.  A finer level has more steps, whose errors add up, so that these fall more slowly than the level. */
 static trum_real trum_level_for(trum_real level, trum_real excess) {
   return level * trum_pow(trum_larger(TRUM_C(0.35) / excess, TRUM_C(1e-3)), TRUM_C(1.2));
-}
-
-/* Slopes of the figures once the orbit is found.  The start speed follows a parameter by the implicit function theorem:
- * d0 = dx(end) / (1 - growth). */
-static void trum_store_slopes(const trum_lanes* lanes, int i, trum_search* search) {
-  const trum_lap* lap = &lanes->lap;
-  const trum_real whole = lane_value(&lanes->equation.cycle_time, i), growth = lane_value(&lanes->start.S, i);
-  const trum_real decay = trum_larger(1 - growth, trum_least_decay);
-  const trum_real x = lane_value(&lap->x, i) / whole, S = lane_value(&lap->S, i) / whole;
-  const trum_real xS = lane_value(&lap->xS, i) / whole;
-  int parameter;
-  for (parameter = 0; parameter < PARAMETERS; ++parameter) {
-    trum_real(*of)[TRUM_SLOPE_PARAMETERS_COUNT] = search->slopes_out->of;
-    if (search->stage == STAGE_HELD) {
-      if (search->held_laps != 1)
-        of[TRUM_OF_CONTACT][parameter] = lane_value(&lap->d_angle[parameter], i) / whole / TRUM_C(3.14159265358979323846);
-      if (search->held_laps != 2) of[TRUM_OF_HELD][parameter] = lane_value(&lap->d_friction[parameter], i) / whole;
-    } else {
-      const trum_real d0 = lane_value(&lanes->sensitivity.x[parameter], i) / decay;
-      const trum_real d_x = lane_value(&lap->d_x[parameter], i) / whole;
-      of[TRUM_OF_MEAN][parameter] = d_x + S * d0;
-      of[TRUM_OF_LOW][parameter] = lane_value(&lap->d_low[parameter], i) + lane_value(&lap->S_low, i) * d0;
-      of[TRUM_OF_HIGH][parameter] = lane_value(&lap->d_high[parameter], i) + lane_value(&lap->S_high, i) * d0;
-      of[TRUM_OF_VARIANCE][parameter] =
-          2 * (lane_value(&lap->d_xx[parameter], i) / whole - x * d_x + (xS - x * S) * d0);
-    }
-  }
-}
-
-/* Errors of the next lap's slopes are measured by what this one has summed up; slopes that are nothing but rounding, as
- * those of a plain wave's contact by the frequencies, are not to be resolved. */
-static void trum_update_slope_scales(const trum_lanes* lanes, int i, trum_search* search, trum_real growth) {
-  int k;
-  search->scales.growth = growth;
-  for (k = 0; k < PARAMETERS; ++k) {
-    const int by_frequency = k == TRUM_BY_RESONANCE || k == TRUM_BY_DIFFERENCE;
-    const trum_real least =
-        trum_least_slope * lane_value(&lanes->equation.cycle_time, i) / (by_frequency ? search->in->omega_n : 1);
-    search->scales.friction[k] = trum_larger(lane_value(&lanes->lap.sum_abs_friction[k], i), least);
-    search->scales.angle[k] = trum_larger(lane_value(&lanes->lap.sum_abs_angle[k], i), least);
-  }
 }
 
 /* What a finished lap says of the orbit. */
@@ -69,24 +31,25 @@ typedef struct {
   trum_real slope_error;             /* of the lap's slope, beside that of the secant to the lap before */
   trum_real share;                   /* of Newton's step that is uncertain, as the slope is off */
   int certain, known;             /* has the exact gain a certain sign?  is Newton's step to be believed? */
+  int loose;                      /* is the gain uncertain for the jumps between segments most? */
   int accurate, last;             /* at the fine level; no more laps are allowed */
 } trum_lap_summary;
 
 /* Reads off a lap that has ended, and counts it. */
-static trum_lap_summary trum_summarise_lap(const trum_lanes* lanes, int i, trum_search* search) {
-  const trum_lap* lap = &lanes->lap;
+static trum_lap_summary trum_summarise_lap(trum_search* search) {
+  const trum_lap_sums* lap = &search->lap;
   const trum_orbit_in* in = search->in;
-  const trum_real error = lane_value(&lap->error, i), v0 = lane_value(&lanes->equation.v0, i);
+  const trum_real error = lap->error, v0 = search->v0;
   trum_lap_summary s;
-  s.gain = lane_value(&lanes->start.x, i) - (search->start_speed - v0), s.growth = lane_value(&lanes->start.S, i);
+  s.gain = lap->end - (search->start_speed - v0), s.growth = lap->growth;
   s.decay = trum_larger(1 - s.growth, trum_least_decay);
-  s.off = (1 + trum_first_order_share) * trum_fabs(error) + lane_value(&lap->remainder, i);
-  s.exact_gain = s.gain - error, s.uncertainty = TRUM_C(0.1) * trum_fabs(error) + lane_value(&lap->remainder, i);
-  s.bound = TRUM_C(1.5) * lane_value(&lap->fastest, i);
-  s.top = trum_larger(trum_fabs(v0 + lane_value(&lap->low, i)), trum_fabs(v0 + lane_value(&lap->high, i)));
+  s.off = (1 + trum_first_order_share) * trum_fabs(error) + lap->remainder;
+  s.exact_gain = s.gain - error, s.uncertainty = TRUM_C(0.1) * trum_fabs(error) + lap->remainder;
+  s.bound = TRUM_C(1.5) * lap->fastest;
+  s.top = trum_larger(trum_fabs(v0 + lap->low), trum_fabs(v0 + lap->high));
   s.newton = s.gain / s.decay;
-  s.saturated_gain = (in->push - trum_fabs(in->drag)) * lane_value(&lanes->equation.cycle_time, i);
-  s.certain = trum_fabs(s.exact_gain) > s.uncertainty;
+  s.saturated_gain = (in->push - trum_fabs(in->drag)) * search->cycle_time;
+  s.certain = trum_fabs(s.exact_gain) > s.uncertainty, s.loose = search->jumps > TRUM_C(0.5) * s.uncertainty;
   s.accurate = search->level <= trum_fine_level(in->tolerance) * TRUM_C(1.0001), s.last = ++search->laps >= trum_max_laps;
   return s;
 }
@@ -114,9 +77,7 @@ static void trum_compare_laps(const trum_search* search, trum_lap_summary* s) {
 /* By how much more than a lap's lowest and highest speed others may move, when its start changes so that its end changes by
  * `change`.  Any speed moves by `growth` to 1 times the start's change, so that by which they differ is no more than the
  * end's, for certain; and the start is off by the lap's own errors, twice. */
-static trum_real trum_rival(const trum_lap_summary* s, trum_real change) {
-  return (change + 2 * s->off) / trum_bound_safety;
-}
+static trum_real trum_rival(trum_real off, trum_real change) { return (change + 2 * off) / trum_bound_safety; }
 
 /* What the change of the start speed is uncertain by: Newton's step in the ratio in which its slope is off, or the
  * bracket. */
@@ -126,7 +87,7 @@ static trum_start_change trum_uncertain_change(const trum_search* search, const 
   start.change = s->known ? s->newton : change;
   start.uncertainty = s->known ? trum_fabs(s->newton) * s->share : TRUM_HUGE;
   if (width < 2 * s->bound && width < start.uncertainty) start.uncertainty = width;
-  start.rival = trum_rival(s, trum_fabs(s->gain));
+  start.rival = trum_rival(s->off, trum_fabs(s->gain));
   return start;
 }
 
@@ -167,71 +128,77 @@ static trum_real trum_next_start(trum_search* search, const trum_lap_summary* s)
 }
 
 /* The speed that errors of the next lap are measured by: the smaller the decay, the more an error of a step weighs. */
-static trum_real trum_scale_of(const trum_orbit_in* in, const trum_lap_summary* s, trum_real cycle_time) {
-  const trum_real reach = in->push * cycle_time;
-  return s->top * (s->decay > TRUM_C(1e-3) ? s->decay : TRUM_C(1e-3) * (reach < s->top ? s->decay + reach / s->top : 1));
+static trum_real trum_scale_of(const trum_search* search, trum_real top, trum_real decay) {
+  const trum_real reach = search->in->push * search->cycle_time;
+  return top * (decay > TRUM_C(1e-3) ? decay : TRUM_C(1e-3) * (reach < top ? decay + reach / top : 1));
 }
 
 /* A lap of the held rotor has ended.  Without slopes it is repeated until its bounds meet the tolerance; with slopes
  * there are two more, one with errors measured by the friction's slopes and one by the contact's. */
-static int trum_finish_held_lap(trum_lanes* lanes, int i, trum_search* search) {
-  const int met = trum_store_held(lanes, i, search);
+static int trum_finish_held_lap(const trum_lanes* lanes, trum_search* search) {
+  const int met = trum_store_held(search);
   trum_orbit_out* out = search->out;
-  if (with_slopes(lanes)) trum_store_slopes(lanes, i, search);
+  if (with_slopes(lanes)) trum_store_slopes(search);
   if (with_slopes(lanes) && search->held_laps < 2) {
-    if (!search->held_laps) trum_update_slope_scales(lanes, i, search, trum_unmeasured);
+    if (!search->held_laps) trum_update_slope_scales(search, trum_unmeasured);
     ++search->held_laps;
-    trum_start_lap(lanes, i, search);
     return 1;
   }
   if (!with_slopes(lanes) && !met && ++search->refinements <= 6) {
     const trum_real error = trum_larger(out->contact_error, out->held_error);
     search->level = trum_level_for(search->level, error / search->in->tolerance);
-    trum_start_lap(lanes, i, search);
     return 1;
   }
-  if (lane_value(&lanes->lap.full_contact, i) > 0) out->flags += trum_full_contact;
+  if (search->lap.full_contact > 0) out->flags += trum_full_contact;
   return 0;
 }
 
-/* Repeats a lap that could not be followed with shorter steps, a few times at most: steps that are too long alternate
- * between the sides of a line contact that is as fast as the rotor. */
-static int trum_repeat_failed_lap(trum_lanes* lanes, int i, trum_search* search) {
+/* Repeats a lap: in turn, if its segments were side by side; one that could not be followed with shorter steps, a few times at
+ * most: steps that are too long alternate between the sides of a line contact that is as fast as the rotor. */
+static int trum_repeat_lap(trum_search* search) {
   const trum_real fine_level = trum_fine_level(search->in->tolerance);
+  if (search->side_by_side) {
+    trum_integrate_in_turn(search), ++search->laps;
+    return 1;
+  }
   if (++search->refinements > 3) {
-    search->out->flags += lane_value(&lanes->step.steps_left, i) < 0 ? (trum_real)trum_too_many_steps : (trum_real)trum_failed_step;
+    search->out->flags += search->out_of_steps ? (trum_real)trum_too_many_steps : (trum_real)trum_failed_step;
     return 0;
   }
   search->level = search->level > fine_level ? fine_level : TRUM_C(0.1) * search->level, ++search->laps;
-  trum_start_lap(lanes, i, search);
   return 1;
 }
 
-/* The bound of a lap's figures over its largest speed, were its start off by no more than the lap's own errors make it.
- * Stores nothing. */
-static trum_real trum_own_bound(const trum_lanes* lanes, int i, trum_search* search, const trum_lap_summary* s) {
-  const trum_real error = trum_fabs(lane_value(&lanes->lap.error, i));
-  const trum_real uncertainty = s->share * error / s->decay;
-  const trum_start_change own = {s->newton, uncertainty, trum_rival(s, error)};
+/* The bound of a lap's figures over its largest speed, were its start off by no more than the lap's own errors make it, and
+ * its segments where they belong.  Stores nothing. */
+static trum_real trum_own_bound(trum_search* search, const trum_lap_summary* s) {
+  const trum_lap_sums* lap = &search->lap;
+  const trum_real error = trum_fabs(lap->error), uncertainty = s->share * error / s->decay;
   const trum_orbit_out kept = *search->out;
+  trum_start_change own;
   trum_real bound;
-  trum_store_orbit(lanes, i, search, own, s->top);
+  own.change = s->newton, own.uncertainty = uncertainty, own.rival = trum_rival(s->off - search->jumps, error);
+#if TRUM_SEGMENTS > 1
+  trum_lap_sums joined;
+  if (search->side_by_side) trum_join_segments(search, &joined, 0, 0), lap = &joined;
+#endif
+  trum_store_orbit(search, lap, own, s->top);
   bound = search->out->error, *search->out = kept;
   return bound;
 }
 
 /* After a fine lap whose bounds do not meet the tolerance: shorter steps if its own errors are too large; else from a
  * better start, or on both sides of a start whose gain has no certain sign.  Returns the next start. */
-static trum_real trum_refine(const trum_lanes* lanes, int i, trum_search* search, const trum_lap_summary* s, trum_real next) {
+static trum_real trum_refine(trum_search* search, const trum_lap_summary* s, trum_real next) {
   const trum_real allowed = search->in->tolerance * s->top;
   const trum_real width = search->bracket.high - search->bracket.low, middle = search->start_speed;
   trum_newton_record* newton = &search->newton;
   if (s->known) {
-    const trum_real excess = trum_own_bound(lanes, i, search, s) / search->in->tolerance;
+    const trum_real excess = trum_own_bound(search, s) / search->in->tolerance;
     if (excess > 1 && ++search->refinements <= 12) search->level = trum_level_for(search->level, excess);
     return next;
   }
-  if (s->certain) return next;
+  if (s->certain || s->loose) return next;
   newton->last_step = TRUM_HUGE;
   if (width <= TRUM_C(0.5) * allowed || ++newton->probes > 8) {
     search->level *= TRUM_C(0.1), ++search->refinements, newton->probes = 0;
@@ -245,37 +212,35 @@ static trum_real trum_refine(const trum_lanes* lanes, int i, trum_search* search
 
 /* A lap with slopes along an orbit that is known: the first one measures them, the next ones end when their start is
  * good enough.  Returns 1 if there is another lap to do. */
-static int trum_finish_lap_with_slopes(trum_lanes* lanes, int i, trum_search* search, const trum_lap_summary* s,
-                                       trum_real change) {
-  trum_update_slope_scales(lanes, i, search, s->decay);
+static int trum_finish_lap_with_slopes(trum_search* search, const trum_lap_summary* s, trum_real change) {
+  trum_update_slope_scales(search, s->decay);
   if (search->stage == STAGE_ROUGH) {
     search->stage = STAGE_FINE, search->level = trum_fine_level(search->in->tolerance);
     search->scales.speed = s->top * trum_larger(s->decay, TRUM_C(1e-3));
     return 1;
   }
-  trum_store_slopes(lanes, i, search);
+  trum_store_slopes(search);
   return trum_fabs(change) > search->in->tolerance * s->top && s->certain && !s->last;
 }
 
 /* After a lap far from the orbit: its last figures if no more are allowed (returns 0), or a finer level. */
-static int trum_finish_rough_lap(trum_lanes* lanes, int i, trum_search* search, const trum_lap_summary* s,
-                                 trum_real change) {
+static int trum_finish_rough_lap(trum_search* search, const trum_lap_summary* s, trum_real change) {
   const trum_real nearly = s->top * trum_sqrt(TRUM_C(0.1) * search->in->tolerance);
   /* where laps forget their start, the next one begins close to the orbit however far this one did */
   const int forgets = 5 * s->growth * trum_fabs(change) <= nearly && s->growth < TRUM_C(0.1) &&
                       trum_fabs(change) >= TRUM_C(0.9) * trum_fabs(s->newton);
   if (s->last) {
     const trum_start_change start = {change, TRUM_HUGE, 0};
-    trum_store_orbit(lanes, i, search, start, s->top);
+    trum_store_orbit(search, &search->lap, start, s->top);
     search->out->flags += trum_too_many_laps;
     return 0;
   }
-  if ((trum_fabs(change) <= nearly && s->change < TRUM_C(0.7)) || forgets || !s->certain ||
+  if ((trum_fabs(change) <= nearly && s->change < TRUM_C(0.7)) || forgets || (!s->certain && !s->loose) ||
       search->bracket.high - search->bracket.low <= nearly) {
     const trum_real fine_level = trum_fine_level(search->in->tolerance);
     trum_real wanted = fine_level;
     if (s->known || forgets)
-      wanted = trum_level_for(search->level, trum_own_bound(lanes, i, search, s) / search->in->tolerance);
+      wanted = trum_level_for(search->level, trum_own_bound(search, s) / search->in->tolerance);
     search->stage = STAGE_FINE, search->level = wanted < fine_level ? wanted : fine_level;
   } else if (search->laps == 1) {
     search->level = trum_rough_level(search->in->tolerance);
@@ -284,41 +249,71 @@ static int trum_finish_rough_lap(trum_lanes* lanes, int i, trum_search* search, 
 }
 
 /* The bounds after a fine lap: 1 if they meet the tolerance, or if no more laps are allowed. */
-static int trum_finish_fine_lap(trum_lanes* lanes, int i, trum_search* search, const trum_lap_summary* s,
-                                trum_real change) {
-  trum_store_orbit(lanes, i, search, trum_uncertain_change(search, s, change), s->top);
+static int trum_finish_fine_lap(trum_search* search, const trum_lap_summary* s, trum_real change) {
+  trum_store_orbit(search, &search->lap, trum_uncertain_change(search, s, change), s->top);
   if (search->out->error <= search->in->tolerance) search->out->flags += trum_converged;
   else if (s->last) search->out->flags += trum_too_many_laps;
   else return 0;
   return 1;
 }
 
-/* What follows a lap that has ended: stores figures, or starts the next lap.  Returns 0 when the task is done. */
-static int trum_finish_lap(trum_lanes* lanes, int i, trum_search* search) {
+/* The start of the next lap of the search, whose segments begin where they did in the one before but for its change, or where
+ * the orbit is known to have them. */
+static void trum_go_on(trum_search* search, trum_real next, int known) {
+  const trum_real change = next - search->start_speed;
+  int k;
+  search->start_speed = next;
+  trum_prepare_lap(search, change);
+  for (k = 1; known && search->side_by_side && k < search->segments; ++k) search->at[k].speed = search->about->at[k].speed;
+}
+
+/* The speeds at which the orbit's segments begin. */
+static void trum_keep_boundaries(trum_search* search) {
+  const trum_real change = search->out->start - search->start_speed;
+  int k;
+  search->about->found = !search->in_turn;
+  for (k = 0; k < search->segments; ++k) search->about->at[k].speed = search->at[k].speed + search->at[k].S * change;
+}
+
+/* What follows a lap that has ended: stores figures, or prepares the next lap.  Returns 0 when the task is done. */
+static int trum_finish_lap(const trum_lanes* lanes, trum_search* search) {
   trum_lap_summary s;
   trum_real next;
   trum_newton_record* newton = &search->newton;
-  if (mask_in_lane(lanes->status.failed, i)) return trum_repeat_failed_lap(lanes, i, search);
-  if (search->stage == STAGE_HELD) return trum_finish_held_lap(lanes, i, search);
-  s = trum_summarise_lap(lanes, i, search);
+  int known_start;
+  if (search->failed || !trum_may_join(search)) {
+    if (!trum_repeat_lap(search)) return 0;
+    trum_go_on(search, search->start_speed, 0);
+    return 1;
+  }
+  trum_join_lap(search, with_slopes(lanes));
+  if (search->stage == STAGE_HELD) {
+    if (!trum_finish_held_lap(lanes, search)) return 0;
+    trum_go_on(search, search->start_speed, 0);
+    return 1;
+  }
+  s = trum_summarise_lap(search);
   trum_compare_laps(search, &s);
   trum_update_bracket(search, &s);
   next = trum_next_start(search, &s), newton->last_step = trum_fabs(next - search->start_speed);
+  known_start = with_slopes(lanes) && search->stage == STAGE_ROUGH; /* is kept for the lap whose slopes count */
   if (with_slopes(lanes)) {
-    const int known_start = search->stage == STAGE_ROUGH; /* is kept for the lap whose slopes count */
-    if (!trum_finish_lap_with_slopes(lanes, i, search, &s, next - search->start_speed)) return 0;
+    if (!trum_finish_lap_with_slopes(search, &s, next - search->start_speed)) return 0;
     if (known_start) next = search->start_speed;
   } else if (s.accurate) {
-    if (trum_finish_fine_lap(lanes, i, search, &s, next - search->start_speed)) return 0;
-    next = trum_refine(lanes, i, search, &s, next);
-  } else if (!trum_finish_rough_lap(lanes, i, search, &s, next - search->start_speed)) {
+    if (trum_finish_fine_lap(search, &s, next - search->start_speed)) {
+      trum_keep_boundaries(search);
+      return 0;
+    }
+    next = trum_refine(search, &s, next);
+  } else if (!trum_finish_rough_lap(search, &s, next - search->start_speed)) {
     return 0;
   }
-  if (!with_slopes(lanes)) search->scales.speed = trum_scale_of(search->in, &s, lane_value(&lanes->equation.cycle_time, i));
+  if (!with_slopes(lanes)) search->scales.speed = trum_scale_of(search, s.top, s.decay);
   newton->start = search->start_speed, newton->decay = s.decay, newton->exact_gain = s.exact_gain;
   newton->uncertainty = s.uncertainty, newton->trusted = s.trusted, newton->slope_error = s.slope_error;
-  search->start_speed = next;
-  trum_start_lap(lanes, i, search);
+  search->top = s.top;
+  trum_go_on(search, next, known_start);
   return 1;
 }
 

@@ -39,9 +39,27 @@ static void trum_reset_slope_scales(trum_search* search) {
   for (k = 0; k < PARAMETERS; ++k) search->scales.friction[k] = search->scales.angle[k] = trum_unmeasured;
 }
 
+/* Begins the search for an orbit about where it is known to be. */
+static void trum_start_from(trum_search* search, const trum_coarse_orbit* about) {
+  const trum_real fine_level = trum_fine_level(search->in->tolerance), level = trum_side_by_side_level(search->in->tolerance);
+  int k;
+  search->start_speed = about->start_speed, search->top = about->top;
+  search->newton = about->newton, search->bracket = about->bracket;
+  for (k = 0; k < search->segments; ++k) search->at[k] = about->at[k];
+  search->stage = level > 4 * fine_level ? STAGE_ROUGH : STAGE_FINE;
+  search->level = search->stage == STAGE_ROUGH ? level : fine_level;
+  search->scales.speed = trum_scale_of(search, about->top, about->newton.decay);
+  search->laps = search->passed = 1;
+  if (!about->stiff) return;
+  trum_integrate_in_turn(search);
+  search->stage = STAGE_ROUGH, search->level = trum_rough_level(search->in->tolerance);
+}
+
 /* Starts the search for an orbit from rest, or from a known start speed (else NaN); 0 if no speed balances the load. */
 static int trum_start_search(trum_lanes* lanes, int i, trum_search* search, trum_real known) {
   const trum_orbit_in* in = search->in;
+  const trum_coarse_orbit* about = search->about;
+  int k;
   if (!(in->push > trum_fabs(in->drag))) {
     search->out->flags += trum_runaway;
     return 0;
@@ -49,33 +67,30 @@ static int trum_start_search(trum_lanes* lanes, int i, trum_search* search, trum
   if ((known != known) && trum_solve_balance(lanes, i, search)) return 0;
   search->stage = STAGE_ROUGH, search->level = trum_step_share * trum_first_lap_tolerance;
   search->scales.speed = TRUM_C(0.1) * in->D * in->k_c * in->W * (in->omega_n + in->Delta_omega);
-  if (!(known != known)) search->start_speed = known, search->laps = 1;
-  trum_start_lap(lanes, i, search);
+  if (!(known != known)) {
+    search->start_speed = known, search->laps = 1, search->passed = about->found;
+    if (!search->passed) trum_integrate_in_turn(search);
+    for (k = 1; k < search->segments && search->passed; ++k)
+      search->at[k].speed = about->at[k].speed, search->at[k].S = search->at[k].error = 0;
+  } else if (about->found) {
+    trum_start_from(search, about);
+  }
+  trum_prepare_lap(search, 0);
   return 1;
 }
 
-/* Puts a task of a point into a lane: its held rotor, or its orbit from a start speed that is known or NaN.  0 if there
- * is nothing to do. */
-static int trum_load_task(trum_lanes* lanes, int i, trum_search* search, const trum_orbit_in* in, trum_orbit_out* out,
-                          int held, trum_real known) {
-  const trum_real period = TRUM_C(6.283185307179586477) / (in->omega_n + in->Delta_omega);
+/* Begins a task of a point. */
+static void trum_begin_task(const trum_lanes* lanes, trum_search* search, const trum_orbit_in* in, trum_orbit_out* out) {
   trum_cycle_constants cycle;
   trum_free_motion before;
   trum_real results[trum_regions_n_res], phasors[trum_region_phasors_n_res];
-  int r, phase;
-  set_lane(&lanes->constants.omega_n, i, in->omega_n), set_lane(&lanes->constants.Delta_omega, i, in->Delta_omega);
-  set_lane(&lanes->constants.xi, i, in->xi);
-  set_lane(&lanes->constants.s, i, in->s), set_lane(&lanes->constants.W, i, in->W);
-  set_lane(&lanes->constants.D, i, in->D), set_lane(&lanes->constants.k_c, i, in->k_c);
-  set_lane(&lanes->constants.engagement_per_height, i, in->engagement_per_height);
-  set_lane(&lanes->constants.W_full, i, in->W_full);
-  set_lane(&lanes->constants.p_re, i, trum_cos(in->psi)), set_lane(&lanes->constants.p_im, i, trum_sin(in->psi));
-  set_lane(&lanes->equation.period, i, period), set_lane(&lanes->equation.cycle_time, i, period * in->m);
+  int r, k, phase;
+  search->period = TRUM_C(6.283185307179586477) / (in->omega_n + in->Delta_omega), search->cycle_time = search->period * in->m;
   trum_load_cycle(in, &cycle, &before);
   trum_plain_regions(&cycle, &before, results);
   trum_plain_region_phasors(&cycle, &before, phasors);
   for (r = 0; r < TRUM_REGIONS; ++r) {
-    search->cycle.pulses[r] = trum_floor(results[trum_regions_out_time_redu + r] / period + TRUM_C(0.5));
+    search->cycle.pulses[r] = trum_floor(results[trum_regions_out_time_redu + r] / search->period + TRUM_C(0.5));
     for (phase = 0; phase < 2; ++phase) {
       const trum_real* z = &phasors[2 * TRUM_REGIONS * phase + 2 * r];
       search->cycle.start[r][2 * phase] = z[0], search->cycle.start[r][2 * phase + 1] = z[1];
@@ -90,11 +105,23 @@ static int trum_load_task(trum_lanes* lanes, int i, trum_search* search, const t
   search->stage = STAGE_HELD, search->start_speed = 0;
   search->bracket.low = search->bracket.sure_low = -TRUM_HUGE;
   search->bracket.high = search->bracket.sure_high = TRUM_HUGE;
-  search->scales.speed = 0, search->level = trum_held_level(in->tolerance);
+  search->scales.speed = search->top = 0, search->level = trum_held_level(in->tolerance);
   search->held_laps = 0, trum_reset_slope_scales(search);
+  trum_divide_lap(search, TRUM_SEGMENTS);
+  search->passed = 0, search->in_turn = search->repetition.is_long, search->steps_level = search->jumps = 0;
+  search->about = 0;
+  for (k = 0; k < search->segments; ++k) search->at[k].speed = search->at[k].error = search->at[k].step = 0, search->at[k].S = 1;
   if (with_slopes(lanes)) trum_load_region_slopes(search);
+}
+
+/* Begins a point's task: its held rotor, or its orbit from a start speed that is known or NaN; the lane is free.  `about` is
+ * about where the orbit is, or null.  0 if there is nothing to do. */
+static int trum_load_task(trum_lanes* lanes, int i, trum_search* search, const trum_orbit_in* in, trum_orbit_out* out,
+                          int held, trum_real known, trum_coarse_orbit* about) {
+  trum_begin_task(lanes, search, in, out);
+  search->about = about;
   if (!held) return trum_start_search(lanes, i, search, known);
-  trum_start_lap(lanes, i, search);
+  trum_prepare_lap(search, 0);
   return 1;
 }
 

@@ -3,6 +3,7 @@
 #define TRUM_ORBIT_TYPES_H
 
 enum { FIGURES = TRUM_SLOPE_FIGURES_COUNT, PARAMETERS = TRUM_SLOPES ? TRUM_SLOPE_PARAMETERS_COUNT : 1 };
+enum { TRUM_MOST_SEGMENTS = TRUM_SEGMENTS > 1 ? TRUM_SEGMENTS + TRUM_REGIONS : TRUM_REGIONS };
 enum { LAST_NODE = TRUM_COLLOCATION_NODES - 1, NODES = TRUM_COLLOCATION_NODES, CHECKS = 3 };
 
 /* Glossary.
@@ -10,6 +11,7 @@ enum { LAST_NODE = TRUM_COLLOCATION_NODES - 1, NODES = TRUM_COLLOCATION_NODES, C
  *   region       one of the three parts of a drive cycle, between switchings of the phases' gates (Sect. 3)
  *   lap          the rotor's motion over one drive cycle from a start speed
  *   orbit        the lap that ends at the speed at which it started
+ *   segment      a part of a lap, between two instants; a lap's segments may be integrated side by side (segments.h)
  *   x            the rim's speed over that at the lap's start, m/s
  *   f            net friction fraction, -1 to 1 (eqs. 33 to 37); the friction torque is mu F_c r_c f
  *   theta        half-angle of the contact (eqs. 25, 31), pi where the whole wave touches
@@ -23,25 +25,50 @@ enum { LAST_NODE = TRUM_COLLOCATION_NODES - 1, NODES = TRUM_COLLOCATION_NODES, C
 /* Events, in the order of their functions. */
 enum { EVENT_SATURATION, EVENT_LARGER_PRESSURE, EVENT_SMALLER_PRESSURE, EVENT_FULL_CONTACT, EVENT_COUNT };
 
-/* Sums of a lap so far; integrals are over time from its start. */
+/* Sums of a lap so far: over time from its start, */
+#define TRUM_LAP_INTEGRALS(X) \
+  X(x) X(xx) X(S) X(xS) X(SS) /* of x, x^2, S, x S and S^2, */ \
+  X(friction) X(angle)        /* of f and theta, */ \
+  /* of the error, its square and its product with S, of the remainder and its square (defect.h), of the interpolants' error \
+   * inside the steps, of the share of an error that is kept; errors and remainders of the integrals of f and theta */ \
+  X(error_sum) X(error_square) X(error_S) X(remainder_sum) X(remainder_square) X(inside) X(kept_sum) \
+  X(friction_error) X(friction_remainder) X(angle_error) X(angle_remainder)
+
+/* and what holds where it is now, or was seen so far */
+#define TRUM_LAP_STATES(X) \
+  X(low) X(high) X(S_low) X(S_high) /* lowest and highest x, and S there */ \
+  X(full_contact) X(fastest)        /* 1 if ever in full contact; largest surface speed */ \
+  X(stiffest)                       /* the largest exponent by which speeds were drawn together in a step */ \
+  /* first-order error of x by the steps' defects, bound of what it leaves out, share of an error at the start that is kept \
+   * (of a long schedule since a watched period began, repeat.h); errors and remainders at the extremes */ \
+  X(error) X(remainder) X(kept) X(low_error) X(low_remainder) X(high_error) X(high_remainder) \
+  X(lowest) X(highest) /* bounds of x at all extremes, those that are not the lap's by a hair too */
+
+/* Sensitivities of all of these: integrals of dx and x dx; of the extremes; of the integrals of f and theta at fixed speed,
+ * and the sums of the latter two's magnitudes, step by step. */
+#define TRUM_LAP_SLOPES(X) \
+  X(d_x) X(d_xx) X(d_low) X(d_high) X(d_friction) X(d_angle) X(sum_abs_friction) X(sum_abs_angle)
+
+/* Those of the laps in the lanes. */
 typedef struct {
-  real x, xx, S, xS;                                /* integrals of x, x^2, S and x S */
-  real low, high, S_low, S_high;                    /* lowest and highest x, and S there */
-  real friction, angle;                             /* integrals of f and theta */
-  real full_contact, fastest;                       /* 1 if ever in full contact; largest surface speed */
-  /* First-order errors of the lap by the steps' defects, and bounds of what these leave out (defect.h): of x at its end
-   * so far; integrals over time of those, of the error's square and of its product with S; at the extremes; of the
-   * integrals of f and theta.  Integrals of S^2 and of the interpolants' error inside the steps. */
-  real kept; /* share of an error, since a watched period began (repeat.h) */
-  real error, remainder, error_sum, remainder_sum, error_square, error_S, remainder_square, SS, inside;
-  real low_error, low_remainder, high_error, high_remainder;
-  real lowest, highest; /* bounds of x at all extremes, those that are not the lap's by a hair too */
-  real friction_error, friction_remainder, angle_error, angle_remainder;
-  real d_x[PARAMETERS], d_xx[PARAMETERS];           /* sensitivities of all of these: integrals of dx and x dx, */
-  real d_low[PARAMETERS], d_high[PARAMETERS];       /* of the extremes, */
-  real d_friction[PARAMETERS], d_angle[PARAMETERS]; /* and of the integrals of f and theta at fixed speed; */
-  real sum_abs_friction[PARAMETERS], sum_abs_angle[PARAMETERS]; /* sums of the latter two's magnitudes, step by step */
+#define TRUM_MEMBER(name) real name;
+  TRUM_LAP_INTEGRALS(TRUM_MEMBER) TRUM_LAP_STATES(TRUM_MEMBER)
+#undef TRUM_MEMBER
+#define TRUM_MEMBER(name) real name[PARAMETERS];
+  TRUM_LAP_SLOPES(TRUM_MEMBER)
+#undef TRUM_MEMBER
 } trum_lap;
+
+/* Those of one lap, or of a segment of it, with x, S, the length of steps that errors allow and the sensitivities where it
+ * ends. */
+typedef struct {
+#define TRUM_MEMBER(name) trum_real name;
+  TRUM_LAP_INTEGRALS(TRUM_MEMBER) TRUM_LAP_STATES(TRUM_MEMBER) TRUM_MEMBER(end) TRUM_MEMBER(growth) TRUM_MEMBER(step)
+#undef TRUM_MEMBER
+#define TRUM_MEMBER(name) trum_real name[PARAMETERS];
+  TRUM_LAP_SLOPES(TRUM_MEMBER) TRUM_MEMBER(d_end)
+#undef TRUM_MEMBER
+} trum_lap_sums;
 
 /* Derivatives, at an instant, of the friction fraction and of the logarithms of engagement and surface speed by each
  * parameter.  f leaves out what follows from the surface speed, and theta's derivative by the engagement is apart: both
