@@ -212,7 +212,7 @@ void orbit_blocks(char** args, const npy_intp* dimensions, const npy_intp* steps
     npy_intp count = 0;
     for (; i + count < dimensions[0] && count < most; ++count) {
       read(&at(in, count), args, steps, i + count);
-      if (at(in, count).hertz != at(in, 0).hertz) break;
+      if ((at(in, count).hertz > 0.5) != (at(in, 0).hertz > 0.5)) break;
     }
     orbits(in.data(), out.data(), static_cast<long>(count));
     for (npy_intp k = 0; k < count; ++k) write(at(out, k), args + n_orbit_in, steps + n_orbit_in, i + k);
@@ -257,7 +257,7 @@ void rotor_slopes_loop(char** args, const npy_intp* dimensions, const npy_intp* 
     for (; i + count < dimensions[0] && count < most; ++count) {
       read(&at(in, count), args, steps, i + count);
       read(&at(with, count), args + n_orbit_in, steps + n_orbit_in, i + count);
-      if (at(in, count).hertz != at(in, 0).hertz) break;
+      if ((at(in, count).hertz > 0.5) != (at(in, 0).hertz > 0.5)) break;
     }
     orbit_code->orbits(in.data(), out.data(), with.data(), slopes.data(), static_cast<long>(count));
     for (npy_intp k = 0; k < count; ++k) {

@@ -93,7 +93,7 @@ static int trum_begin_coarse_orbit(trum_lanes* lanes, int i, trum_search* search
   search->stage = STAGE_ROUGH, search->level = trum_step_share * trum_first_lap_tolerance;
   search->scales.speed = TRUM_C(0.1) * in->D * in->k_c * in->W * (in->omega_n + in->Delta_omega);
   trum_begin_coarse_lap(lanes, i, search, c);
-  return in->push > trum_fabs(in->drag) && !search->repetition.is_long && !trum_is_balance(in);
+  return trum_has_cycle(search) && in->push > trum_fabs(in->drag) && !search->repetition.is_long && !trum_is_balance(in);
 }
 
 /* What coarse laps have found, unless they have gone astray. */

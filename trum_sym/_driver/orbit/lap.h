@@ -103,18 +103,25 @@ static trum_real trum_larger(trum_real a, trum_real b) { return a > b ? a : b; }
 static void trum_divide_lap(trum_search* search, int segments) {
   trum_real pulses = 0;
   int r, k;
-  for (r = 0; r < TRUM_REGIONS; ++r) pulses += search->cycle.pulses[r];
-  search->segments = 0;
+  for (r = 0; r < TRUM_REGIONS; ++r) pulses += trum_larger(0, search->cycle.pulses[r]);
+  search->segments = 0, search->segment_of[0].region = 0, search->segment_of[0].since = search->segment_of[0].duration = 0;
   for (r = 0; r < TRUM_REGIONS; ++r) {
     const trum_real of_region = search->cycle.pulses[r], whole = of_region * search->period;
     const trum_real share = search->repetition.is_long ? 1 : of_region / pulses * (trum_real)segments;
-    const int count = of_region < TRUM_C(0.5) ? 0 : share < 1 ? 1 : (int)(share + TRUM_C(0.5));
+    const int count = !(of_region > TRUM_C(0.5)) ? 0 : share > 1 ? (int)(share + TRUM_C(0.5)) : 1;
     for (k = 0; k < count; ++k) {
       trum_segment* segment = &search->segment_of[search->segments++];
       segment->region = r, segment->since = whole * (trum_real)k / (trum_real)count;
       segment->duration = whole * (trum_real)(k + 1) / (trum_real)count - segment->since;
     }
   }
+}
+
+/* Whether the numbers that were given make a drive cycle. */
+static int trum_has_cycle(const trum_search* search) {
+  const trum_orbit_in* in = search->in;
+  return search->segments > 0 && search->period > 0 && search->cycle_time < TRUM_HUGE && in->n >= 0 && in->n <= in->m &&
+         in->m < TRUM_C(1e9);
 }
 
 /* Has the laps from now on integrated in turn, region by region. */

@@ -191,7 +191,7 @@ static int trum_follow_orbit(trum_workspace* w, const trum_orbit_in* in, const t
   record.speed = speed, record.distance = distance, record.count = count, record.written = 0;
   record.spacing = lane_value(&lanes->equation.cycle_time, 0) / (trum_real)count, record.since = record.travelled = 0;
   lanes->record = &record;
-  for (;;) {
+  while (trum_has_cycle(search)) {
     mask accepted;
     allowed = trum_may_attempt(attempts);
     if (!allowed) break;

@@ -120,6 +120,10 @@ static int trum_load_task(trum_lanes* lanes, int i, trum_search* search, const t
                           int held, trum_real known, trum_coarse_orbit* about) {
   trum_begin_task(lanes, search, in, out);
   search->about = about;
+  if (!trum_has_cycle(search)) {
+    if (!held) out->flags += trum_failed_step;
+    return 0;
+  }
   if (!held) return trum_start_search(lanes, i, search, known);
   trum_prepare_lap(search, 0);
   return 1;
