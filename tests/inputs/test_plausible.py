@@ -149,3 +149,19 @@ def test_speeds_in_turns_taken_for_radians_give_a_ring_beyond_the_stator_and_tha
     lines = warned(lambda: found.append(ts.calibrate({"load_torque": load, "mean_speed": speed}, MOTOR)))
     assert found[0]["contact_radius"].value > 0.03
     assert any("fitted contact_radius" in line and "outer radius" in line for line in lines), lines
+
+
+def test_a_bound_met_but_for_its_rounding_is_met():
+    """As a value converted from another unit may be, or a corner of a contour at a map's edge."""
+    force, rate = MOTOR.allowed["prepressure"], MOTOR.allowed["frequency_difference"]
+    ends = [np.nextafter(force.low, 0), np.nextafter(force.high, np.inf)]
+    rates = (np.nextafter(rate.low, 0), np.nextafter(rate.high, np.inf))
+    friction = MOTOR.friction_coefficient
+    assert friction.range is not None
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        ts.evaluate(MOTOR, ts.Drive(prepressure=np.array(ends)), tolerance=1e-3)
+        ts.optimize(MOTOR, bounds={"prepressure": tuple(ends), "frequency_difference": rates})
+        MOTOR.with_values({"friction_coefficient": np.nextafter(friction.range[1], np.inf)})
+    with pytest.warns(ts.ValidityWarning, match="reaches outside 100 to 220 N"):
+        ts.optimize(MOTOR, bounds={"prepressure": (100, 220.001), "frequency_difference": rates})

@@ -14,7 +14,7 @@ from trum_sym.inputs.carried import LabelledArray, Labels, in_unit, labels_of, m
 from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.units import parse_quantity
 
-__all__ = ["Array", "ArrayLike", "broadcast_shape", "check_labels", "number", "quantity"]
+__all__ = ["Array", "ArrayLike", "broadcast_shape", "check_labels", "number", "outside", "quantity"]
 
 Array: TypeAlias = npt.NDArray[np.float64]
 ArrayLike: TypeAlias = float | Array
@@ -81,6 +81,15 @@ def _spelt_out(name: str, value: object, unit: str | None) -> object:
     if isinstance(value, list | tuple) and value and all(isinstance(entry, str) for entry in value):
         return [parse_quantity(name, entry, unit) for entry in value]
     return value
+
+
+def outside(value: ArrayLike, low: ArrayLike, high: ArrayLike) -> npt.NDArray[np.bool_]:
+    """Where ``value`` lies outside ``low`` to ``high`` by more than a rounding, as of a unit's conversion.
+
+    NaN lies outside.
+    """
+    slack = 1e-12 * np.maximum(np.abs(low), np.abs(high))
+    return ~((np.asarray(value) >= low - slack) & (np.asarray(value) <= high + slack))
 
 
 def check_labels(labels: Mapping[str, Labels | None]) -> None:

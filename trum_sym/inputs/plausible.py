@@ -11,14 +11,12 @@ import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
 from trum_sym.errors import ImplausibleWarning
-
-if TYPE_CHECKING:
-    from trum_sym.inputs.checks import ArrayLike
+from trum_sym.inputs.checks import ArrayLike, outside
 
 __all__ = ["doubts", "outside_range", "unquestioned", "usual_range", "warn_implausible", "warn_outside_range"]
 
@@ -122,12 +120,12 @@ def outside_range(name: str, value: ArrayLike, stated: Stated | None) -> str | N
     if stated is None or stated.range is None:
         return None
     low, high = stated.range
-    outside = ~((np.asarray(value) >= low) & (np.asarray(value) <= high))
-    if not outside.any():
+    beyond = outside(value, low, high)
+    if not beyond.any():
         return None
     unit = "" if stated.unit == "1" else f" {stated.unit}"
     return (
-        f"{name}: {np.asarray(value)[outside].flat[0]:.6g}{unit} lies outside {low:g} to {high:g}{unit}, which the "
+        f"{name}: {np.asarray(value)[beyond].flat[0]:.6g}{unit} lies outside {low:g} to {high:g}{unit}, which the "
         f"motor file states for it ({stated.source})"
     )
 
@@ -232,10 +230,9 @@ def _unusual(motor: Mapping[str, Stated]) -> Iterator[tuple[str, str]]:
         if name not in motor:
             continue
         parameter = motor[name]
-        size = np.abs(parameter.value)
-        wrong = (size < usual.low) | (size > usual.high)
+        wrong = outside(np.abs(parameter.value), usual.low, usual.high)
         if wrong.any():
-            (found,) = _first(np.asarray(wrong), parameter.value)
+            (found,) = _first(wrong, parameter.value)
             unit = "" if parameter.unit == "1" else f" {parameter.unit}"
             yield (
                 name,

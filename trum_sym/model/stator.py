@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from trum_sym.errors import ConvergenceError, ParameterError, ValidityWarning
-from trum_sym.inputs.checks import ArrayLike
+from trum_sym.inputs.checks import ArrayLike, outside
 from trum_sym.inputs.drive import Drive
 from trum_sym.inputs.motor import FLANGE, Motor
 from trum_sym.model.kernels import call
@@ -52,9 +52,9 @@ def warn_outside_fit(motor: Motor, drive: Drive) -> None:
     """Warn of a prepressure at which eq. 8's amplitude was not measured."""
     low, high = motor.fit_prepressure_min.value, motor.fit_prepressure_max.value
     force = np.asarray(drive.prepressure)
-    outside = (force < low) | (force > high)
-    if outside.any():
-        worst = np.broadcast_to(force, outside.shape)[outside].flat[0]
+    beyond = outside(force, low, high)
+    if beyond.any():
+        worst = np.broadcast_to(force, beyond.shape)[beyond].flat[0]
         message = (
             f"prepressure: {worst:g} N lies outside {np.min(low):g} to {np.max(high):g} N, "
             "where eq. 8's amplitude was measured"

@@ -13,7 +13,7 @@ from typing import Any, Unpack
 import numpy as np
 
 from trum_sym.errors import ConvergenceError, ParameterError, ValidityWarning
-from trum_sym.inputs.checks import Array
+from trum_sym.inputs.checks import Array, outside
 from trum_sym.inputs.domain import Domain
 from trum_sym.inputs.drive import BOX_NAMES, DRIVE_DOMAINS, LEAD, Drive
 from trum_sym.inputs.motor import Motor
@@ -222,7 +222,7 @@ def _warn_beyond_hardware(motor: Motor, drive: Drive, ranges: Mapping[str, tuple
     for name, allowed in motor.allowed.items():
         alone = float(getattr(drive, name))
         low, high = ranges.get(name, (alone, alone))
-        if low < allowed.low or high > allowed.high:
+        if outside(np.array([low, high]), allowed.low, allowed.high).any():
             where = f"{low:g}" if low == high else f"{low:g} to {high:g}"
             unit = DRIVE_DOMAINS[name][1]
             warnings.warn(
@@ -322,7 +322,7 @@ def warn_of_box(problem: Problem) -> None:
     else:
         low = high = float(problem.drive.prepressure)
     least, most = float(motor.fit_prepressure_min.value), float(motor.fit_prepressure_max.value)
-    if low < least or high > most:
+    if outside(np.array([low, high]), least, most).any():
         where = f"{low:g} to {high:g} N" if high > low else f"{low:g} N"
         warnings.warn(
             f"prepressure: {where} reaches outside {least:g} to {most:g} N, where eq. 8's amplitude was "
