@@ -14,6 +14,7 @@
  * One concern a header, in the order in which they need each other; orbit/types.h has a glossary. */
 #ifndef TRUM_ORBIT_H
 #define TRUM_ORBIT_H
+#include "trum_fixed_grid.h"
 #include "trum_kernels.h" /* which refuses arithmetic without NaN */
 
 #include "orbit/number.h"

@@ -19,7 +19,6 @@ _OTHERS = {
     "trum_coupled_lanes.h",
     "trum_lanes.h",
     "trum_elementary.h",
-    "trum_fixed_grid.h",
     "trum_browser.c",
     "trum_unit.h",
     "trum_fmi2.c",

@@ -41,8 +41,9 @@ static void trum_coarse_starts(trum_lanes* lanes, trum_coarse* c) {
 static void trum_coarse_step(trum_lanes* lanes, trum_coarse* c, const trum_surface* at) {
   const mask active = lanes->status.active & less_than(c->done, c->steps), first = less_than(c->done, REAL(0.5));
   const real h = c->h, push = lanes->equation.push, x = lanes->start.x, most = h * (push + absolute(lanes->equation.drag));
-  const real weight = where(first, REAL(0.5), REAL(5.0 / 12)); /* what a segment's first step lacks is the rate before */
-  const real known = x + h * where(first, REAL(0.5) * c->rate, REAL(8.0 / 12) * c->rate - REAL(1.0 / 12) * c->rate_before);
+  const real weight = where(first, REAL(0.5), REAL(TRUM_GRID_NEW_WEIGHT)); /* what a segment's first step lacks is the rate before */
+  const real known = x + h * where(first, REAL(0.5) * c->rate,
+                                  REAL(TRUM_GRID_OLD_WEIGHT) * c->rate + REAL(TRUM_GRID_BEFORE_WEIGHT) * c->rate_before);
   const real guess = x + h * c->rate;
   trum_lap* lap = &lanes->lap;
   trum_friction_state friction;
@@ -67,7 +68,6 @@ static void trum_coarse_step(trum_lanes* lanes, trum_coarse* c, const trum_surfa
 
 /* A coarse lap has ended: Newton's step, and whether there is to be another. */
 static int trum_finish_coarse_lap(const trum_lanes* lanes, int i, trum_search* search) {
-  trum_newton_record* newton = &search->newton;
   trum_lap_summary s;
   trum_real next, change;
   int k;
@@ -78,10 +78,9 @@ static int trum_finish_coarse_lap(const trum_lanes* lanes, int i, trum_search* s
   trum_compare_laps(search, &s);
   trum_update_bracket(search, &s);
   next = trum_next_start(search, &s), change = next - search->start_speed;
-  newton->last_step = trum_fabs(change);
-  newton->start = search->start_speed, newton->decay = s.decay, newton->exact_gain = s.exact_gain;
-  newton->uncertainty = s.uncertainty, newton->trusted = s.trusted, newton->slope_error = s.slope_error;
-  search->top = s.top, search->start_speed = next, search->stiff = search->lap.stiffest > trum_coarse_stiff;
+  search->newton.last_step = trum_fabs(change);
+  trum_record_lap(search, &s);
+  search->start_speed = next;
   for (k = 1; k < search->segments; ++k) search->at[k].speed += search->at[k].S * change;
   return s.certain && trum_fabs(change) > trum_coarse_enough * s.top && search->laps < trum_most_coarse_laps;
 }
@@ -90,8 +89,7 @@ static int trum_finish_coarse_lap(const trum_lanes* lanes, int i, trum_search* s
 static int trum_begin_coarse_orbit(trum_lanes* lanes, int i, trum_search* search, const trum_orbit_in* in, trum_orbit_out* unused,
                                    trum_coarse* c) {
   trum_begin_task(lanes, search, in, unused);
-  search->stage = STAGE_ROUGH, search->level = trum_step_share * trum_first_lap_tolerance;
-  search->scales.speed = TRUM_C(0.1) * in->D * in->k_c * in->W * (in->omega_n + in->Delta_omega);
+  trum_begin_roughly(search);
   trum_begin_coarse_lap(lanes, i, search, c);
   return trum_has_cycle(search) && in->push > trum_fabs(in->drag) && !search->repetition.is_long && !trum_is_balance(in);
 }
@@ -100,7 +98,7 @@ static int trum_begin_coarse_orbit(trum_lanes* lanes, int i, trum_search* search
 static void trum_keep_coarse_orbit(const trum_search* search, trum_coarse_orbit* found) {
   int k;
   found->found = trum_fabs(search->start_speed) < TRUM_HUGE;
-  found->start_speed = search->start_speed, found->top = search->top, found->stiff = search->stiff;
+  found->start_speed = search->start_speed, found->top = search->top, found->stiff = search->lap.stiffest > trum_coarse_stiff;
   found->newton = search->newton, found->bracket = search->bracket;
   for (k = 0; k < search->segments; ++k) found->at[k] = search->at[k];
 }

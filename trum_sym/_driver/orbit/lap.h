@@ -84,7 +84,7 @@ typedef struct {
   int segment;                /* the one under way; side by side the next one to begin */
   int side_by_side, unended;  /* the lap's segments are integrated so, of which so many have not ended */
   int passed;                 /* it is known about where they begin */
-  int stiff, in_turn;         /* friction is about to be stiff; no lap's are side by side from now on */
+  int in_turn;                /* no lap's are side by side from now on */
   int failed, out_of_steps;   /* the lap could not be followed; for want of steps */
   trum_real steps_level;      /* the level that the boundaries' steps are of */
   trum_segment segment_of[TRUM_MOST_SEGMENTS];

@@ -28,6 +28,13 @@ typedef struct {
   trum_real change, S, error, remainder, d[PARAMETERS];
 } trum_joint;
 
+/* What is known at a segment's end of change, S and error, from what is at its begin; behind the last, the change of the lap. */
+static void trum_pass_segment(const trum_search* search, int segment, trum_joint* at) {
+  const trum_lap_sums* part = &search->part[segment];
+  at->change *= part->growth, at->error = part->error + at->error * part->growth, at->S *= part->growth;
+  if (segment + 1 < search->segments) at->change += part->end - (search->at[segment + 1].speed - search->v0);
+}
+
 /* Adds a segment's extremes to a lap's. */
 static void trum_join_extremes(trum_lap_sums* lap, const trum_lap_sums* part, const trum_joint* at, trum_real jump, int counted,
                                int slopes) {
@@ -92,30 +99,27 @@ static trum_real trum_join_segments(const trum_search* search, trum_lap_sums* la
     const trum_real jump = share * trum_fabs(at.change);
     trum_join_extremes(lap, part, &at, jump, counted, slopes), trum_join_sums(lap, part, &at, jump, duration, slopes);
     at.remainder = part->remainder + at.remainder * part->kept + jump, jumps = jumps * part->kept + jump;
-    at.error = part->error + at.error * part->growth, at.S *= part->growth;
-    at.change = at.change * part->growth;
+    trum_pass_segment(search, k, &at);
     for (parameter = 0; slopes && parameter < PARAMETERS; ++parameter)
       at.d[parameter] = part->d_end[parameter] + at.d[parameter] * part->growth;
-    if (k + 1 < search->segments) at.change += part->end - (search->at[k + 1].speed - search->v0);
-    else lap->end = part->end + at.change;
   }
-  lap->growth = at.S, lap->error = at.error, lap->remainder = at.remainder;
+  lap->end = search->part[search->segments - 1].end + at.change, lap->growth = at.S, lap->error = at.error, lap->remainder = at.remainder;
   for (parameter = 0; slopes && parameter < PARAMETERS; ++parameter) lap->d_end[parameter] = at.d[parameter];
   return jumps;
 }
 
 /* Takes the speeds at which the segments begin for what the joined lap has there. */
 static void trum_move_boundaries(trum_search* search) {
-  trum_real change = 0, error = 0, S = 1;
+  trum_joint at = {0};
   int k;
+  at.S = 1;
   for (k = 0; k < search->segments; ++k) {
     const trum_lap_sums* part = &search->part[k];
-    trum_boundary* at = &search->at[k];
-    at->growth = part->growth, at->mean_S = part->S / search->segment_of[k].duration;
+    trum_boundary* begins = &search->at[k];
+    trum_pass_segment(search, k, &at);
+    begins->growth = part->growth, begins->mean_S = part->S / search->segment_of[k].duration;
     if (k + 1 < search->segments) {
-      change = change * part->growth + part->end - (at[1].speed - search->v0);
-      error = part->error + error * part->growth, S *= part->growth;
-      at[1].step = part->step, at[1].speed += change, at[1].S = S, at[1].error = error;
+      begins[1].step = part->step, begins[1].speed += at.change, begins[1].S = at.S, begins[1].error = at.error;
     }
   }
 }

@@ -257,6 +257,14 @@ static int trum_finish_fine_lap(trum_search* search, const trum_lap_summary* s, 
   return 1;
 }
 
+/* What is kept of a lap for the next one. */
+static void trum_record_lap(trum_search* search, const trum_lap_summary* s) {
+  trum_newton_record* newton = &search->newton;
+  newton->start = search->start_speed, newton->decay = s->decay, newton->exact_gain = s->exact_gain;
+  newton->uncertainty = s->uncertainty, newton->trusted = s->trusted, newton->slope_error = s->slope_error;
+  search->top = s->top;
+}
+
 /* The start of the next lap of the search, whose segments begin where they did in the one before but for its change, or where
  * the orbit is known to have them. */
 static void trum_go_on(trum_search* search, trum_real next, int known) {
@@ -279,7 +287,6 @@ static void trum_keep_boundaries(trum_search* search) {
 static int trum_finish_lap(const trum_lanes* lanes, trum_search* search) {
   trum_lap_summary s;
   trum_real next;
-  trum_newton_record* newton = &search->newton;
   int known_start;
   if (search->failed || !trum_may_join(search)) {
     if (!trum_repeat_lap(search)) return 0;
@@ -295,7 +302,7 @@ static int trum_finish_lap(const trum_lanes* lanes, trum_search* search) {
   s = trum_summarise_lap(search);
   trum_compare_laps(search, &s);
   trum_update_bracket(search, &s);
-  next = trum_next_start(search, &s), newton->last_step = trum_fabs(next - search->start_speed);
+  next = trum_next_start(search, &s), search->newton.last_step = trum_fabs(next - search->start_speed);
   known_start = with_slopes(lanes) && search->stage == STAGE_ROUGH; /* is kept for the lap whose slopes count */
   if (with_slopes(lanes)) {
     if (!trum_finish_lap_with_slopes(search, &s, next - search->start_speed)) return 0;
@@ -310,9 +317,7 @@ static int trum_finish_lap(const trum_lanes* lanes, trum_search* search) {
     return 0;
   }
   if (!with_slopes(lanes)) search->scales.speed = trum_scale_of(search, s.top, s.decay);
-  newton->start = search->start_speed, newton->decay = s.decay, newton->exact_gain = s.exact_gain;
-  newton->uncertainty = s.uncertainty, newton->trusted = s.trusted, newton->slope_error = s.slope_error;
-  search->top = s.top;
+  trum_record_lap(search, &s);
   trum_go_on(search, next, known_start);
   return 1;
 }

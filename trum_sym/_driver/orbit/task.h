@@ -39,6 +39,13 @@ static void trum_reset_slope_scales(trum_search* search) {
   for (k = 0; k < PARAMETERS; ++k) search->scales.friction[k] = search->scales.angle[k] = trum_unmeasured;
 }
 
+/* The level of laps of which nothing is known, and a speed to measure their errors by. */
+static void trum_begin_roughly(trum_search* search) {
+  const trum_orbit_in* in = search->in;
+  search->stage = STAGE_ROUGH, search->level = trum_step_share * trum_first_lap_tolerance;
+  search->scales.speed = TRUM_C(0.1) * in->D * in->k_c * in->W * (in->omega_n + in->Delta_omega);
+}
+
 /* Begins the search for an orbit about where it is known to be. */
 static void trum_start_from(trum_search* search, const trum_coarse_orbit* about) {
   const trum_real fine_level = trum_fine_level(search->in->tolerance), level = trum_side_by_side_level(search->in->tolerance);
@@ -65,8 +72,7 @@ static int trum_start_search(trum_lanes* lanes, int i, trum_search* search, trum
     return 0;
   }
   if ((known != known) && trum_solve_balance(lanes, i, search)) return 0;
-  search->stage = STAGE_ROUGH, search->level = trum_step_share * trum_first_lap_tolerance;
-  search->scales.speed = TRUM_C(0.1) * in->D * in->k_c * in->W * (in->omega_n + in->Delta_omega);
+  trum_begin_roughly(search);
   if (!(known != known)) {
     search->start_speed = known, search->laps = 1, search->passed = about->found;
     if (!search->passed) trum_integrate_in_turn(search);
