@@ -3,7 +3,8 @@
  *
  *     NAME=VALUE ...    the example's arguments; then on standard input lines of LEVEL BESIDE
  *
- * prints the sums of both laps, a JSON object a line. */
+ * prints the number of laps that the point's search takes, all coarse ones counted as one, and the sums of both laps of each
+ * line, a JSON object a line. */
 #define TRUM_SLOPES 1
 #define main example_main
 #include "main.c"
@@ -53,6 +54,9 @@ int main(int argc, char** argv) {
   for (k = 1; k < argc; ++k)
     if (!set(&motor, &drive, argv[k])) return 2;
   if (trum_solve_point(&motor, &drive, &point, &in, &out, 0) != TRUM_OK) return 1;
+  in.held = 0;
+  if (!trum_find_orbits(&w, &in, &out, 0, 0, 1, 0)) return 1;
+  printf("{\"laps\": %d}\n", w.searches[0].laps);
   memset(&slopes_in, 0, sizeof slopes_in);
   while (scanf("%lf %lf", &level, &beside) == 2) {
     trum_search* search = &w.searches[0];

@@ -27,7 +27,7 @@ def laps(harness, point, level, beside):
     done = subprocess.run(
         [harness, *POINTS[point]], input=f"{level} {beside}\n", capture_output=True, text=True, check=True
     )
-    found = json.loads(done.stdout)
+    found = json.loads(done.stdout.splitlines()[1])
     return found["in turn"], found["joined"]
 
 
@@ -59,3 +59,20 @@ def test_jumps_change_the_lap_by_no_more_than_is_counted(harness, point, beside)
     assert abs(joined["x"] - in_turn["x"]) <= off
     assert joined["lowest"] <= in_turn["low"] + own
     assert joined["highest"] >= in_turn["high"] - own
+
+
+LIGHT = (
+    "rotor_inertia=2.4650745390656517e-08 friction_coefficient=0.29410926170092805 prepressure=201.811990563277 "
+    "frequency_difference=4969.522202630917 periods=138 on_periods=83 load_torque=0.7060443155499986 start=steady "
+    "tolerance=6.852293158164847e-08",
+    "rotor_inertia=3.626182313368922e-09 friction_coefficient=0.22107143562846368 prepressure=112.27882345552209 "
+    "frequency_difference=1367.5886747509112 periods=60 on_periods=47 load_torque=-0.4924354942344897 start=periodic "
+    "tolerance=4.731087727939563e-09 contact=hertz phase_lead=-1",
+)
+
+
+@pytest.mark.parametrize("light", LIGHT)
+def test_the_first_lap_overrules_coarse_ones_that_are_wrong(harness, light):
+    """Rotors so light that they follow the wave within a coarse step: 8 and 13 laps by the coarse laps' bracket."""
+    done = subprocess.run([harness, *light.split()], input="", capture_output=True, text=True, check=True)
+    assert json.loads(done.stdout)["laps"] == 3

@@ -22,7 +22,7 @@ typedef struct {
 /* Start speeds that are too low and too high, and the gain of speed of the laps from there; those of fine laps. */
 typedef struct {
   trum_real low, high, gain_low, gain_high, sure_low, sure_high;
-  int bisect_next;
+  int bisect_next, coarse; /* it is of coarse laps */
 } trum_bracket;
 
 /* The lap before: its change of the start speed, start, decay, gain without its errors and what that is uncertain by;

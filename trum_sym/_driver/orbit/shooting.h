@@ -92,20 +92,22 @@ static trum_start_change trum_uncertain_change(const trum_search* search, const 
 }
 
 /* Moves an end of the bracket to the lap's start speed, if the sign of its gain is certain.  A fine lap overrules rough
- * ones: the other end is wrong if it is on the wrong side, or closer than the gain, which falls by no more than the start
- * speed rises. */
+ * ones, and any lap coarse ones: the other end is wrong if it is on the wrong side, or closer than the gain, which falls by no
+ * more than the start speed rises. */
 static void trum_update_bracket(trum_search* search, const trum_lap_summary* s) {
   trum_bracket* b = &search->bracket;
   const trum_real start = search->start_speed;
+  const int overrules = s->accurate || b->coarse;
+  b->coarse = 0;
   if (!s->certain) return;
   if (s->exact_gain > 0) {
     b->low = start, b->gain_low = s->exact_gain;
     if (s->accurate) b->sure_low = start;
-    if (!(b->high > start + (s->accurate ? s->exact_gain - s->uncertainty : 0))) b->high = b->sure_high;
+    if (!(b->high > start + (overrules ? s->exact_gain - s->uncertainty : 0))) b->high = b->sure_high;
   } else {
     b->high = start, b->gain_high = s->exact_gain;
     if (s->accurate) b->sure_high = start;
-    if (!(b->low < start + (s->accurate ? s->exact_gain + s->uncertainty : 0))) b->low = b->sure_low;
+    if (!(b->low < start + (overrules ? s->exact_gain + s->uncertainty : 0))) b->low = b->sure_low;
   }
 }
 

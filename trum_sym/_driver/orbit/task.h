@@ -51,7 +51,8 @@ static void trum_start_from(trum_search* search, const trum_coarse_orbit* about)
   const trum_real fine_level = trum_fine_level(search->in->tolerance), level = trum_side_by_side_level(search->in->tolerance);
   int k;
   search->start_speed = about->start_speed, search->top = about->top;
-  search->newton = about->newton, search->bracket = about->bracket;
+  search->newton = about->newton, search->newton.last_step = TRUM_HUGE;
+  search->bracket = about->bracket, search->bracket.coarse = 1;
   for (k = 0; k < search->segments; ++k) search->at[k] = about->at[k];
   search->stage = level > 4 * fine_level ? STAGE_ROUGH : STAGE_FINE;
   search->level = search->stage == STAGE_ROUGH ? level : fine_level;
@@ -104,7 +105,7 @@ static void trum_begin_task(const trum_lanes* lanes, trum_search* search, const 
   }
   search->in = in, search->out = out;
   search->repetition.is_long = trum_is_long(in), search->repetition.watched = 0;
-  search->laps = search->refinements = search->bracket.bisect_next = 0;
+  search->laps = search->refinements = search->bracket.bisect_next = search->bracket.coarse = 0;
   search->newton.last_step = TRUM_HUGE, search->newton.start = search->newton.decay = search->newton.exact_gain = 0;
   search->newton.uncertainty = search->newton.trusted = 0, search->newton.slope_error = 1;
   search->newton.probes = 0;
