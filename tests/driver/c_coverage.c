@@ -119,9 +119,22 @@ static void edges(void) {
     several[1].a_A = NAN;
     trum_orbits(several + 1, out, 0, 0, 1, 0);
     expect(!((int)out[0].flags & trum_converged), "an orbit of no number");
-    several[0].a_A = NAN; /* the load can be balanced, the motion not be followed */
+    several[0].m = 2, several[0].n = 1, several[0].D = NAN; /* the load can be balanced, the motion not be followed */
     trum_orbits(several, out, &slopes_in, &slopes_out, 1, 0);
-    expect(!((int)out[0].flags & trum_converged), "an orbit of no number");
+    expect((int)out[0].flags & trum_failed_step && !((int)out[0].flags & trum_converged), "an orbit that cannot be followed");
+    for (i = 0; i < 8; ++i) { /* no drive cycle */
+      several[0] = several[2];
+      if (i == 0) several[0].m = several[0].n = 0;
+      if (i == 1) several[0].Delta_omega = -2 * in.omega_n;
+      if (i == 2) several[0].omega_n = (trum_real)1e-300, several[0].Delta_omega = 0, several[0].m = (trum_real)1e8;
+      if (i == 3) several[0].n = -1;
+      if (i == 4) several[0].n = several[0].m + 1;
+      if (i == 5) several[0].m = (trum_real)2e9;
+      if (i == 6) several[0].omega_n = NAN;
+      if (i == 7) several[0].a_A = NAN;
+      trum_orbits(several, out, &slopes_in, &slopes_out, 1, 0);
+      expect((int)out[0].flags & trum_failed_step && !((int)out[0].flags & trum_converged), "no drive cycle");
+    }
     {
       trum_real speed[2], distance[2];
       trum_history(several, out, speed, distance, 2, 0);

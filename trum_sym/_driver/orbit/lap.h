@@ -120,8 +120,12 @@ static void trum_divide_lap(trum_search* search, int segments) {
 /* Whether the numbers that were given make a drive cycle. */
 static int trum_has_cycle(const trum_search* search) {
   const trum_orbit_in* in = search->in;
-  return search->segments > 0 && search->period > 0 && search->cycle_time < TRUM_HUGE && in->n >= 0 && in->n <= in->m &&
-         in->m < TRUM_C(1e9);
+  trum_real motion = 0;
+  int r, k;
+  for (r = 0; r < TRUM_REGIONS; ++r)
+    for (k = 0; k < 4; ++k) motion += trum_fabs(search->cycle.start[r][k]);
+  return search->segments > 0 && search->period > 0 && search->cycle_time < TRUM_HUGE && motion < TRUM_HUGE && in->n >= 0 &&
+         in->n <= in->m && in->m < TRUM_C(1e9);
 }
 
 /* Has the laps from now on integrated in turn, region by region. */
