@@ -241,7 +241,7 @@ static int trum_finish_rough_lap(trum_search* search, const trum_lap_summary* s,
       search->bracket.high - search->bracket.low <= nearly) {
     const trum_real fine_level = trum_fine_level(search->in->tolerance);
     trum_real wanted = fine_level;
-    if (s->known || forgets)
+    if (s->known) /* what a lap elsewhere is off by says little */
       wanted = trum_level_for(search->level, trum_own_bound(search, s) / search->in->tolerance);
     search->stage = STAGE_FINE, search->level = wanted < fine_level ? wanted : fine_level;
   } else if (search->laps == 1) {
