@@ -54,6 +54,7 @@ static void no_cycles(const trum_orbit_in* in) {
     trum_orbit_out out;
     trum_slopes_in slopes_in;
     trum_slopes_out slopes_out;
+    trum_real speed, distance;
     memset(&slopes_in, 0, sizeof slopes_in);
     if (i == 0) none.m = none.n = 0;
     if (i == 1) none.Delta_omega = -2 * in->omega_n;
@@ -65,6 +66,8 @@ static void no_cycles(const trum_orbit_in* in) {
     if (i == 7) none.a_A = NAN;
     trum_orbits(&none, &out, &slopes_in, &slopes_out, 1, 0);
     expect((int)out.flags & trum_failed_step && !((int)out.flags & trum_converged), "no drive cycle");
+    trum_history(&none, &out, &speed, &distance, 1, 0);
+    expect(speed != speed && distance != distance, "a history of no drive cycle");
   }
 }
 
