@@ -341,6 +341,38 @@ def segments() -> sp.Expr:
     return in_one
 
 
+def brief_saturation() -> sp.Expr:
+    """As a moment without saturation begins to be, S jumps, however brief it is.
+
+    The points as fast as the rotor are at the phases +-acos(v/R_v), which move with v at 1/sqrt(R_v^2 - v^2), and
+    friction with them.  Where R_v^2 - v^2 has a maximum p it is p - a t^2 next to it, and if p > 0 the integral of that
+    rate over the moment is pi/sqrt(a), whatever p: the logarithm of S jumps there by a multiple of it, where friction
+    itself, saturated but for the square root, changes no speed by more than a multiple of p.  So the slope of one lap
+    says nothing of laps that have such a moment more, or less.  None has whose start differs by less than what a speed
+    at the extremum would have to, sqrt(v^2 + p) - |v|, as no speed moves by more than the start (comparison); where
+    p < 0, that is |v| - sqrt(v^2 - |p|), which is no less with |p| in place of p.  Returns the integral.
+
+    Raises
+    ------
+    ProofError
+        If a step does not hold.
+    """
+    v, t, unit = sp.Symbol("v", real=True), sp.Symbol("t", real=True), sp.Symbol("u", positive=True)
+    R, p, a = sp.symbols("R_v p a", positive=True)
+    _zero(sp.simplify(sp.acos(v / R).diff(v) + 1 / sp.sqrt(R**2 - v**2)), "how fast the phases move with v")
+    edge = sp.sqrt(p / a)
+    antiderivative = sp.asin(t / edge) / sp.sqrt(a)
+    _zero(sp.simplify(antiderivative.diff(t) ** 2 - 1 / (p - a * t**2)), "the integrand")
+    integral = antiderivative.subs(t, edge) - antiderivative.subs(t, -edge)
+    _zero(integral.diff(p), "the integral does not depend on p")
+    short = sp.integrate(sp.sqrt(p) * sp.sqrt(1 - unit**2), (unit, -1, 1)) * edge  # of the square root, t = u edge
+    _zero(sp.simplify(short - sp.pi * p / (2 * sp.sqrt(a))), "what friction is less than saturated by")
+    speed = sp.Symbol("|v|", nonnegative=True)
+    above, below = sp.sqrt(speed**2 + p), sp.sqrt(speed**2 - p)
+    _zero(sp.expand((above + below) ** 2 + (above - below) ** 2 - 4 * speed**2), "the margins' sum and difference")
+    return sp.simplify(integral)
+
+
 @dataclass(frozen=True)
 class Theorem:
     """A statement, what it rests on, and its proof."""
@@ -365,6 +397,7 @@ THEOREMS = (
     Theorem("contact edge", "pressure", contact_edge),
     Theorem("repetition", "comparison", repetition),
     Theorem("segments", "comparison", segments),
+    Theorem("brief saturation", "comparison", brief_saturation),
 )
 
 

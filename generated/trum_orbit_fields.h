@@ -453,7 +453,7 @@ typedef struct {
 } trum_slopes_out;
 
 /* bits of an orbit's flags, and their names */
-enum { trum_converged = 1, trum_full_contact = 2, trum_runaway = 4, trum_autonomous = 8, trum_too_many_steps = 16, trum_too_many_laps = 32, trum_failed_step = 64 };
-#define TRUM_ORBIT_FLAGS "converged full_contact runaway autonomous too_many_steps too_many_laps failed_step"
+enum { trum_converged = 1, trum_full_contact = 2, trum_runaway = 4, trum_autonomous = 8, trum_too_many_steps = 16, trum_too_many_laps = 32, trum_failed_step = 64, trum_rounding_limit = 128 };
+#define TRUM_ORBIT_FLAGS "converged full_contact runaway autonomous too_many_steps too_many_laps failed_step rounding_limit"
 
 #endif

@@ -311,6 +311,7 @@ _FLAGS = (  # bits of `flags`, lowest first
     "too_many_steps",  # not converged: a lap needs more steps than are allowed
     "too_many_laps",  # not converged: the search needs more laps than are allowed
     "failed_step",  # not converged: a step cannot be evaluated however short it is
+    "rounding_limit",  # not converged: shorter steps make no bound smaller
 )
 _COUPLED_STATE = (
     Field("w_A", "m", "displacement of phase A"),

@@ -201,6 +201,38 @@ def test_the_events_cubic_passes_through_its_values_and_its_slope_is_its_derivat
         assert sp.cancel(sp.together(cubic.subs(z, place) - sp.Symbol(f"e{k}"))) == 0
 
 
+def test_the_events_cubic_has_its_minimum_where_its_slope_is_zero_and_rises():
+    value = c_expression(found(r"real trum_cubic_at\(const trum_cubic\* c, real z\) \{ return ([^;]*);")[0])
+    *coefficients, square, root, at = found(
+        r"real trum_cubic_minimum\([^)]*\) \{ const real c3 = ([^,]*), c2 = ([^;]*); const real c1 = ([^,]*), "
+        r"square = ([^;]*); const real below = c2 \+ (square_root\(maximum\(square, REAL\(0\)\)\)); .*?"
+        r"return where\(exists, (-c1) \* reciprocal\(where\(exists, below, REAL\(1\)\)\), REAL\(-1\)\);"
+    )
+    assert root
+    z, side, c1, c2, c3 = sp.symbols("z side c1 c2 c3")
+    typed = [c_expression(text) for text in coefficients]
+    assert [
+        sp.expand(side * sp.Poly(value, z).coeff_monomial(z**n) - c) for n, c in zip((3, 2, 1), typed, strict=True)
+    ] == [0] * 3
+    below = c2 + sp.sqrt(c_expression(square))
+    slope = c1 + 2 * c2 * z + 3 * c3 * z**2
+    place = c_expression(at) / below
+    assert sp.simplify(slope.subs(z, place)) == 0
+    rise = slope.diff(z).subs(z, place)
+    for case in ((1, -2, 1), (-3, 1, 2), (2, -3, -1)):  # it rises, whichever way the cubic turns
+        assert rise.subs(dict(zip((c1, c2, c3), case, strict=True))).evalf() > 0
+
+
+def test_the_margin_of_saturation_is_by_how_much_another_speed_is_as_fast_as_the_surface():
+    (least,) = found(
+        r"return (\(absolute\(v\) \+ square_root\(v \* v \+ least\)\) \* reciprocal\(least \+ REAL\(trum_tiny\)\));"
+    )
+    p, v = sp.symbols("least v", positive=True)
+    typed = least.replace("absolute", "Abs").replace("square_root", "sqrt").replace("REAL(trum_tiny)", "0")
+    inverse = sp.sympify(typed.replace("reciprocal", "1/"), locals={"v": v, "least": p})
+    assert sp.simplify((v + 1 / inverse) ** 2 - v**2 - p) == 0
+
+
 def test_extremes_are_zeros_of_the_rate_by_its_derivative_and_the_speed_is_its_integral():
     slope, rate = (
         c_expression(text) for text in found(r"const real slope = (p\[1\][^;]*); const real rate = ([^;]*);")

@@ -74,7 +74,7 @@ NEVER = {
         "if (!(b->low < start": LAPS,
         "if (s->known && next > b->sure_low": LAPS,
         "if (!with_slopes(lanes) && !met": LAPS,
-        "if (excess > 1 &&": LAPS,
+        "if (++search->refinements <= 12) search->level": LAPS,
         "if (s->certain || s->loose) return next;": LAPS,
         "} else if (search->laps == 1) {": LAPS,
         "if (width <= TRUM_C(0.5) * allowed": LAPS,
@@ -211,6 +211,11 @@ def edges() -> list[str]:
         *(f"{name}={value}" for name in ("prepressure", "periods", "load_torque", "radius") for value in HOSTILE),
         *(f"amplitude=forced damping_ratio={x} frequency_difference={d}" for x in (1e-6, 0.1) for d in (1, 300)),
         *(f"start=rest load_torque={x} prepressure={f}" for x in (0, 0.05, 0.2) for f in (120, 250)),
+        # next to the largest load, where rounding is more than the tolerance
+        "prepressure=126.63766228978255 frequency_difference=1739.2558872099016 periods=17 on_periods=13 "
+        "switching_phase=0.7682100302699351 load_torque=0.8389724070748523 tolerance=1e-9",
+        "prepressure=137.60855866840302 frequency_difference=-4037.919922805594 periods=4 on_periods=3 start=steady "
+        "switching_phase=2.00537160082148 load_torque=0.9116529796267492 tolerance=1e-9",
     ]
 
 

@@ -16,6 +16,8 @@ POINTS = {
 }
 # Counted only where segments are joined, or not read of a joined lap
 APART = ("kept", "kept_sum", "jumps")
+# Of single steps, whose lengths are not quite the same; and what steps of a free rotor do not resolve
+BY_STEPS = ("stiffest", "sum_abs", "d_angle")
 
 
 @pytest.fixture(scope="module")
@@ -42,7 +44,8 @@ def test_segments_that_begin_where_the_lap_passes_give_its_sums_bounds_and_slope
             assert joined[name] >= 0.7 * value, name
             continue
         bound = "error" in name or "remainder" in name or name == "inside"
-        assert joined[name] == pytest.approx(value, rel=0.3 if bound else 2e-6, abs=1e-15 if bound else 1e-11), name
+        rel = 0.3 if bound else 0.05 if name.startswith(BY_STEPS) else 2e-6
+        assert joined[name] == pytest.approx(value, rel=rel, abs=1e-15 if bound else 1e-11), name
 
 
 @pytest.mark.parametrize("beside", [1e-5, 1e-4, 1e-3])

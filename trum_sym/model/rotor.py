@@ -81,6 +81,7 @@ _REASONS = {
     "too_many_steps": "a lap of the drive cycle needs more time steps than are allowed",
     "too_many_laps": "the search for the orbit needs more laps than are allowed",
     "failed_step": "a time step cannot be evaluated however short it is",
+    "rounding_limit": "the errors stated are rounding, which shorter time steps do not make smaller",
 }
 _MISSED = "the bounds of the errors miss the tolerance"
 _OF_HISTORY = ("low", "high", "start", "level")

@@ -54,15 +54,31 @@ static void trum_accept_sensitivities(trum_lanes* lanes, const trum_trial_step* 
   trum_select_derivatives(&lanes->sensitivity.derivatives, &trial->derivatives[LAST_NODE], accepted);
 }
 
-/* Moves the accepted lanes to the end of their step and adds the step to their laps. */
-static void trum_accept_step(trum_lanes* lanes, const trum_trial_step* trial, mask accepted,
-                             const trum_defect* defect) {
+/* Over 1, by how much the speed would have to be another, at least, for saturation to begin or end for a moment in this step,
+ * or not to: at an extremum of R_v^2 - v^2, or where a region ends and the surface's acceleration jumps.  With it a lap's S
+ * jumps, however brief the moment (`brief saturation` in derivations/error_bound.py): a change of the start moves the speed
+ * there by S times as much, and what the jump makes of that is S at most. */
+static real trum_inverse_margin(const trum_cubic* saturation, real v, real at_end, mask finished) {
+  real least = where(finished, absolute(at_end), REAL(trum_unmeasured)); /* not of infinity, whose quotient has no value */
+  int k;
+  for (k = 0; k < 2; ++k) {
+    const real at = trum_cubic_minimum(saturation, REAL(1 - 2 * k));
+    const mask within = less_than(REAL(-trum_beside_step), at) & less_than(at, REAL(1 + trum_beside_step));
+    least = where(within, minimum(least, absolute(trum_cubic_at(saturation, at))), least);
+  }
+  return (absolute(v) + square_root(v * v + least)) * reciprocal(least + REAL(trum_tiny));
+}
+
+/* Moves the accepted lanes to the end of their step, and of a region if it is finished, and adds the step to their laps. */
+static void trum_accept_step(trum_lanes* lanes, const trum_trial_step* trial, mask accepted, mask finished,
+                             const trum_defect* defect, const trum_cubic* saturation) {
   static const trum_real A[NODES][NODES] = TRUM_COLLOCATION_INTEGRALS;
   const mask held = at_most(lanes->equation.push, REAL(0));
   trum_lap* lap = &lanes->lap;
   trum_factors equations;
   real S[NODES], T_f_v[NODES], K[NODES], rate[NODES], right[NODES], d[PARAMETERS][NODES];
   real sum_f = REAL(0), sum_theta = REAL(0), sum_x = REAL(0), sum_S = REAL(0), sum_xS = REAL(0), sum_SS = REAL(0);
+  real inverse_margin;
   int i, j, k;
   for (j = 0; j < NODES; ++j) rate[j] = trial->T[j] * (lanes->equation.push * trial->f[j] - lanes->equation.drag);
   trum_friction_jacobian(lanes, trial, T_f_v);
@@ -94,6 +110,9 @@ static void trum_accept_step(trum_lanes* lanes, const trum_trial_step* trial, ma
   lap->S = where(accepted, lap->S + sum_S, lap->S), lap->xS = where(accepted, lap->xS + sum_xS, lap->xS);
   lap->SS = where(accepted, lap->SS + sum_SS, lap->SS);
   lap->stiffest = where(accepted, maximum(lap->stiffest, defect->stiffness * lanes->step.h), lap->stiffest);
+  inverse_margin = trum_inverse_margin(saturation, lanes->equation.v0 + trial->x[0],
+                                       trial->events[LAST_NODE][EVENT_SATURATION], finished);
+  lap->nearness = where(accepted, lap->nearness + S[0] * S[0] * inverse_margin, lap->nearness);
   trum_add_defect(lanes, defect, S, accepted);
   if (lanes->record && mask_in_lane(accepted, 0)) trum_record_step(lanes->record, lanes, rate);
   lanes->start.x = where(accepted, trial->x[LAST_NODE], lanes->start.x);
@@ -179,7 +198,7 @@ static mask trum_advance_step(trum_lanes* lanes) {
     const real grown = minimum(longest, lanes->step.h * factor);
     const mask finished = accepted & at_most(lanes->step.time_left, lanes->step.h * REAL(TRUM_EITHER(1.0000001, 1.000001)));
     const mask cut_short = finished | at_most(REAL(0), lanes->step.target_event);
-    trum_accept_step(lanes, &trial, accepted, &defect);
+    trum_accept_step(lanes, &trial, accepted, finished, &defect, &next.saturation);
     /* a step cut short by an event or a region's end does not make the next one shorter */
     lanes->step.free_h = where(accepted, where(cut_short, minimum(longest, maximum(lanes->step.free_h, grown)), grown),
                                lanes->step.free_h);

@@ -6,6 +6,7 @@
 
 /* Step lengths, in drive periods */
 static const trum_real trum_max_step = TRUM_C(1.0 / 12.0);
+static const trum_real trum_beside_step = TRUM_C(0.02); /* of its length: an extremum at its end may be found so far outside */
 static const trum_real trum_max_saturated_step = TRUM_C(1.0 / 30.0); /* where friction is saturated: brief ends are seen */
 static const trum_real trum_max_nearly_saturated_step = TRUM_C(1.0 / 120.0);
 static const trum_real trum_first_step = TRUM_C(1.0 / 24.0);   /* of a lap */

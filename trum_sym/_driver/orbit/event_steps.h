@@ -10,6 +10,7 @@ typedef struct {
   real h, curvature, target_event;
   real root_error; /* of the integral of f, by ending beside a square root */
   mask retry, at_target; /* repeat the step; it has ended at its target */
+  trum_cubic saturation; /* R_v^2 - v^2 in the step */
 } trum_next_step;
 
 /* The distance at which a step counts as having reached an event: smaller with slopes (of_slopes).  A held rotor
@@ -35,6 +36,7 @@ static trum_next_step trum_adjust_to_events(trum_lanes* lanes, trum_trial_step* 
   next.h = lanes->step.h, next.curvature = lanes->step.curvature, next.target_event = lanes->step.target_event;
   next.at_target = mask_all(0), next.root_error = REAL(0);
   trum_locate_first_event(lanes, trial->z, trial->events, cubic, &location, &event);
+  next.saturation = cubic[EVENT_SATURATION];
   /* stiff motion goes to and fro over events until it is damped */
   meets_event = may_retry & less_than(location, REAL(1.5)) & mask_not(trial->damped);
   is_root = trum_is_event(event, REAL(EVENT_SATURATION)) | trum_is_event(event, REAL(EVENT_FULL_CONTACT));

@@ -45,6 +45,15 @@ static real trum_cubic_slope(const trum_cubic* c, real z) {
   return c->d1 + (z - c->z1) * inner + z * (inner + (z - c->z1) * c->d3);
 }
 
+/* Where the cubic times `side`, 1 or -1, has its minimum; -1 if it has none. */
+static real trum_cubic_minimum(const trum_cubic* c, real side) {
+  const real c3 = side * c->d3, c2 = side * (c->d2 - (c->z1 + c->z2) * c->d3);
+  const real c1 = side * (c->d1 - c->z1 * (c->d2 - c->z2 * c->d3)), square = c2 * c2 - REAL(3) * c1 * c3;
+  const real below = c2 + square_root(maximum(square, REAL(0)));
+  const mask exists = less_than(REAL(0), square) & less_than(REAL(TRUM_EITHER(1e-300, 1e-37)), absolute(below));
+  return where(exists, -c1 * reciprocal(where(exists, below, REAL(1))), REAL(-1));
+}
+
 /* Where an event function leaves the side on which it begins: between two nodes, or at its lowest point between them
  * (highest, if it begins negative). */
 typedef struct {
@@ -52,7 +61,9 @@ typedef struct {
   mask found;
 } trum_crossing;
 
-/* Looks for a crossing of the cubic through e at the nodes z, from the second node on where the step starts at the event. */
+/* Looks for a crossing of the cubic through e at the nodes z.  Where the step starts at the event, e begins at 0 but for
+ * noise: the crossing is between later nodes then; or if saturation begins or ends for a moment that is over before the
+ * second node, between its extremum and that node. */
 static trum_crossing trum_find_crossing(const trum_cubic* c, const real* z, real (*e)[EVENT_COUNT], int k, mask starts_here) {
   const mask positive = less_than(REAL(0), where(starts_here, e[1][k], e[0][k]));
   trum_crossing crossing;
@@ -64,16 +75,15 @@ static trum_crossing trum_find_crossing(const trum_cubic* c, const real* z, real
     crossing.found = crossing.found | crossed;
   }
   { /* a double crossing between two nodes: look at the cubic's minimum (maximum, if it begins negative) */
-    const real side = where(positive, REAL(1), REAL(-1));
-    const real c3 = side * c->d3, c2 = side * (c->d2 - (c->z1 + c->z2) * c->d3);
-    const real c1 = side * (c->d1 - c->z1 * (c->d2 - c->z2 * c->d3)), square = c2 * c2 - REAL(3) * c1 * c3;
-    const real below = c2 + square_root(maximum(square, REAL(0)));
-    const mask has_extremum = less_than(REAL(0), square) & less_than(REAL(TRUM_EITHER(1e-300, 1e-37)), absolute(below));
-    const real lowest = where(has_extremum, -c1 * reciprocal(where(has_extremum, below, REAL(1))), REAL(-1));
+    const real side = where(positive, REAL(1), REAL(-1)), lowest = trum_cubic_minimum(c, side);
+    const real noise = REAL(8) * absolute(c->e0) + REAL(100 * trum_unit) * absolute(e[1][k]);
     const real begin = where(starts_here, z[1], REAL(0));
-    const mask between = has_extremum & less_than(begin, lowest) & less_than(lowest, where(crossing.found, crossing.to, REAL(1)));
-    const mask crossed = between & at_most(side * trum_cubic_at(c, lowest), REAL(0));
-    crossing.from = where(crossed, begin, crossing.from), crossing.to = where(crossed, lowest, crossing.to);
+    const mask early = starts_here & less_than(lowest, begin);
+    const mask between = less_than(k == EVENT_SATURATION ? REAL(0) : begin, lowest) &
+                         less_than(lowest, where(crossing.found, crossing.to, REAL(1)));
+    const mask crossed = between & at_most(side * trum_cubic_at(c, lowest), where(early, -noise, REAL(0)));
+    crossing.from = where(crossed, where(early, lowest, begin), crossing.from);
+    crossing.to = where(crossed, where(early, z[1], lowest), crossing.to);
     crossing.found = crossing.found | crossed;
   }
   return crossing;

@@ -29,7 +29,9 @@ typedef struct {
  * how far around it laps draw speeds together alike, and by what share their slope is off. */
 typedef struct {
   trum_real last_step, start, decay, exact_gain, uncertainty, trusted, slope_error;
-  int probes; /* laps beside a start whose gain has no certain sign */
+  trum_real last_bound;  /* the last fine lap's own, of those whose steps were too long */
+  int probes;            /* laps beside a start whose gain has no certain sign */
+  int in_vain;           /* laps in a row whose own bound shorter steps left as it was */
 } trum_newton_record;
 
 /* What errors are measured by: a speed; with slopes the sums of the lap before. */

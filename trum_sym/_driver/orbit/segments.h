@@ -14,11 +14,11 @@
 #if TRUM_SEGMENTS > 1
 
 /* What a jump's change of a segment's speeds is uncertain by, over the change: S is that of the segment's own start, and
- * the lap before, which began elsewhere, shows how it differs from one start to another.  Any speed moves by 0 to 1 times the
- * change. */
-static trum_real trum_jump_share(const trum_boundary* before, const trum_lap_sums* part, trum_real duration) {
+ * the lap before, which began elsewhere, shows how it differs from one start to another; but it jumps where the change has
+ * saturation begin or end for a moment.  Any speed moves by 0 to 1 times the change. */
+static trum_real trum_jump_share(const trum_boundary* before, const trum_lap_sums* part, trum_real duration, trum_real change) {
   const trum_real by_end = trum_fabs(part->growth - before->growth), by_mean = trum_fabs(part->S / duration - before->mean_S);
-  const trum_real share = trum_least_jump_share + 2 * trum_larger(by_end, by_mean);
+  const trum_real share = trum_least_jump_share + 2 * (trum_larger(by_end, by_mean) + part->nearness * trum_fabs(change));
   return share < 1 ? share : 1;
 }
 
@@ -77,6 +77,7 @@ static void trum_join_sums(trum_lap_sums* lap, const trum_lap_sums* part, const 
   lap->angle_error += part->angle_error, lap->angle_remainder += part->angle_remainder;
   lap->full_contact = trum_larger(lap->full_contact, part->full_contact);
   lap->fastest = trum_larger(lap->fastest, part->fastest), lap->stiffest = trum_larger(lap->stiffest, part->stiffest);
+  lap->nearness += at->S * at->S * part->nearness;
   for (k = 0; slopes && k < PARAMETERS; ++k) {
     lap->d_x[k] += part->d_x[k] + at->d[k] * part->S, lap->d_xx[k] += part->d_xx[k] + at->d[k] * part->xS;
     lap->d_friction[k] += part->d_friction[k], lap->d_angle[k] += part->d_angle[k];
@@ -95,7 +96,7 @@ static trum_real trum_join_segments(const trum_search* search, trum_lap_sums* la
   for (k = 0; k < search->segments; ++k) {
     const trum_lap_sums* part = &search->part[k];
     const trum_real duration = search->segment_of[k].duration;
-    const trum_real share = counted ? trum_jump_share(&search->at[k], part, duration) : 0;
+    const trum_real share = counted ? trum_jump_share(&search->at[k], part, duration, at.change) : 0;
     const trum_real jump = share * trum_fabs(at.change);
     trum_join_extremes(lap, part, &at, jump, counted, slopes), trum_join_sums(lap, part, &at, jump, duration, slopes);
     at.remainder = part->remainder + at.remainder * part->kept + jump, jumps = jumps * part->kept + jump;

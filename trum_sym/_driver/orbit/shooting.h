@@ -59,6 +59,8 @@ static trum_lap_summary trum_summarise_lap(trum_search* search) {
 static void trum_compare_laps(const trum_search* search, trum_lap_summary* s) {
   const trum_newton_record* before = &search->newton;
   const trum_real distance = trum_fabs(search->start_speed - before->start), allowed = search->in->tolerance * s->top;
+  const trum_real step = trum_fabs(s->newton) + s->uncertainty / s->decay;
+  const trum_real beside = step * search->lap.nearness; /* the share of S that jumps with a moment's saturation */
   trum_real secant_error = before->slope_error;
   s->change = before->decay > 0 ? trum_fabs(trum_log(s->decay / before->decay)) : TRUM_HUGE;
   s->trusted = s->change < TRUM_C(0.7) ? trum_larger(distance, before->trusted - distance) : 0;
@@ -68,10 +70,10 @@ static void trum_compare_laps(const trum_search* search, trum_lap_summary* s) {
   }
   s->slope_error = s->change + secant_error < 1 ? s->change + secant_error : 1;
   /* from the orbit to where laps are saturated the decay falls to 0, so it changes as the gain does */
-  s->share = TRUM_C(0.02) + s->slope_error + 10 * trum_fabs(s->gain) / s->saturated_gain;
+  s->share = TRUM_C(0.02) + s->slope_error + 10 * trum_fabs(s->gain) / s->saturated_gain + 4 * beside;
   if (s->share > 1) s->share = 1;
-  s->known = s->change < TRUM_C(0.7) && trum_fabs(s->gain) <= TRUM_C(0.1) * s->saturated_gain &&
-             trum_fabs(s->newton) + s->uncertainty / s->decay <= trum_larger(TRUM_C(0.1) * s->trusted, TRUM_C(0.05) * allowed);
+  s->known = s->change < TRUM_C(0.7) && trum_fabs(s->gain) <= TRUM_C(0.1) * s->saturated_gain && beside < TRUM_C(0.25) &&
+             step <= trum_larger(TRUM_C(0.1) * s->trusted, TRUM_C(0.05) * allowed);
 }
 
 /* By how much more than a lap's lowest and highest speed others may move, when its start changes so that its end changes by
@@ -156,14 +158,16 @@ static int trum_finish_held_lap(const trum_lanes* lanes, trum_search* search) {
 }
 
 /* Repeats a lap: in turn, if its segments were side by side; one that could not be followed with shorter steps, a few times at
- * most: steps that are too long alternate between the sides of a line contact that is as fast as the rotor. */
+ * most: steps that are too long alternate between the sides of a line contact that is as fast as the rotor.  But not for
+ * want of steps if one with longer steps was followed. */
 static int trum_repeat_lap(trum_search* search) {
   const trum_real fine_level = trum_fine_level(search->in->tolerance);
-  if (search->side_by_side) {
+  const int too_short = search->out_of_steps && search->newton.last_bound > 0;
+  if (search->side_by_side && !too_short) {
     trum_integrate_in_turn(search), ++search->laps;
     return 1;
   }
-  if (++search->refinements > 3) {
+  if (too_short || ++search->refinements > 3) {
     search->out->flags += search->out_of_steps ? (trum_real)trum_too_many_steps : (trum_real)trum_failed_step;
     return 0;
   }
@@ -189,15 +193,24 @@ static trum_real trum_own_bound(trum_search* search, const trum_lap_summary* s) 
   return bound;
 }
 
-/* After a fine lap whose bounds do not meet the tolerance: shorter steps if its own errors are too large; else from a
- * better start, or on both sides of a start whose gain has no certain sign.  Returns the next start. */
+/* After a fine lap of a known start: shorter steps if its own errors are too large, the next of which are to be better. */
+static void trum_shorten_steps(trum_search* search, const trum_lap_summary* s) {
+  const trum_real bound = trum_own_bound(search, s), excess = bound / search->in->tolerance;
+  trum_newton_record* newton = &search->newton;
+  if (excess <= 1) return;
+  newton->in_vain = trum_fabs(bound - newton->last_bound) < TRUM_C(0.1) * bound ? newton->in_vain + 1 : 0;
+  newton->last_bound = bound;
+  if (++search->refinements <= 12) search->level = trum_level_for(search->level, excess);
+}
+
+/* After a fine lap whose bounds do not meet the tolerance: shorter steps, or from a better start, or on both sides of a
+ * start whose gain has no certain sign.  Returns the next start. */
 static trum_real trum_refine(trum_search* search, const trum_lap_summary* s, trum_real next) {
   const trum_real allowed = search->in->tolerance * s->top;
   const trum_real width = search->bracket.high - search->bracket.low, middle = search->start_speed;
   trum_newton_record* newton = &search->newton;
   if (s->known) {
-    const trum_real excess = trum_own_bound(search, s) / search->in->tolerance;
-    if (excess > 1 && ++search->refinements <= 12) search->level = trum_level_for(search->level, excess);
+    trum_shorten_steps(search, s);
     return next;
   }
   if (s->certain || s->loose) return next;
@@ -315,6 +328,10 @@ static int trum_finish_lap(const trum_lanes* lanes, trum_search* search) {
       return 0;
     }
     next = trum_refine(search, &s, next);
+    if (search->newton.in_vain > 1) {
+      search->out->flags += trum_rounding_limit;
+      return 0;
+    }
   } else if (!trum_finish_rough_lap(search, &s, next - search->start_speed)) {
     return 0;
   }

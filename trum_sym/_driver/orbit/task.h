@@ -108,7 +108,7 @@ static void trum_begin_task(const trum_lanes* lanes, trum_search* search, const 
   search->laps = search->refinements = search->bracket.bisect_next = search->bracket.coarse = 0;
   search->newton.last_step = TRUM_HUGE, search->newton.start = search->newton.decay = search->newton.exact_gain = 0;
   search->newton.uncertainty = search->newton.trusted = 0, search->newton.slope_error = 1;
-  search->newton.probes = 0;
+  search->newton.last_bound = 0, search->newton.probes = search->newton.in_vain = 0;
   search->stage = STAGE_HELD, search->start_speed = 0;
   search->bracket.low = search->bracket.sure_low = -TRUM_HUGE;
   search->bracket.high = search->bracket.sure_high = TRUM_HUGE;
