@@ -330,6 +330,24 @@ def test_the_random_points_study_sees_what_is_wrong(monkeypatch, figure, value, 
     assert any(kind in name for name in found), found
 
 
+def test_a_search_that_rounding_ends_says_so_and_states_it(trum60):
+    """2.5e-6 below the largest load laps draw speeds together by 9e-4, and rounding is 2e-9 of the speed."""
+    force, friction, radius = 126.63766228978255, 0.25, float(trum60.contact_radius.value)
+    drive = ts.Drive(
+        prepressure=force,
+        frequency_difference=1739.2558872099016,
+        periods=17,
+        on_periods=13,
+        switching_phase=0.7682100302699351,
+        load_torque=0.9999974902754193 * friction * force * radius,
+    )
+    asked, met = (ts.evaluate(trum60, drive, tolerance=t) for t in (1e-9, 3e-9))
+    assert met.converged
+    assert not asked.converged and "rounding" in asked.reason
+    assert 1e-9 * abs(asked.mean_speed) < asked.mean_speed_error < 3e-9 * abs(asked.mean_speed)
+    assert abs(asked.mean_speed - met.mean_speed) < asked.mean_speed_error
+
+
 ONCE_BEYOND = {  # values of the motor, a drive, its share of the limit, a tolerance and the contact
     "a light rotor that the surface slips away from": (
         {"rotor_inertia": 5.663656185497067e-09, "friction_coefficient": 0.2069647210934692},

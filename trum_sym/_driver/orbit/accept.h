@@ -60,11 +60,13 @@ static void trum_accept_sensitivities(trum_lanes* lanes, const trum_trial_step* 
  * there by S times as much, and what the jump makes of that is S at most. */
 static real trum_inverse_margin(const trum_cubic* saturation, real v, real at_end, mask finished) {
   real least = where(finished, absolute(at_end), REAL(trum_unmeasured)); /* not of infinity, whose quotient has no value */
+  real side = REAL(1);
   int k;
   for (k = 0; k < 2; ++k) {
-    const real at = trum_cubic_minimum(saturation, REAL(1 - 2 * k));
+    const real at = trum_cubic_minimum(saturation, side);
     const mask within = less_than(REAL(-trum_beside_step), at) & less_than(at, REAL(1 + trum_beside_step));
     least = where(within, minimum(least, absolute(trum_cubic_at(saturation, at))), least);
+    side = -side;
   }
   return (absolute(v) + square_root(v * v + least)) * reciprocal(least + REAL(trum_tiny));
 }
