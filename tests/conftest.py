@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import signal
 import sys
 
 import pytest
@@ -8,6 +9,14 @@ from refusals import assert_one_clear_line
 from trum_sym import console
 
 LOADED = pytest.StashKey[set[str]]()
+
+
+def pytest_configure():
+    """Hear signals that nohup or ``&`` had ignored, so that commands which tests start hear them, too."""
+    hangup = getattr(signal, "SIGHUP", signal.SIGINT)  # not on every system
+    for number, heard in ((signal.SIGINT, signal.default_int_handler), (hangup, signal.SIG_DFL)):
+        if signal.getsignal(number) is signal.SIG_IGN:
+            signal.signal(number, heard)
 
 
 def pytest_collection_finish(session):

@@ -19,11 +19,8 @@ TABLE = ["equations"]  # longer than what a pipe is read of here
 
 
 def run(*arguments, before="", **streams):
-    """The command as a shell starts it, though nohup or ``&`` had signals ignored; ``before`` is what happens first."""
-    heard = "signal.signal(1, signal.SIG_DFL), signal.signal(2, signal.default_int_handler)"
-    program = (
-        f"import os, signal, sys\n{heard}\n{before}\nsys.argv[0] = 'trum-sym'\nfrom trum_sym.__main__ import run\nrun()"
-    )
+    """The command as a shell starts it; ``before`` is what happens first."""
+    program = f"import os, signal, sys\n{before}\nsys.argv[0] = 'trum-sym'\nfrom trum_sym.__main__ import run\nrun()"
     options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **streams}
     return subprocess.run([sys.executable, "-c", program, *arguments], text=True, timeout=30, **options)
 
