@@ -225,7 +225,7 @@ def test_the_events_cubic_has_its_minimum_where_its_slope_is_zero_and_rises():
 
 def test_the_margin_of_saturation_is_by_how_much_another_speed_is_as_fast_as_the_surface():
     (least,) = found(
-        r"return (\(absolute\(v\) \+ square_root\(v \* v \+ least\)\) \* reciprocal\(least \+ REAL\(trum_tiny\)\));"
+        r"(\(absolute\(v\) \+ square_root\(v \* v \+ least\)\) \* reciprocal\(least \+ REAL\(trum_tiny\)\))\);"
     )
     p, v = sp.symbols("least v", positive=True)
     typed = least.replace("absolute", "Abs").replace("square_root", "sqrt").replace("REAL(trum_tiny)", "0")

@@ -45,7 +45,9 @@ def test_segments_that_begin_where_the_lap_passes_give_its_sums_bounds_and_slope
             continue
         bound = "error" in name or "remainder" in name or name == "inside"
         rel = 0.3 if bound else 0.05 if name.startswith(BY_STEPS) else 2e-6
-        assert joined[name] == pytest.approx(value, rel=rel, abs=1e-15 if bound else 1e-11), name
+        # signed errors of steps that are not quite the same cancel otherwise, to a share of what bounds their rest
+        other = in_turn.get(name.replace("error", "remainder"), 0) if bound else 0
+        assert joined[name] == pytest.approx(value, rel=rel, abs=max(0.2 * other, 1e-15 if bound else 1e-11)), name
 
 
 @pytest.mark.parametrize("beside", [1e-5, 1e-4, 1e-3])

@@ -68,7 +68,8 @@ static real trum_inverse_margin(const trum_cubic* saturation, real v, real at_en
     least = where(within, minimum(least, absolute(trum_cubic_at(saturation, at))), least);
     side = -side;
   }
-  return (absolute(v) + square_root(v * v + least)) * reciprocal(least + REAL(trum_tiny));
+  return minimum(REAL(trum_most_inverse_margin),
+                 (absolute(v) + square_root(v * v + least)) * reciprocal(least + REAL(trum_tiny)));
 }
 
 /* Moves the accepted lanes to the end of their step, and of a region if it is finished, and adds the step to their laps. */
@@ -114,7 +115,8 @@ static void trum_accept_step(trum_lanes* lanes, const trum_trial_step* trial, ma
   lap->stiffest = where(accepted, maximum(lap->stiffest, defect->stiffness * lanes->step.h), lap->stiffest);
   inverse_margin = trum_inverse_margin(saturation, lanes->equation.v0 + trial->x[0],
                                        trial->events[LAST_NODE][EVENT_SATURATION], finished);
-  lap->nearness = where(accepted, lap->nearness + S[0] * S[0] * inverse_margin, lap->nearness);
+  inverse_margin = S[0] * inverse_margin;
+  lap->nearness = where(accepted, lap->nearness + S[0] * (inverse_margin * inverse_margin), lap->nearness);
   trum_add_defect(lanes, defect, S, accepted);
   if (lanes->record && mask_in_lane(accepted, 0)) trum_record_step(lanes->record, lanes, rate);
   lanes->start.x = where(accepted, trial->x[LAST_NODE], lanes->start.x);

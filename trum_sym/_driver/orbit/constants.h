@@ -50,12 +50,13 @@ static const trum_real trum_least_jump_share = TRUM_C(5e-4); /* what a jump's ch
 #endif
 
 /* Limits of the number's type: what is added to a divisor that may be 0, what a number is rounded by, slopes that count as
- * none, friction that counts as saturated, the least that speeds draw together over a lap, a scale nothing is known of */
+ * none, friction that counts as saturated, the least that speeds draw together over a lap, a margin's inverse at most, a scale nothing is known of */
 static const trum_real trum_tiny = TRUM_EITHER(1e-290, 1e-37);
 static const trum_real trum_unit = TRUM_EITHER(1.2e-16, FLT_EPSILON / 2);
 static const trum_real trum_no_slope = TRUM_EITHER(1e-200, 1e-30);
 static const trum_real trum_all_but_one = TRUM_EITHER(1 - 1e-9, 1 - 8 * FLT_EPSILON);
 static const trum_real trum_least_decay = TRUM_EITHER(1e-14, FLT_EPSILON);
+static const trum_real trum_most_inverse_margin = TRUM_EITHER(1e100, 1e15);
 static const trum_real trum_unmeasured = TRUM_EITHER(1e300, 1e30);
 
 /* Factor of safety on all bounds */

@@ -18,7 +18,7 @@
  * saturation begin or end for a moment.  Any speed moves by 0 to 1 times the change. */
 static trum_real trum_jump_share(const trum_boundary* before, const trum_lap_sums* part, trum_real duration, trum_real change) {
   const trum_real by_end = trum_fabs(part->growth - before->growth), by_mean = trum_fabs(part->S / duration - before->mean_S);
-  const trum_real share = trum_least_jump_share + 2 * (trum_larger(by_end, by_mean) + part->nearness * trum_fabs(change));
+  const trum_real share = trum_least_jump_share + 2 * trum_larger(by_end, by_mean) + 4 * part->nearness * change * change;
   return share < 1 ? share : 1;
 }
 
@@ -77,7 +77,7 @@ static void trum_join_sums(trum_lap_sums* lap, const trum_lap_sums* part, const 
   lap->angle_error += part->angle_error, lap->angle_remainder += part->angle_remainder;
   lap->full_contact = trum_larger(lap->full_contact, part->full_contact);
   lap->fastest = trum_larger(lap->fastest, part->fastest), lap->stiffest = trum_larger(lap->stiffest, part->stiffest);
-  lap->nearness += at->S * at->S * part->nearness;
+  lap->nearness += at->S * at->S * at->S * part->nearness;
   for (k = 0; slopes && k < PARAMETERS; ++k) {
     lap->d_x[k] += part->d_x[k] + at->d[k] * part->S, lap->d_xx[k] += part->d_xx[k] + at->d[k] * part->xS;
     lap->d_friction[k] += part->d_friction[k], lap->d_angle[k] += part->d_angle[k];

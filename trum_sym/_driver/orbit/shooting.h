@@ -60,7 +60,7 @@ static void trum_compare_laps(const trum_search* search, trum_lap_summary* s) {
   const trum_newton_record* before = &search->newton;
   const trum_real distance = trum_fabs(search->start_speed - before->start), allowed = search->in->tolerance * s->top;
   const trum_real step = trum_fabs(s->newton) + s->uncertainty / s->decay;
-  const trum_real beside = step * search->lap.nearness; /* the share of S that jumps with a moment's saturation */
+  const trum_real beside = step * step * search->lap.nearness; /* at which S jumps with a moment's saturation */
   trum_real secant_error = before->slope_error;
   s->change = before->decay > 0 ? trum_fabs(trum_log(s->decay / before->decay)) : TRUM_HUGE;
   s->trusted = s->change < TRUM_C(0.7) ? trum_larger(distance, before->trusted - distance) : 0;
@@ -70,9 +70,9 @@ static void trum_compare_laps(const trum_search* search, trum_lap_summary* s) {
   }
   s->slope_error = s->change + secant_error < 1 ? s->change + secant_error : 1;
   /* from the orbit to where laps are saturated the decay falls to 0, so it changes as the gain does */
-  s->share = TRUM_C(0.02) + s->slope_error + 10 * trum_fabs(s->gain) / s->saturated_gain + 4 * beside;
+  s->share = TRUM_C(0.02) + s->slope_error + 10 * trum_fabs(s->gain) / s->saturated_gain + 8 * beside;
   if (s->share > 1) s->share = 1;
-  s->known = s->change < TRUM_C(0.7) && trum_fabs(s->gain) <= TRUM_C(0.1) * s->saturated_gain && beside < TRUM_C(0.25) &&
+  s->known = s->change < TRUM_C(0.7) && trum_fabs(s->gain) <= TRUM_C(0.1) * s->saturated_gain && beside < TRUM_C(0.0625) &&
              step <= trum_larger(TRUM_C(0.1) * s->trusted, TRUM_C(0.05) * allowed);
 }
 

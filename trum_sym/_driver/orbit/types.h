@@ -39,7 +39,7 @@ enum { EVENT_SATURATION, EVENT_LARGER_PRESSURE, EVENT_SMALLER_PRESSURE, EVENT_FU
   X(low) X(high) X(S_low) X(S_high) /* lowest and highest x, and S there */ \
   X(full_contact) X(fastest)        /* 1 if ever in full contact; largest surface speed */ \
   X(stiffest)                       /* the largest exponent by which speeds were drawn together in a step */ \
-  X(nearness) /* sum of S^2 over the changes of speed that have saturation begin or end for a moment, 1/(m/s) */ \
+  X(nearness) /* sum of S (S/m)^2, m changes of speed that have saturation begin or end for a moment, 1/(m/s)^2 */ \
   /* first-order error of x by the steps' defects, bound of what it leaves out, share of an error at the start that is kept \
    * (of a long schedule since a watched period began, repeat.h); errors and remainders at the extremes */ \
   X(error) X(remainder) X(kept) X(low_error) X(low_remainder) X(high_error) X(high_remainder) \
