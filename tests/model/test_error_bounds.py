@@ -13,6 +13,9 @@ from lazily import lazily
 
 import trum_sym as ts
 from trum_sym.console import main
+from trum_sym.model.levels import Levels
+from trum_sym.model.operating_point import prepare
+from trum_sym.model.rotor import solve_orbit
 
 bounds, fuzz_points = lazily("studies.bounds"), lazily("studies.fuzz_points")
 FIGURES = ("mean_speed", "min_speed", "max_speed", "speed_volatility", "stall_torque")
@@ -280,6 +283,22 @@ def test_a_forced_batch_has_the_bits_of_its_points(trum60):
         one = ts.evaluate(trum60, ts.Drive(prepressure=float(each)), amplitude="forced", tolerance=1e-3).figures
         for name in ("amplitude", "resonance_frequency", *FIGURES, *(f"{figure}_error" for figure in FIGURES)):
             assert getattr(batch, name)[i] == one[name], name
+
+
+@pytest.mark.parametrize("inertia", [1e-8, 1e-7])
+def test_a_switched_drive_has_its_bits_beside_plain_waves(trum60, inertia):
+    """These are solved at once, as roots, and leave their lanes idle."""
+    motor, periods = trum60.with_values({"rotor_inertia": inertia}), 20
+
+    def orbits(on_periods):
+        drive = ts.Drive(periods=periods, on_periods=on_periods, load_torque=0.3)
+        case = prepare(motor, drive, Levels(), 1e-3)
+        given = {**case.arguments, "tolerance": 1e-6, "held": 0.0}
+        return solve_orbit(given, case.symbols, method="adaptive").raw
+
+    alone, beside = orbits(np.array([13])), orbits(np.array([13, periods, periods]))
+    for name in ("mean", "low", "high", "mean_error"):
+        assert beside[name][0] == alone[name][0], name
 
 
 @pytest.mark.parametrize("height", [1e-9, 1e-8, 1e-7, 5e-6])

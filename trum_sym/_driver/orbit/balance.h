@@ -40,6 +40,7 @@ static int trum_solve_balance(trum_lanes* lanes, int i, trum_search* search) {
   trum_surface at;
   if (!trum_is_balance(in)) return 0;
   trum_start_segment(lanes, i, search, 0);
+  set_lane_mask(&lanes->status.active, i, 0); /* the lane has its constants, and nothing to integrate */
   trum_surface_at(&lanes->constants, &lanes->region, with_hertz(lanes), lanes->step.tau, &at);
   R_v = lane_value(&at.R_v, i), theta = lane_value(&at.theta, i);
   sense = lane_value(&at.cos_phi, i) < 0 ? -1 : 1; /* in which the crest travels */
