@@ -25,6 +25,7 @@ from trum_sym.inputs.points import check_point, check_single, numbers_of
 from trum_sym.model.kernels import call
 from trum_sym.model.layer import lossy_contact, lossy_reaction, sheared_reaction
 from trum_sym.model.levels import Levels
+from trum_sym.model.roots import rising
 from trum_sym.model.stator import solve_stator
 
 __all__ = ["PlainWaves", "check_coupling", "coupled_values", "held_wave", "plain_waves", "standing", "wave_at"]
@@ -34,7 +35,6 @@ Rotor = Literal["loaded", "held"]
 CArray: TypeAlias = np.ndarray[tuple[int, ...], np.dtype[np.complex128]]
 
 _TURN = 2 * np.pi
-_HALVINGS = 60  # of an angle, at most
 _LAST = 4e-16  # of an angle, over the contact's
 _FIRST = 64  # brackets to begin with, and places in one that has a root
 _PARTS = 8  # of a bracket that may have a root
@@ -221,24 +221,18 @@ def _reaction(values: Values, heights: Array, rotor: Rotor) -> dict[str, Array]:
         return {name: np.asarray(value) for name, value in found.items()}
 
     theta = contact["theta"]
-    alpha = np.minimum(theta, np.pi / 2) if carried is None else _driving(at, theta, carried)
-    return {**contact, "alpha": alpha, **at(alpha)}
+    if carried is None:
+        alpha = np.minimum(theta, np.pi / 2)
+        return {**contact, "alpha": alpha, **at(alpha)}
+    wanted = carried
 
-
-def _driving(at: Callable[[Array], dict[str, Array]], theta: Array, wanted: float) -> Array:
-    """The angle up to which the surface has to be faster for a friction fraction, by Newton between bounds."""
-    low, high, alpha = np.zeros_like(theta), theta.copy(), theta / 2
-    for _ in range(_HALVINGS):
+    def excess(alpha: Array) -> tuple[Array, Array]:
+        """Friction fraction where the surface is faster up to an angle, less the one that carries the load; slope."""
         found = at(alpha)
-        less = found["f"] < wanted
-        low, high = np.where(less, alpha, low), np.where(less, high, alpha)
-        with np.errstate(all="ignore"):
-            step = alpha - (found["f"] - wanted) / found["f_alpha"]
-        after = np.where((step > low) & (step < high), step, (low + high) / 2)
-        if (np.abs(after - alpha) <= _LAST * theta).all():
-            return after
-        alpha = after
-    return alpha
+        return found["f"] - wanted, found["f_alpha"]
+
+    alpha = rising(excess, np.zeros_like(theta), theta, theta / 2, theta, _LAST)
+    return {**contact, "alpha": alpha, **at(alpha)}
 
 
 def _fraction(values: Values) -> float:

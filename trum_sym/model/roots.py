@@ -11,6 +11,7 @@ from trum_sym.inputs.checks import Array
 __all__ = ["rising"]
 
 _HALVINGS = 60  # at most
+_NEAR = 1e-8  # of a size, from where on a step no shorter than the one before is rounding
 
 
 def rising(
@@ -30,9 +31,9 @@ def rising(
     low, high, start, size : (k,) array
         Bounds, where to begin between them, and sizes that the last step is small against.
     last : float
-        How small: more than what the functions' rounding makes of it.
+        How small; a place is also found where steps stay below 1e-8 of its size and no longer shrink, by rounding.
     """
-    place = start
+    place, moved, done = start, size, np.zeros(start.shape, dtype=bool)
     for _ in range(_HALVINGS):
         value, slope = at(place)
         less = value < 0
@@ -40,7 +41,9 @@ def rising(
         with np.errstate(all="ignore"):
             step = place - value / slope
         after = np.where((step >= low) & (step <= high), step, (low + high) / 2)
-        if (np.abs(after - place) <= last * size).all():
-            return after
-        place = after
+        before, moved = moved, np.abs(after - place)
+        place = np.where(done, place, after)
+        done |= (moved <= last * size) | ((moved <= _NEAR * size) & (moved >= before))
+        if done.all():
+            break
     return place
