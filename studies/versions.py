@@ -1,11 +1,12 @@
 """The package at the lowest versions that it declares, and at the newest there are: install, import, a sample of tests.
 
-python -m studies.versions lowest        or newest
+python -m studies.versions lowest [FOLDER]        or newest
 
-An environment is made in a temporary folder; pip's own index and settings are used.  ``lowest`` pins every dependency
-of the package and of its extras but ``derive`` and ``dev`` to the lower end of its range; what those need in turn is as
-new as they allow.  The tests' own tools are those of the lock.  The exit code is that of the tests, or 77 if these
-versions cannot be had, or not together.
+An environment is made in a temporary folder; pip's own index and settings are used.  The package is the wheel in
+FOLDER, which `python -m studies.wheel FOLDER` leaves there, or is built from the source tree where none is named.
+``lowest`` pins every dependency of the package and of its extras but ``derive`` and ``dev`` to the lower end of its
+range; what those need in turn is as new as they allow.  The tests' own tools are those of the lock.  The exit code is
+that of the tests, or 77 if these versions cannot be had, or not together.
 """
 
 from __future__ import annotations
@@ -52,9 +53,10 @@ def locked(names: tuple[str, ...]) -> list[str]:
     return [line.split(" ;")[0] for line in lines if line.partition("==")[0] in names]
 
 
-def main(which: str) -> int:
+def main(which: str = "", built: str = "") -> int:
     """Install, run, print versions; the exit code of the tests."""
-    if which not in ("lowest", "newest"):
+    wheels = list(Path(built).resolve().glob("*.whl")) if built else [ROOT]
+    if which not in ("lowest", "newest") or len(wheels) != 1:
         print(__doc__)
         return 2
     begin = time.monotonic()
@@ -63,7 +65,7 @@ def main(which: str) -> int:
         python = str(Path(folder) / "bin" / "python")
         pins = [lowest(line) for line in declared()] if which == "lowest" else []
         upgrade = ["--upgrade", "--upgrade-strategy", "eager"] if which == "newest" else []
-        package = f"{ROOT}[{','.join(EXTRAS)}]"
+        package = f"{wheels[0]}[{','.join(EXTRAS)}]"
         install = [python, "-m", "pip", "install", "-q", *upgrade, package, *pins, *locked(TOOLS)]
         if subprocess.run(install).returncode:
             print(f"*** NOT TESTED AT THE {which.upper()} VERSIONS: they cannot be had here, or not together ***")
@@ -82,4 +84,4 @@ def main(which: str) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1] if len(sys.argv) > 1 else ""))
+    sys.exit(main(*sys.argv[1:3]))

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Callable, Iterable, Mapping
-from functools import cache, reduce
+from functools import cache, lru_cache, reduce
 from typing import Any
 
 import mpmath as mp
@@ -151,6 +151,14 @@ def identical(forms: Forms, derived: Forms, kind: Kind = "identity") -> Evidence
     return Evidence(kind, True, f"identical with the derivation: {', '.join(forms)}")
 
 
+@lru_cache(maxsize=10_000)
+def _wanted(
+    reference: Callable[[str, Point], object], name: str, values: tuple[tuple[sp.Symbol, mp.mpf], ...]
+) -> mp.mpf | mp.mpc:
+    """What a reference gives at a point, computed once for all mutants that it is held against."""
+    return mp.mpmathify(reference(name, dict(values)))
+
+
 def agrees(
     forms: Forms,
     reference: Forms | Callable[[str, Point], object],
@@ -191,7 +199,7 @@ def agrees(
         for index, point in enumerate(points(free, count, seed=name, ranges=ranges)):
             found = evaluate(expr, point)
             with mp.workdps(WORKING_DIGITS):
-                wanted = mp.mpmathify(reference(name, point)) if callable(reference) else evaluate(other, point)
+                wanted = evaluate(other, point) if other is not None else _wanted(reference, name, (*point.items(),))
                 scale = max(abs(wanted), abs(found))
                 error = abs(found - wanted) / scale if scale else mp.mpf(0)
             if not error <= tolerance:  # also when it is not a number

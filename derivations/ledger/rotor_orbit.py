@@ -185,13 +185,22 @@ def _capacity() -> float:
     return p["r_c"] * p["mu"] * p["F_c"]
 
 
-def _slopes(forms: Forms) -> Iterator[tuple[mp.mpf, mp.mpf]]:
-    """The form's slope and that of the closed form, taken numerically, at random states."""
-    form = sp.lambdify((v, R_v, phi, theta), forms["df/dv"], "mpmath")
+_AMPLITUDE = "1.3"  # of the surface speed, m/s
+
+
+@cache
+def _closed_slopes() -> list[mp.mpf]:
+    """The slope of friction's closed form, taken numerically, at random states."""
     closed = sp.lambdify((transfer.phi, transfer.c, transfer.theta), transfer.friction_fraction(), "mpmath")
-    for s in states(60, "orbit"):
-        R = mp.mpf("1.3")
-        wanted = mp.diff(lambda at, s=s, R=R: closed(s.phi, at / R, s.theta), R * s.c)
+    R = mp.mpf(_AMPLITUDE)
+    return [mp.diff(lambda at, s=s: closed(s.phi, at / R, s.theta), R * s.c) for s in states(60, "orbit")]
+
+
+def _slopes(forms: Forms) -> Iterator[tuple[mp.mpf, mp.mpf]]:
+    """The form's slope and that of the closed form at these states."""
+    form = sp.lambdify((v, R_v, phi, theta), forms["df/dv"], "mpmath")
+    R = mp.mpf(_AMPLITUDE)
+    for s, wanted in zip(states(60, "orbit"), _closed_slopes(), strict=True):
         yield form(R * s.c, R, s.phi, s.theta), wanted
 
 
@@ -204,10 +213,7 @@ def _judge(forms: Forms) -> Iterator[Evidence]:
         "the slope is that of the friction's closed form, taken numerically at 60 "
         f"random states, off by {mp.nstr(off, 2)} s/m",
     )
-    rises = largest(
-        brute_fraction(s, whole=True, steps=4001) - brute_fraction(slower, whole=True, steps=4001)
-        for s, slower in _slower(80)
-    )
+    rises = _largest_rise()
     yield evidence(
         "domain",
         all(found <= 0 for found, _ in pairs) and rises <= 0,
@@ -216,6 +222,16 @@ def _judge(forms: Forms) -> Iterator[Evidence]:
     )
     yield from _judge_lap(forms)
     yield from _judge_loads(forms)
+
+
+@cache
+def _largest_rise() -> float:
+    """By which friction, summed point by point, is more for a slower rotor than for a faster one, at random states."""
+    rises = (
+        brute_fraction(s, whole=True, steps=4001) - brute_fraction(slower, whole=True, steps=4001)
+        for s, slower in _slower(80)
+    )
+    return float(largest(rises))
 
 
 def _slower(count: int) -> Iterator[tuple[Any, Any]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import cache
 
 import mpmath as mp
 import sympy as sp
@@ -54,6 +55,7 @@ _UNITS_23 = {
 }
 
 
+@cache
 def _corrected_23() -> Forms:
     whole = {
         "A_ell": (P_A / (D * k_c)) ** 2,
@@ -69,6 +71,7 @@ def _corrected_23() -> Forms:
     return {"conic": conic, **coefficients, **responses}
 
 
+@cache
 def _responses() -> Forms:
     """The two phases' responses by (9) and (10) put right, the first ones over W_maxf."""
     of_A, (on, off, _) = rows(EQ9["w_A"])[0].subs(varphi_Aredu, sp.pi / 2), rows(corrected_10()["w_B"])

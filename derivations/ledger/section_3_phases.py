@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import cache
 
 import mpmath as mp
 import sympy as sp
@@ -182,6 +183,7 @@ def _derive_9() -> Derivation:
     )
 
 
+@cache
 def corrected_10() -> Forms:
     """(10) at the paper's level, omega_d = omega_n, from the steady response and the continuity at t_2."""
     on = W_maxf * sp.sin(omega_q * (t - t_1) + supplement.forced_phase("B").subs(phases.psi, 0))

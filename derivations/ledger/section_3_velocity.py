@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from functools import partial
+from functools import cache, partial
 
 import mpmath as mp
 import sympy as sp
@@ -252,6 +252,7 @@ def _by_rows(form: sp.Piecewise) -> dict[str, sp.Expr]:
     return dict(zip(("redu", "addredu", "add"), rows(form), strict=True))
 
 
+@cache
 def rates(name: str) -> dict[str, sp.Expr]:
     """M_a = -w_B' or M_b = w_A' by row, amplitude and slow phase held, the first over W_maxf."""
     source, sign = (corrected_10()["w_B"], -1) if name == "M_a" else (EQ9["w_A"], 1)

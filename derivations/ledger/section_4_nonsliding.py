@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Iterator
+from functools import cache
 
 import mpmath as mp
 import numpy as np
@@ -287,6 +288,7 @@ def _derive_35() -> Derivation:
     )
 
 
+@cache
 def _single_states(count: int) -> list[tuple[State, float]]:
     """States with one nonsliding point between crest and end, and where it is (angle from the crest)."""
     found = ((s, s.crossings()) for s in states(8 * count, "35", widest=1.5))

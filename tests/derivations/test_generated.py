@@ -58,19 +58,10 @@ def copied(folder, *names):
 
 
 @pytest.fixture(scope="module")
-def files(tmp_path_factory):
-    """What another process generates from the derivations, into an empty folder."""
-    folder = copied(tmp_path_factory.mktemp("generated"), "derivations")
-    done = generate(folder, seed="1")
-    assert done.returncode == 0, done.stderr
-    return {path.name: path.read_bytes().decode() for path in (folder / "generated").iterdir()}
-
-
-def test_generated_files_are_what_the_derivations_give(files):
-    difference = emit.stale(files)
-    assert not difference, f"run `python -m derivations generate`\n{difference}"
+def files():
+    """What is checked in; .ci/run compares it with what the derivations give now."""
     ours = (path for path in GENERATED.iterdir() if not path.name.startswith("ledger."))
-    assert files == {path.name: path.read_bytes().decode() for path in ours}
+    return {path.name: path.read_bytes().decode() for path in ours}
 
 
 def test_one_kernel_is_one_file_of_its_name(files):
@@ -126,7 +117,12 @@ def test_a_changed_title_is_stale_and_changes_nothing(files, monkeypatch, capsys
     ("module", "right", "wrong"),
     [
         pytest.param("phases.py", "(omega_n * a + xi * b)", "(omega_n * a - xi * b)", marks=pytest.mark.slow),
-        ("phases.py", "return omega_n + Delta_omega", "return omega_n - Delta_omega"),
+        pytest.param(
+            "phases.py",
+            "return omega_n + Delta_omega",
+            "return omega_n - Delta_omega",
+            marks=pytest.mark.slow,
+        ),
         ("beam.py", "theta.diff(x) ** 2 + kappa", "theta.diff(x) ** 3 + kappa"),
     ],
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
 import sys
@@ -15,6 +16,9 @@ PAGES = ("index", "tutorial", "how-to", "api", "api/trum_sym.evaluate", "console
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory):
+    """The site built anew, or the one that ``.ci/run`` has built just before and names."""
+    if "TRUM_SITE" in os.environ:
+        return Path(os.environ["TRUM_SITE"]).resolve()
     folder = tmp_path_factory.mktemp("site")
     subprocess.run([sys.executable, "-m", "docs", "--out", folder], cwd=ROOT, check=True)
     return folder / "html"

@@ -247,21 +247,30 @@ def test_sanitizers_find_nothing_on_any_level_edge_or_hostile_input(harness, eve
     assert done.returncode == 0
 
 
-def test_sanitized_example_runs(tmp_path):
-    done = make(tmp_path, "sanitize", "CFLAGS=-O0")
+FAULTS = ("int a[2] = {0}; return a[count + 1];", "return 2147483645 + count;")
+
+
+@pytest.fixture(scope="module")
+def sanitized(tmp_path_factory):
+    """The example made by ``make sanitize``, with a fault where it has one argument, and another where it has two."""
+    copy = tmp_path_factory.mktemp("faulty") / "c"
+    shutil.copytree(ROOT / "examples" / "c", copy)
+    path, call = copy / "main.c", "  status = trum_evaluate"
+    faults = "".join(f"  if (count == {k}) {{ {fault} }}\n" for k, fault in enumerate(FAULTS, 2))
+    path.write_text(path.read_text().replace(call, f"{faults}{call}", 1))
+    command = ["make", "-s", "sanitize", f"ROOT={ROOT}", "CFLAGS=-O0"]
+    return copy / "trum-sanitized", subprocess.run(command, cwd=copy, capture_output=True, text=True)
+
+
+def test_sanitized_example_runs(sanitized):
+    _, done = sanitized
     assert (done.returncode, done.stderr) == (0, "")
     assert json.loads(done.stdout)["converged"] is True
 
 
-@pytest.mark.parametrize("fault", ["int a[2] = {0}; return a[count + 1];", "return 2147483647 + count;"])
-def test_the_sanitizers_would_find_a_fault(tmp_path, fault):
-    copy = tmp_path / "c"
-    shutil.copytree(ROOT / "examples" / "c", copy)
-    path = copy / "main.c"
-    call = "  status = trum_evaluate"
-    path.write_text(path.read_text().replace(call, f"  if (count > 0) {{ {fault} }}\n{call}", 1))
-    command = ["make", "-s", "sanitize", f"ROOT={ROOT}", "CFLAGS=-O0"]
-    done = subprocess.run(command, cwd=copy, capture_output=True, text=True)
+@pytest.mark.parametrize("count", [1, 2])
+def test_the_sanitizers_would_find_a_fault(sanitized, count):
+    done = run(sanitized[0], *["load_torque=0.1"] * count)
     assert done.returncode != 0
     assert "runtime error" in done.stderr or "Sanitizer" in done.stderr
 

@@ -7,6 +7,7 @@ import re
 import shutil
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -23,6 +24,7 @@ from trum_sym.report import output
 from trum_sym.report.catalogue import PICTURES
 
 TABLES = ["table-1", "table-assumed", "table-2", "table-3", "table-4", "table-5"]
+whole_page = pytest.mark.slow  # it takes minutes to draw and judge; .ci/run draws it, and opens it in a browser
 
 
 @pytest.fixture(scope="module")
@@ -39,11 +41,10 @@ def text(folder):
 
 @pytest.fixture(scope="module")
 def reader(text):
-    found = Reader()
-    found.feed(text)
-    return found
+    return read(text)
 
 
+@whole_page
 def test_two_files_are_written_and_the_page_is_small(folder):
     assert sorted(path.name for path in folder.iterdir()) == ["index.html", "ledger.html"]
     assert (folder / "index.html").stat().st_size < 15_000_000
@@ -51,6 +52,29 @@ def test_two_files_are_written_and_the_page_is_small(folder):
     assert (folder / "ledger.html").read_text("utf-8") == ledger.read_text("utf-8")
 
 
+def read(text):
+    found = Reader()
+    found.feed(text)
+    return found
+
+
+def test_a_page_of_a_few_pictures_is_well_formed_and_asks_nothing_of_any_network(monkeypatch, tmp_path, trum60):
+    """For a motor that the paper is not about, which has no claims."""
+    few = [picture for picture in PICTURES if picture.anchor in ("figure-25b", "torque-speed")]
+    monkeypatch.setattr(sys.modules[report.page.__module__], "PICTURES", few)
+    report.write_report(replace(trum60, name="Another <motor>", published=()), tmp_path)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["index.html", "ledger.html"]
+    text = (tmp_path / "index.html").read_text("utf-8")
+    found = read(text)
+    assert found.open == []
+    assert len(set(found.ids)) == len(found.ids)
+    assert {"figure-25b", "torque-speed", *TABLES} <= set(found.ids)
+    assert text.count('class="claim"') == 0
+    assert "Another &lt;motor&gt;" in text
+    assert set(re.findall(r"https?://[^\s\"'<)]+", text)) == {"http://www.w3.org/2000/svg"}
+
+
+@whole_page
 def test_it_is_well_formed_with_unique_ids_and_links_that_lead_somewhere(reader):
     assert reader.open == []
     assert len(set(reader.ids)) == len(reader.ids)
@@ -60,11 +84,13 @@ def test_it_is_well_formed_with_unique_ids_and_links_that_lead_somewhere(reader)
     assert outer == {"ledger.html"}
 
 
+@whole_page
 def test_it_asks_nothing_of_any_network(text):
     assert set(re.findall(r"https?://[^\s\"'<)]+", text)) == {"http://www.w3.org/2000/svg"}
     assert "@import" not in text
 
 
+@whole_page
 def test_every_figure_and_table_is_there_with_words_for_who_does_not_see_it(reader, text):
     for picture in PICTURES:
         (start,) = [m.end() for m in re.finditer(f'<figure id="{re.escape(picture.anchor)}"', text)]
@@ -77,6 +103,7 @@ def test_every_figure_and_table_is_there_with_words_for_who_does_not_see_it(read
     assert {*TABLES, "coupling", "coupling-frequency", "coupling-load", "coupling-pulses"} <= set(reader.ids)
 
 
+@whole_page
 def test_every_claim_is_shown_with_its_verdict_and_linked_from_what_shows_it(text):
     shown = re.findall(r'<article class="claim" id="(claim-[^"]+)" data-verdict="([^"]+)"', text)
     assert len(shown) >= 25
@@ -89,7 +116,7 @@ def test_every_claim_is_shown_with_its_verdict_and_linked_from_what_shows_it(tex
         assert table[: table.index("</table>")].count("<tr>") == rows + 1
 
 
-@pytest.mark.slow
+@whole_page
 def test_the_page_is_the_same_in_another_process(folder, tmp_path):
     environment = {**os.environ, "PYTHONHASHSEED": "4711", "TZ": "Asia/Tokyo", "SOURCE_DATE_EPOCH": "0"}
     subprocess.run(
