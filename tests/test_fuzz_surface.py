@@ -52,6 +52,7 @@ def test_what_is_wrong_is_found(monkeypatch, fault):
 def test_a_traceback_at_the_console_is_found(monkeypatch):
     from studies import fuzz_surface
 
-    monkeypatch.setattr(fuzz_surface.console, "main", lambda _: print("Traceback", file=sys.stderr) or 2)
+    traced = "Traceback (most recent call last):"
+    monkeypatch.setattr(fuzz_surface.console, "main", lambda _: print(traced, file=sys.stderr) or 2)
     with pytest.raises(AssertionError, match="exit code 2"):
         fuzz_surface.run_console(["evaluate"])

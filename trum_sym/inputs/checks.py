@@ -40,6 +40,8 @@ def quantity(name: str, value: object, domain: Domain, unit: str | None) -> tupl
 
     ``unit`` is None where a value may be of any kind; it is then in SI.
     """
+    if type(value) is float and domain.contains(np.asarray(value)):  # most often, and not to be made anew
+        return value, None
     allowed = domain.describe(unit or "its SI unit")
     value = _spelt_out(name, value, unit)
     try:
@@ -119,9 +121,10 @@ def broadcast_shape(values: Mapping[str, ArrayLike]) -> tuple[int, ...]:
     ParameterError
         If the shapes do not broadcast, or labelled arrays have unlike labels; names the first value that does not fit.
     """
-    check_labels({name: labels_of(value) for name, value in values.items()})
+    arrays = {name: value for name, value in values.items() if type(value) not in (float, int)}
+    check_labels({name: labels_of(value) for name, value in arrays.items()})
     shape: tuple[int, ...] = ()
-    for name, value in values.items():
+    for name, value in arrays.items():
         try:
             shape = np.broadcast_shapes(shape, np.shape(value))
         except ValueError:
