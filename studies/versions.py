@@ -56,8 +56,11 @@ def locked(names: tuple[str, ...]) -> list[str]:
 def main(which: str = "", built: str = "") -> int:
     """Install, run, print versions; the exit code of the tests."""
     wheels = list(Path(built).resolve().glob("*.whl")) if built else [ROOT]
-    if which not in ("lowest", "newest") or len(wheels) != 1:
+    if which not in ("lowest", "newest"):
         print(__doc__)
+        return 2
+    if len(wheels) != 1:
+        print(f"{built}: got {len(wheels)} wheels, need the one of `python -m studies.wheel`", file=sys.stderr)
         return 2
     begin = time.monotonic()
     with tempfile.TemporaryDirectory() as folder:

@@ -10,6 +10,8 @@ from importlinter.cli import EXIT_STATUS_SUCCESS, lint_imports
 
 import trum_sym
 
+ROOT = Path(__file__).parents[1]
+
 
 def test_no_package_imports_one_above_it_and_there_are_no_circles():
     assert lint_imports(no_cache=True) == EXIT_STATUS_SUCCESS
@@ -62,3 +64,13 @@ def test_an_oscillator_that_is_typed_is_seen():
     assert typed_oscillators(once) == [1]
     assert typed_oscillators("gap = values['omega_n0'] ** 2 - values['omega_q'] ** 2") == [1]
     assert typed_oscillators("size = a**2 - b**2") == []
+
+
+def test_every_test_in_a_browser_is_in_a_place_that_ci_runs():
+    """.ci/run names files and folders, so that the slow tests of others stay out of it."""
+    command = (ROOT / ".ci" / "run").read_text("utf-8").partition('-m "slow or browser"')[2].partition("\n.venv")[0]
+    named = [word for word in command.split() if word.startswith("tests/")]
+    for file in (ROOT / "tests").rglob("test_*.py"):
+        if "pytest.mark." + "browser" in file.read_text("utf-8"):
+            place = file.relative_to(ROOT)
+            assert any(place.is_relative_to(word) for word in named), place

@@ -1,4 +1,7 @@
-"""generated/ is what the derivations give, byte for byte, and computes what they say, at 50 digits."""
+"""generated/ computes what the derivations say, at 50 digits, and is refused where it is not what they give.
+
+That it is so byte for byte, ``python -m derivations generate --check`` says, which ``.ci/run`` runs.
+"""
 
 from __future__ import annotations
 

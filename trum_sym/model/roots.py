@@ -27,8 +27,8 @@ def rising(
     Parameters
     ----------
     at : callable
-        Values and slopes at (k,) places.
-    low, high, start, size : (k,) array
+        Values and slopes at places, arrays of the shape of ``start``.
+    low, high, start, size : array of one shape
         Bounds, where to begin between them, and sizes that the last step is small against.
     last : float
         How small; a place is also found where steps stay below 1e-8 of its size and no longer shrink, by rounding.
